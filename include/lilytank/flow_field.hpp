@@ -1,0 +1,71 @@
+// The water's velocity: mean and deviation on a grid over the tank [paper, section 3.2, Eq. 4].
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lilytank/error.hpp"
+#include "lilytank/math.hpp"
+
+namespace lilytank {
+
+/// One cell's velocity statistics, m/s, before K_v. Sigma is the deviation per axis, >= 0.
+struct FlowSample {
+  double mu_x = 0, mu_y = 0, sigma_x = 0, sigma_y = 0;
+};
+
+enum class Interpolation { bilinear, nearest };
+
+/// Mean and deviation of the water velocity on cells x cells squares over [-extent, extent]^2.
+/// Cell (ix, iy) has its centre at ((ix + 1/2) h - extent, (iy + 1/2) h - extent), h = 2 extent /
+/// cells; cells are stored row by row, iy * cells + ix. Constant once made.
+class FlowField {
+ public:
+  FlowField() = default;
+  /// Takes `cells` * `cells` samples; `measured[i]` = false marks a cell without data, which is
+  /// then filled from its neighbours (see fill). Throws InputError on a size that does not fit,
+  /// on numbers that are not finite, on a negative sigma, or if no cell is measured.
+  FlowField(int cells, double extent, std::vector<FlowSample> samples, std::vector<bool> measured,
+            Interpolation interpolation);
+
+  /// Mean and deviation at a point (m). Beyond the outermost cell centres the edge is held.
+  FlowSample at(double x, double y) const;
+
+  int cells() const { return cells_; }
+  double extent() const { return extent_; }  ///< m
+  Interpolation interpolation() const { return interpolation_; }
+  const std::vector<FlowSample>& samples() const { return samples_; }
+  /// Whether cell i came from data (true) or was filled (false).
+  const std::vector<bool>& measured() const { return measured_; }
+
+ private:
+  int cells_ = 0;
+  double extent_ = 0;
+  Interpolation interpolation_ = Interpolation::bilinear;
+  std::vector<FlowSample> samples_;
+  std::vector<bool> measured_;
+};
+
+/// Settings of the built-in tank.
+struct AnalyticTank {
+  double radius = 0.30;       ///< m
+  double pump_power = 69;     ///< percent of a pump's full flow (9 l/min)
+  double water_level = -0.08; ///< m, from the tank's upper border: lower water, stronger surface flow
+  int inlets = 7;
+  double inlet_angle = 0.2617993877991494;  ///< rad, each inlet's turn from the radius (15 degrees)
+  int cells = 50;
+  /// Share of full strength by which the surface flow exceeds that at 69 % and -8 cm.
+  double strength() const;
+};
+
+/// The flow that ships: a swirl with its peak near 13 cm, an inflow and `inlets` streams, with
+/// gusts. More pump power turns faster and pushes further in [trends of the paper's Fig. 4].
+FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation);
+
+/// Reads `ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured`, one row a cell,
+/// in any order; `measured` = 0 marks cells to fill. Throws InputError with file, line and column.
+FlowField read_flow_csv(const std::string& file, Interpolation interpolation);
+/// Writes the same format; the file appears whole or not at all.
+void write_flow_csv(const FlowField& field, const std::string& file);
+
+}  // namespace lilytank

@@ -1,0 +1,88 @@
+// One physical effect = one small file in src/forces plus one line in src/forces/library.cpp.
+// The simulator adds these terms; calibration varies their parameters; the search for missing
+// physics asks each term what it would have done to a recorded motion. All read the same file.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lilytank/math.hpp"
+
+namespace lilytank {
+
+struct Model;
+
+/// A number that a user may set: its name in scenario files, unit, default and bounds (inclusive).
+struct Parameter {
+  std::string_view name;
+  std::string_view unit;  ///< SI, "1" for none
+  double standard;        ///< the default
+  double low, high;
+  std::string_view meaning;  ///< one sentence
+  bool whole = false;        ///< integers only
+};
+
+/// Poses and twists of all bodies that water touches, structure of arrays, each of length n:
+/// modules first, then balls. Read from a running World or from a smoothed recording.
+struct Kinematics {
+  std::span<const double> x, y;        ///< m
+  std::span<const double> c, s;        ///< heading
+  std::span<const double> vx, vy;      ///< m/s
+  std::span<const double> omega;       ///< rad/s
+  std::span<const std::uint8_t> covered;  ///< bit f: face f is latched to a neighbour
+  int modules = 0;                     ///< bodies [0, modules) are squares, the rest balls
+  int size() const { return static_cast<int>(x.size()); }
+};
+
+/// When a force is asked for, and the key of its random draws.
+struct Moment {
+  double time = 0;          ///< s
+  std::int64_t step = 0;    ///< steps of dt since the start
+  std::int64_t gust = 0;    ///< 25 ms intervals since the start: a gust is held for one
+  std::uint64_t seed = 0;
+  bool gusts = true;        ///< false: the mean flow only
+};
+
+/// Factors on twists at the end of a step; 1 leaves them alone.
+struct Decay {
+  double linear = 1, angular = 1;
+};
+
+/// One physical effect on floating bodies. Objects are constant and hold no data.
+class ForceTerm {
+ public:
+  virtual ~ForceTerm() = default;
+  virtual std::string_view name() const = 0;      ///< key in scenario files: forces.<name>
+  virtual std::string_view summary() const = 0;   ///< one sentence
+  virtual std::string_view equation() const = 0;  ///< plain text, with its source
+  virtual std::span<const Parameter> parameters() const = 0;
+  /// Part of the paper's model: on unless a scenario says otherwise.
+  virtual bool baseline() const { return false; }
+  /// Adds the wrench on every body to `out` (length k.size()). `p` are the parameters' values in
+  /// the order of parameters(). Never throws, never allocates.
+  virtual void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
+                   std::span<Wrench> out) const {
+    static_cast<void>(p), static_cast<void>(out);
+  }
+  /// Damping at the end of a step of length dt (s).
+  virtual Decay decay(std::span<const double> p, double dt) const {
+    static_cast<void>(p), static_cast<void>(dt);
+    return {};
+  }
+};
+
+/// A term that is switched on, with its parameters' values.
+struct ActiveForce {
+  const ForceTerm* term = nullptr;
+  std::vector<double> p;
+};
+
+/// Every term there is, in the order in which they are added.
+std::span<const ForceTerm* const> force_library();
+/// The term of that name, or null.
+const ForceTerm* find_force(std::string_view name);
+/// The term with its parameters at their defaults.
+ActiveForce with_defaults(const ForceTerm& term);
+
+}  // namespace lilytank

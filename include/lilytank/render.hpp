@@ -1,0 +1,58 @@
+// Pictures of a stored run: frames, films, curves. Only files in render/ know Cairo.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lilytank/run.hpp"
+
+namespace lilytank {
+
+enum class FlowStyle { none, arrows, streamlines };
+
+/// How a frame looks.
+struct FrameStyle {
+  int size = 1080;              ///< pixels, height of the picture; the width is 16/9 of it
+  FlowStyle flow = FlowStyle::streamlines;
+  double trail = 4;             ///< s of path drawn behind each body, 0: none
+  bool labels = true;           ///< l_a and the last engaged connector on each module
+};
+
+/// Frame at a time (s), poses interpolated between stored ones, as .png or .svg by the file's
+/// ending. Throws InputError outside the run or if the file cannot be written.
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style, const std::string& file);
+
+struct FilmOptions {
+  double from = 0, to = -1;  ///< s, to < 0: the end
+  double fps = 30;           ///< frames per second of the film
+  double speed = 0;          ///< simulated seconds per second of film; 0: the film takes 60 s
+  FrameStyle style;
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(double done)> progress;
+};
+/// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
+/// the file appears whole or not at all. Throws InputError if ffmpeg is missing or fails.
+void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file);
+/// The same frames as numbered PNG files in a directory.
+void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir);
+
+/// One curve of a plot; `low` and `high`, where given, are drawn as a band.
+struct Curve {
+  std::string name;
+  std::vector<double> x, y, low, high;
+  bool steps = false;    ///< stairs instead of a line
+  bool markers = false;
+};
+/// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
+struct Plot {
+  std::string title, x_label, y_label;
+  std::vector<Curve> curves;
+  bool log_x = false, log_y = false;
+  double y_low = 0, y_high = 0;  ///< equal: from the data
+  int width = 900, height = 600; ///< pixels (PNG: twice that)
+};
+void draw_plot(const Plot& plot, const std::string& file);
+
+/// Copies standing over time, from a run's metrics.
+Plot yield_plot(const StoredRun& run);
+
+}  // namespace lilytank

@@ -1,0 +1,87 @@
+// Rulesets: what two latched modules do when they have told each other their states
+// [paper, section 5.1].
+//
+// A module's state is a control state l_a (0: isolated) and l_n, the connector it engaged last.
+// Hop convention, everywhere in this library: connectors 0..3 count counter-clockwise seen from
+// above. On the left of a rule, hop = 1 + the number of counter-clockwise connector steps from l_n
+// to the connector now engaged; 0 for an isolated module. On the right, hop = 1 + the number of
+// counter-clockwise steps from the engaged connector to the one that becomes l_n; 0 makes the
+// module isolated again. A forward rule's right side therefore reads (l_a,1), and a reverse rule
+// that undoes a join made at hop h reads ((1 - h) mod 4) + 1.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// One side of a rule: control state and hop, (0,0) for an isolated module.
+struct Label {
+  int state = 0;  ///< l_a, 0..255
+  int hop = 0;    ///< l_h, 0..4
+  friend bool operator==(const Label&, const Label&) = default;
+};
+
+enum class RuleKind {
+  link,    ///< (a,h) (b,h') -> (c,i)-(d,j): a new latch becomes a bond
+  unlink,  ///< (a,h)-(b,h') -> (c,i) (d,j): a bond is released
+  update,  ///< (a,h)-(b,h') -> (c,i)-(d,j): labels change on a standing bond
+};
+
+struct Rule {
+  std::string name;  ///< as in `rules.<name>.p`
+  RuleKind kind = RuleKind::link;
+  std::array<Label, 2> before, after;
+  double p = 1;  ///< probability per evaluation
+  SourcePlace where;
+};
+
+/// A cell of a target drawing, x to the right, y up.
+struct Cell {
+  int x = 0, y = 0;
+  friend bool operator==(const Cell&, const Cell&) = default;
+  friend auto operator<=>(const Cell&, const Cell&) = default;
+};
+
+/// A set of rules, all modules' firmware, and the shape that it is meant to build.
+struct Ruleset {
+  std::string name;
+  std::vector<Rule> rules;
+  std::vector<Cell> target;  ///< one-sided: turned copies count, mirrored ones do not; may be empty
+  std::string file;          ///< where it was read from
+};
+
+/// Hop of an engaged connector: 1 + ((connector - last) mod 4), or 0 for last < 0 (isolated).
+int hop_of(int last, int connector);
+/// The connector that becomes l_n by a right-hand hop at the engaged connector; -1 for hop 0.
+int last_after(int connector, int hop);
+/// The right-hand hop of a reverse rule that undoes a join made at left-hand hop h.
+int reverse_hop(int hop);
+
+/// The rule that fires when `initiator` and `responder` have exchanged labels over a connection,
+/// with the initiator's random number u in (0,1): rules with this left side and kind in the file's
+/// order share [0,1) by their probabilities. `swapped` says that the rule's first label is the
+/// responder's; for equal labels the initiator comes first.
+struct Match {
+  int rule = -1;         ///< index, -1: no rule fires
+  bool swapped = false;
+  bool applicable = false;  ///< some rule has this left side, whether or not u let it fire
+};
+/// `standing`: the connection is a bond already (unlink and update rules), else a new latch (link).
+Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u);
+
+/// Reads the text format described in scenarios/README.md. Throws InputError with file, line,
+/// column, the offending word and what was expected.
+Ruleset parse_ruleset(const std::string& text, const std::string& file);
+Ruleset read_ruleset(const std::string& file);
+/// Writes a ruleset so that parse_ruleset gives it back.
+std::string to_text(const Ruleset& rules);
+
+/// Cells moved to the origin and turned to the least of the four turns: equal for equal one-sided
+/// shapes.
+std::vector<Cell> canonical_shape(std::vector<Cell> cells);
+
+}  // namespace lilytank

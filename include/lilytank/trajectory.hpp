@@ -1,0 +1,54 @@
+// Poses over time, simulated or recorded: the same type, the same files, the same analysis.
+#pragma once
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lilytank/error.hpp"
+#include "lilytank/world.hpp"
+
+namespace lilytank {
+
+/// What a module shows besides its pose.
+struct Markings {
+  std::int16_t label = 0;        ///< l_a
+  std::int8_t last = -1;         ///< l_n, -1: isolated
+  std::uint8_t latched = 0;      ///< bit f: face f holds a neighbour
+  std::uint8_t bonded = 0;       ///< bit f: ... by a rule
+  std::uint8_t complete = 0;     ///< 1: part of a finished copy of the target
+};
+
+/// Poses of `bodies` bodies at `time.size()` instants, frame by frame: pose of body b in frame f is
+/// at f * bodies + b. Lengths in m, angles in rad, times in s, rising.
+struct Trajectory {
+  int bodies = 0;
+  int modules = 0;  ///< bodies [0, modules) are squares, the rest balls
+  std::vector<double> time;
+  std::vector<float> x, y, theta;
+  std::vector<Markings> markings;  ///< empty for recordings
+  int frames() const { return static_cast<int>(time.size()); }
+};
+
+enum class TrajectoryFormat { none, csv, binary };
+
+/// Appends frames to a file as they come; what was written survives a kill.
+class TrajectoryWriter {
+ public:
+  virtual ~TrajectoryWriter() = default;
+  /// Appends the bodies' present poses. `complete`: one flag a module.
+  virtual void write(const World& world, const std::vector<std::uint8_t>& complete) = 0;
+  /// Hands everything to the operating system; returns the file's length in bytes.
+  virtual std::int64_t flush() = 0;
+};
+
+/// CSV: `frame,time,id,x,y,theta,label,last,latched,bonded,complete`, SI, angle in (-pi, pi].
+/// Binary: a header (magic, version, bodies, modules) and fixed-size frames (time as float64, poses
+/// as float32, markings), about a fifth of the CSV; a cut last frame is dropped on reading.
+/// `keep_bytes` >= 0 goes on in an existing file cut to that length.
+std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
+                                                  const Model& model, std::int64_t keep_bytes = -1);
+/// Reads either format, told apart by their first bytes. Throws InputError with file and line.
+Trajectory read_trajectory(const std::string& file);
+
+}  // namespace lilytank

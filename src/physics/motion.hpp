@@ -1,0 +1,46 @@
+// Moves assemblies over one step without letting anything overlap, tunnel or leave the tank.
+#pragma once
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "assembly.hpp"
+#include "lilytank/world.hpp"
+
+namespace lilytank {
+
+/// No two bodies, and no body and the wall, overlap by more than this after a step, m.
+constexpr double kOverlapLimit = 0.5e-3;
+
+/// The contact solver with its scratch memory.
+class Motion {
+ public:
+  explicit Motion(const Model& model);
+  ~Motion();
+  Motion(Motion&&) noexcept;
+
+  /// Solves contacts for the velocities in `state`, then moves every assembly by dt. On return
+  /// `state` and the poses in `assemblies` are those at the end of the step. Deterministic; keeps
+  /// nothing from call to call.
+  void advance(State& state, Assemblies& assemblies, Tallies& tallies);
+
+  /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction
+  /// of kOverlapLimit, changing positions only. Returns false and leaves `state` as it was where
+  /// that fails. Used after a latch pulled two modules onto their lattice.
+  bool settle(State& state, Assemblies& assemblies, int slot);
+
+  /// Pairs (i < j, ascending) of modules whose centres are closer than `distance`, for latches.
+  /// The span is valid until the next call.
+  std::span<const std::pair<int, int>> near_pairs(const Assemblies& assemblies, double distance);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Greatest overlap of any two bodies of different assemblies, or of a body with the wall, m
+/// (0 if nothing overlaps). Independent of the solver; for tests and checks.
+double deepest_overlap(const Model& model, const Assemblies& assemblies);
+
+}  // namespace lilytank
