@@ -23,7 +23,7 @@ class FlowField {
  public:
   FlowField() = default;
   /// Takes `cells` * `cells` samples; `measured[i]` = false marks a cell without data, which is
-  /// then filled from its neighbours (see fill). Throws InputError on a size that does not fit,
+  /// then filled from its neighbours (the mean of its neighbours, solved for all such cells at once). Throws InputError on a size that does not fit,
   /// on numbers that are not finite, on a negative sigma, or if no cell is measured.
   FlowField(int cells, double extent, std::vector<FlowSample> samples, std::vector<bool> measured,
             Interpolation interpolation);
@@ -37,6 +37,8 @@ class FlowField {
   const std::vector<FlowSample>& samples() const { return samples_; }
   /// Whether cell i came from data (true) or was filled (false).
   const std::vector<bool>& measured() const { return measured_; }
+  /// The samples as float32, four a cell in FlowSample's order: what the drag kernel reads.
+  const std::vector<float>& packed() const { return packed_; }
 
  private:
   int cells_ = 0;
@@ -44,6 +46,7 @@ class FlowField {
   Interpolation interpolation_ = Interpolation::bilinear;
   std::vector<FlowSample> samples_;
   std::vector<bool> measured_;
+  std::vector<float> packed_;
 };
 
 /// Settings of the built-in tank.
@@ -54,7 +57,8 @@ struct AnalyticTank {
   int inlets = 7;
   double inlet_angle = 0.2617993877991494;  ///< rad, each inlet's turn from the radius (15 degrees)
   int cells = 50;
-  /// Share of full strength by which the surface flow exceeds that at 69 % and -8 cm.
+  /// Surface flow relative to that at 69 % and -8 cm: proportional to pump power, and 15 % more
+  /// for each centimetre that the water is lower.
   double strength() const;
 };
 

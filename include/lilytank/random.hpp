@@ -34,7 +34,7 @@ struct Draw {
 
 /// 128 random bits.
 std::array<std::uint32_t, 4> random_bits(const Draw& draw);
-/// Uniform in (0, 1), 53 bits; never 0 or 1.
+/// Uniform in (0, 1) on 2^52 values; never 0 or 1.
 double uniform(const Draw& draw);
 /// Two independent standard normals (Box and Muller).
 std::array<double, 2> normal_pair(const Draw& draw);

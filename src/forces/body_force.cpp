@@ -1,0 +1,32 @@
+// A constant push on every body.
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"force_x", "N", 0, -1, 1, "push along +x"},
+    {"force_y", "N", 0, -1, 1, "push along +y"},
+};
+
+class BodyForce final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "body_force"; }
+  std::string_view summary() const override { return "a constant push on every body"; }
+  std::string_view equation() const override { return "F = (force_x, force_y)"; }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+
+  void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
+           std::span<Wrench> out) const override {
+    for (Wrench& w : out) w.fx += p[0], w.fy += p[1];
+  }
+};
+
+}  // namespace
+
+const ForceTerm& body_force() {
+  static const BodyForce term;
+  return term;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,86 @@
+// Drag on the four faces of every module [paper, Eq. 5], with the area projected on the flow.
+#include <algorithm>
+#include <cmath>
+
+#include "face_drag_kernel.hpp"
+#include "lilytank/model.hpp"
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"K_F", "1", 0.442, 0, 10, "drag coefficient of a face [Table 1: Lilies 0.442]"},
+    {"segments", "1", 10, 1, kMostSegments, "segments of a face, N of Eq. 5", true},
+};
+
+// The gusts at a module's drag points: each point its own, or one for the whole module.
+void draw_gusts(const Model& model, const Moment& now, int body, float xi[2][kDragPoints]) {
+  if (!now.gusts) {
+    std::fill(&xi[0][0], &xi[0][0] + 2 * kDragPoints, 0.0f);
+    return;
+  }
+  const Draw draw{now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(body), 0};
+  if (model.flow.gusts == Gusts::per_module) {
+    const auto z = normal_pair(draw);
+    std::fill_n(xi[0], kDragPoints, static_cast<float>(z[0]));
+    std::fill_n(xi[1], kDragPoints, static_cast<float>(z[1]));
+    return;
+  }
+  alignas(64) float z[4][kBulkBlocks];
+  bulk_normals(draw, false, z);
+  for (int axis = 0; axis < 2; ++axis) {
+    std::copy_n(z[axis], kBulkBlocks, xi[axis]);
+    std::copy_n(z[2 + axis], kBulkBlocks, xi[axis] + kBulkBlocks);
+  }
+}
+
+class FaceDrag final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "face_drag"; }
+  std::string_view summary() const override {
+    return "quadratic drag of the water on the segments of each module's faces";
+  }
+  std::string_view equation() const override {
+    return "dF = K_F 1/2 rho (draught side / N) max(0, -n.w) w at each of N segments a face, "
+           "w = K_v (mu + sigma xi) - v - omega x r  [paper, Eqs. 4 and 5]";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool baseline() const override { return true; }
+
+  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
+           std::span<Wrench> out) const override {
+    const int segments = static_cast<int>(p[1]);
+    const DragPoints points(segments, model.module.side);
+    const FlowField& field = *model.field;
+    const WaterView water{field.packed().data(),
+                          field.cells(),
+                          static_cast<float>(field.extent()),
+                          static_cast<float>(field.cells() / (2 * field.extent())),
+                          field.interpolation() == Interpolation::nearest,
+                          static_cast<float>(model.flow.K_v)};
+    const double scale = p[0] * 0.5 * model.flow.rho * model.module.draught *
+                         (model.module.side / segments);
+    alignas(64) float xi[2][kDragPoints];
+    for (int i = 0; i < k.modules; ++i) {
+      draw_gusts(model, now, i, xi);
+      const auto f = [](double x) { return static_cast<float>(x); };
+      const BodyView body{f(k.x[i]),  f(k.y[i]),  f(k.c[i]),    f(k.s[i]),
+                          f(k.vx[i]), f(k.vy[i]), f(k.omega[i])};
+      const unsigned covered = model.module.shadowing ? k.covered[i] : 0u;
+      const Wrench sum = face_drag_sum(points, water, body, covered, xi);
+      out[i].fx += scale * sum.fx;
+      out[i].fy += scale * sum.fy;
+      out[i].torque += scale * sum.torque;
+    }
+  }
+};
+
+}  // namespace
+
+const ForceTerm& face_drag() {
+  static const FaceDrag term;
+  return term;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,54 @@
+// The random force that stands for everything not modelled [paper, section 3.2].
+#include <algorithm>
+#include <cmath>
+
+#include "bulk_normals.hpp"
+#include "library.hpp"
+#include "lilytank/model.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"sigma_stoch", "N", 12.682e-3, 0, 1,
+     "deviation per axis of one draw a 25 ms [Table 1, in 1e-4 N: Lilies 126.82, balls 195.25]"},
+};
+
+class StochasticForce final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "stochastic"; }
+  std::string_view summary() const override {
+    return "a normal random force on each body's centre, the same in all directions";
+  }
+  std::string_view equation() const override {
+    return "F = sigma_stoch sqrt(25 ms / dt) N(0,1) per axis, drawn for each body and step  "
+           "[paper, section 3.2]";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool baseline() const override { return true; }
+
+  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
+           std::span<Wrench> out) const override {
+    if (!now.gusts) return;
+    const double sigma = p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
+    alignas(64) float z[4][kBulkBlocks];
+    for (int first = 0; first < k.size(); first += kBulkBlocks) {
+      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0},
+                   true, z);
+      const int n = std::min(kBulkBlocks, k.size() - first);
+      for (int i = 0; i < n; ++i) {
+        out[first + i].fx += sigma * static_cast<double>(z[0][i]);
+        out[first + i].fy += sigma * static_cast<double>(z[1][i]);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+const ForceTerm& stochastic_force() {
+  static const StochasticForce term;
+  return term;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,102 @@
+#include "lilytank/math.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace lilytank {
+namespace {
+
+// pi/2 and ln 2 in two parts: the first has trailing zero bits, so its product with a small
+// integer is exact and the reduction loses nothing.
+constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiLow = 0x1.0b4611a626331p-34;
+constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
+
+// Taylor sums, exact to rounding on |x| <= pi/4.
+double sine_near_zero(double x) {
+  const double q = x * x;
+  double sum = 0;
+  for (int k = 17; k >= 3; k -= 2) sum = (1 - sum) * q / (k * (k - 1));
+  return x - x * sum;
+}
+
+double cosine_near_zero(double x) {
+  const double q = x * x;
+  double sum = 0;
+  for (int k = 18; k >= 2; k -= 2) sum = (1 - sum) * q / (k * (k - 1));
+  return 1 - sum;
+}
+
+}  // namespace
+
+Rot rotation(double angle) {
+  const double turns = std::floor(angle / (kHalfPiHigh + kHalfPiLow) + 0.5);
+  const double rest = (angle - turns * kHalfPiHigh) - turns * kHalfPiLow;
+  const Rot small{cosine_near_zero(rest), sine_near_zero(rest)};
+  const int quadrant = static_cast<int>(turns - 4 * std::floor(turns / 4));
+  switch (quadrant) {
+    case 0: return small;
+    case 1: return {-small.s, small.c};
+    case 2: return {-small.c, -small.s};
+    default: return {small.s, -small.c};
+  }
+}
+
+double angle_of(Rot r) {
+  // A first guess good to 0.01 rad, then Newton steps on the sine of what is left.
+  const double ax = std::fabs(r.c), ay = std::fabs(r.s);
+  if (ax == 0 && ay == 0) return 0;
+  const double t = ax > ay ? ay / ax : ax / ay;
+  double guess = t * (kPi / 4 + 0.273 * (1 - t));
+  if (ay >= ax) guess = kPi / 2 - guess;
+  if (r.c < 0) guess = kPi - guess;
+  if (r.s < 0) guess = -guess;
+  for (int round = 0; round < 2; ++round) {
+    const Rot left = between(rotation(guess), r);
+    const double x = left.s / left.c;
+    guess += x - x * x * x / 3;
+  }
+  return guess > kPi ? kPi : guess <= -kPi ? kPi : guess;
+}
+
+double exp_portable(double x) {
+  if (!(x > -745.2)) return x != x ? x : 0;
+  if (x > 709.78) return std::numeric_limits<double>::infinity();
+  const double k = std::floor(x / (kLn2High + kLn2Low) + 0.5);
+  const double rest = (x - k * kLn2High) - k * kLn2Low;
+  double sum = 1;
+  for (int n = 14; n >= 1; --n) sum = 1 + sum * rest / n;
+  // Two factors, so that results below the normal range are reached too.
+  const int half = static_cast<int>(k) / 2, other = static_cast<int>(k) - half;
+  const auto power = [](int e) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+  };
+  return sum * power(half) * power(other);
+}
+
+double log_portable(double x) {
+  if (!(x > 0)) {
+    return x == 0 ? -std::numeric_limits<double>::infinity()
+                  : std::numeric_limits<double>::quiet_NaN();
+  }
+  if (x == std::numeric_limits<double>::infinity()) return x;
+  int shift = 0;
+  if (x < 0x1p-1022) x *= 0x1p54, shift = -54;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  int e = static_cast<int>(bits >> 52) - 1023 + shift;
+  double m = std::bit_cast<double>((bits & 0xfffffffffffffull) | 0x3ff0000000000000ull);
+  if (m > 1.4142135623730951) m *= 0.5, ++e;
+  // ln m = 2 atanh((m - 1) / (m + 1)), |argument| <= 0.172.
+  const double f = (m - 1) / (m + 1), q = f * f;
+  double sum = 0;
+  for (int k = 23; k >= 3; k -= 2) sum = q * (1.0 / k + sum);
+  return e * kLn2High + (2 * f + (2 * f * sum + e * kLn2Low));
+}
+
+double pow_portable(double base, double exponent) {
+  if (exponent == 0) return 1;
+  if (base == 0) return 0;
+  return exp_portable(exponent * log_portable(base));
+}
+
+}  // namespace lilytank
