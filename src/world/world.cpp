@@ -1,0 +1,167 @@
+#include "lilytank/world.hpp"
+
+#include <cmath>
+
+#include "control/controller.hpp"
+#include "physics/assembly.hpp"
+#include "physics/motion.hpp"
+
+namespace lilytank {
+namespace {
+constexpr double kFastest = 20;  // m/s; beyond it a world counts as diverged
+}
+
+struct World::Impl {
+  const Model* model;
+  State state;
+  Assemblies assemblies;
+  Motion motion;
+  Controller controller;
+  std::vector<Wrench> wrenches;
+  std::vector<Event> events;
+  Kinematics kinematics;
+  Decay decay;
+  RunStatus status = RunStatus::ok;
+  Divergence divergence;
+  Tallies tallies;
+
+  Impl(const Model& m, State s)
+      : model(&m), state(std::move(s)), motion(m), controller(m), wrenches(m.bodies()) {
+    assemblies.resize(m);
+    derive(m, state, assemblies);
+    events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
+    kinematics = {assemblies.x,  assemblies.y,  assemblies.c,     assemblies.s,
+                  assemblies.vx, assemblies.vy, assemblies.omega, assemblies.covered,
+                  m.module.count};
+    for (const ActiveForce& force : m.forces) {
+      const Decay d = force.term->decay(force.p, m.dt);
+      decay.linear *= d.linear, decay.angular *= d.angular;
+    }
+  }
+
+  Moment now() const {
+    return {state.step * model->dt, state.step, state.step / model->steps_per_tick, state.seed};
+  }
+
+  void add_forces();
+  void kick();
+  void damp();
+  bool healthy() const;
+  void blame();
+};
+
+// Wrenches of all active terms, from the state at the start of the step.
+void World::Impl::add_forces() {
+  std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+  const Moment moment = now();
+  for (const ActiveForce& force : model->forces)
+    force.term->add(*model, kinematics, moment, force.p, wrenches);
+}
+
+// Members' wrenches become their assembly's change of twist.
+void World::Impl::kick() {
+  for (const int slot : assemblies.live) {
+    double fx = 0, fy = 0, torque = 0;
+    for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
+      const Wrench& w = wrenches[i];
+      const double dx = assemblies.x[i] - state.x[slot], dy = assemblies.y[i] - state.y[slot];
+      fx += w.fx, fy += w.fy;
+      torque += w.torque + (dx * w.fy - dy * w.fx);
+    }
+    const double per_mass = model->dt / assemblies.mass[slot];
+    state.vx[slot] += per_mass * fx;
+    state.vy[slot] += per_mass * fy;
+    // Balls do not turn: their inertia is 0.
+    if (assemblies.inertia[slot] > 0)
+      state.omega[slot] += model->dt * torque / assemblies.inertia[slot];
+  }
+}
+
+// Every member is damped as if alone; the assembly keeps the sum of their momenta.
+void World::Impl::damp() {
+  for (const int slot : assemblies.live) {
+    state.vx[slot] *= decay.linear;
+    state.vy[slot] *= decay.linear;
+    const double inertia = assemblies.inertia[slot];
+    if (inertia > 0) {
+      const double own = assemblies.own_inertia[slot];
+      state.omega[slot] *= (own * decay.angular + (inertia - own) * decay.linear) / inertia;
+    }
+    const double vx = state.vx[slot], vy = state.vy[slot], omega = state.omega[slot];
+    for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
+      assemblies.vx[i] = vx - omega * (assemblies.y[i] - state.y[slot]);
+      assemblies.vy[i] = vy + omega * (assemblies.x[i] - state.x[slot]);
+      assemblies.omega[i] = omega;
+    }
+  }
+}
+
+// Written so that a NaN fails it.
+bool World::Impl::healthy() const {
+  for (const int slot : assemblies.live) {
+    const double speed2 = state.vx[slot] * state.vx[slot] + state.vy[slot] * state.vy[slot];
+    const double rim = state.omega[slot] * assemblies.reach[slot];
+    if (!(speed2 + rim * rim <= kFastest * kFastest)) return false;
+  }
+  return true;
+}
+
+// The worst body and the term with the largest force on it, from the wrenches of this step.
+void World::Impl::blame() {
+  const Moment moment = now();
+  const auto badness = [&](int slot) {
+    const double size = std::fabs(state.vx[slot]) + std::fabs(state.vy[slot]) +
+                        std::fabs(state.omega[slot]) * assemblies.reach[slot];
+    return size == size ? size : 1e300;
+  };
+  int worst = assemblies.live.empty() ? 0 : assemblies.live.front();
+  for (const int slot : assemblies.live) {
+    if (badness(slot) > badness(worst)) worst = slot;
+  }
+  divergence = {moment.step, worst, "none", 0};
+  for (const ActiveForce& force : model->forces) {
+    std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+    force.term->add(*model, kinematics, moment, force.p, wrenches);
+    double size = 0;
+    for (int i = assemblies.first[worst]; i >= 0; i = assemblies.next[i]) {
+      const double s = std::sqrt(wrenches[i].fx * wrenches[i].fx + wrenches[i].fy * wrenches[i].fy);
+      size = std::fmax(size, s == s ? s : 1e300);
+    }
+    if (size > divergence.size) divergence.force = force.term->name(), divergence.size = size;
+  }
+}
+
+World::World(const Model& model, std::uint64_t seed) : World(model, initial_state(model, seed)) {}
+World::World(const Model& model, State state)
+    : impl_(std::make_unique<Impl>(model, std::move(state))) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+RunStatus World::step() {
+  Impl& w = *impl_;
+  if (w.status != RunStatus::ok) return w.status;
+  w.events.clear();
+  w.add_forces();
+  if (w.state.step % w.model->steps_per_tick == 0)
+    w.controller.tick(w.state, w.assemblies, w.motion, w.events, w.tallies);
+  w.kick();
+  if (!w.healthy()) {
+    w.blame();
+    return w.status = RunStatus::diverged;
+  }
+  w.motion.advance(w.state, w.assemblies, w.tallies);
+  w.damp();
+  ++w.state.step;
+  return w.status;
+}
+
+const Model& World::model() const { return *impl_->model; }
+const State& World::state() const { return impl_->state; }
+double World::time() const { return impl_->state.step * impl_->model->dt; }
+const Kinematics& World::kinematics() const { return impl_->kinematics; }
+std::span<const Event> World::events() const { return impl_->events; }
+const Divergence& World::divergence() const { return impl_->divergence; }
+const Tallies& World::tallies() const { return impl_->tallies; }
+
+}  // namespace lilytank
