@@ -25,7 +25,7 @@ class InputError : public std::runtime_error {
 };
 
 /// The candidate nearest to `word` by edits (insert, delete, replace, swap), or empty if none is
-/// within a third of its length.
+/// within a third of the longer one's length.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 /// " - did you mean 'K_F'?" or, where nothing is near, the empty string.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
