@@ -69,7 +69,5 @@ FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation);
 /// Reads `ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured`, one row a cell,
 /// in any order; `measured` = 0 marks cells to fill. Throws InputError with file, line and column.
 FlowField read_flow_csv(const std::string& file, Interpolation interpolation);
-/// Writes the same format; the file appears whole or not at all.
-void write_flow_csv(const FlowField& field, const std::string& file);
 
 }  // namespace lilytank

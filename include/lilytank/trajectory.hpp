@@ -1,7 +1,7 @@
 // Poses over time, simulated or recorded: the same type, the same files, the same analysis.
 #pragma once
 #include <cstdint>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +29,10 @@ struct Trajectory {
   std::vector<Markings> markings;  ///< empty for recordings
   int frames() const { return static_cast<int>(time.size()); }
 };
+
+/// Appends a world's present poses and time to a trajectory in memory (no markings); `trajectory`
+/// takes its numbers of bodies from the first world.
+void append_poses(const World& world, Trajectory& trajectory);
 
 enum class TrajectoryFormat { none, csv, binary };
 
