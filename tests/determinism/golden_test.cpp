@@ -1,0 +1,82 @@
+// The same binary, scenario and seed give the same bits, whatever runs beside them.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "lilytank/study.hpp"
+#include "support/scenes.hpp"
+
+namespace lilytank {
+namespace {
+
+struct Scene {
+  const char* name;
+  Model model;
+  double seconds;
+  const char* golden;  ///< fingerprint after `seconds` with seed 42; a change of it is a new version
+};
+
+std::vector<Scene> scenes() {
+  return {{"chain, firmware clock", test::chain_scene(Clock::firmware), 120, "0000000000000000"},
+          {"chain, event clock", test::chain_scene(Clock::events), 120, "0000000000000000"},
+          {"balls and modules", test::mixed_scene(), 60, "0000000000000000"},
+          {"packed", test::packed_scene(), 5, "0000000000000000"}};
+}
+
+std::string final_hash(const Model& model, std::uint64_t seed, double seconds) {
+  World world(model, seed);
+  test::advance(world, seconds);
+  return hex(fingerprint(world.state()));
+}
+
+TEST(Determinism, GoldenFingerprints) {
+  for (const Scene& scene : scenes())
+    EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden) << scene.name;
+}
+
+TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
+  const Model model = test::chain_scene(Clock::firmware);
+  std::vector<std::string> alone(12);
+  for (int i = 0; i < 12; ++i) alone[i] = final_hash(model, derived_seed(1, i), 10);
+  for (const int threads : {1, 2, 3, 5, 8}) {
+    std::vector<std::string> together(12);
+    for_each_world(12, threads,
+                   [&](int i) { together[i] = final_hash(model, derived_seed(1, i), 10); });
+    EXPECT_EQ(together, alone) << threads << " threads";
+  }
+}
+
+TEST(Determinism, SavingAndLoadingInTheMiddleChangesNothing) {
+  for (const Scene& scene : scenes()) {
+    World whole(scene.model, 7);
+    ASSERT_TRUE(test::advance(whole, 3));
+    const std::string bytes = to_snapshot(whole.state(), 11);
+    World resumed(scene.model, from_snapshot(bytes, 11, "memory"));
+    for (int step = 0; step < 200; ++step) {
+      whole.step(), resumed.step();
+      ASSERT_EQ(fingerprint(whole.state()), fingerprint(resumed.state()))
+          << scene.name << ", step " << step;
+    }
+  }
+}
+
+TEST(Determinism, SeedsMatter) {
+  const Model model = test::chain_scene(Clock::firmware);
+  EXPECT_NE(final_hash(model, 1, 1), final_hash(model, 2, 1));
+}
+
+TEST(Snapshot, RefusesWhatIsCutDamagedOrForeign) {
+  const Model model = test::packed_scene();
+  const State state = initial_state(model, 1);
+  std::string bytes = to_snapshot(state, 5);
+  EXPECT_EQ(fingerprint(from_snapshot(bytes, 5, "x")), fingerprint(state));
+  EXPECT_THROW(from_snapshot(bytes, 6, "x"), InputError);
+  EXPECT_THROW(from_snapshot(bytes.substr(0, bytes.size() - 3), 5, "x"), InputError);
+  EXPECT_THROW(from_snapshot(bytes.substr(0, 12), 5, "x"), InputError);
+  EXPECT_THROW(from_snapshot("", 5, "x"), InputError);
+  bytes[bytes.size() / 2] ^= 1;
+  EXPECT_THROW(from_snapshot(bytes, 5, "x"), InputError);
+}
+
+}  // namespace
+}  // namespace lilytank

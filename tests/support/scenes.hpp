@@ -1,0 +1,38 @@
+// Worlds that the determinism tests, and whoever wants the same ones, share.
+#pragma once
+#include <string>
+
+#include "support/worlds.hpp"
+
+namespace lilytank::test {
+
+/// 15 Lilies of the paper building chains of five, by the given clock.
+inline Model chain_scene(Clock clock) {
+  Model model = standard_model();
+  model.rulesets = {read_ruleset(LILYTANK_SOURCE_DIR "/scenarios/rulesets/chain5.rules")};
+  for (Rule& rule : model.rulesets[0].rules) {
+    if (rule.kind == RuleKind::unlink && rule.p > 0) rule.p = 0.1;
+  }
+  model.control.clock = clock;
+  return model;
+}
+
+/// 24 balls and 10 modules without latches, at half the step.
+inline Model mixed_scene() {
+  Model model = with_step(standard_model(), 2);
+  model.module.count = 10, model.ball.count = 24;
+  model.start.radius = 0.25;
+  model.control.latches = false;
+  return model;
+}
+
+/// Modules packed so that many touch at all times.
+inline Model packed_scene() {
+  Model model = standard_model();
+  model.module.count = 120;
+  model.start = {Layout::lattice, 0.255, 0.038};
+  model.control.latches = false;
+  return model;
+}
+
+}  // namespace lilytank::test
