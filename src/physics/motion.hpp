@@ -20,9 +20,10 @@ class Motion {
   ~Motion();
   Motion(Motion&&) noexcept;
 
-  /// Solves contacts for the velocities in `state`, then moves every assembly by dt. On return
-  /// `state` and the poses in `assemblies` are those at the end of the step. Deterministic; keeps
-  /// nothing from call to call.
+  /// Solves contacts for the velocities in `state`, then moves every assembly by dt. On entry
+  /// the poses in `assemblies` must be those of `state` (its twists may be older); on return poses
+  /// and twists in both are those at the end of the step. Deterministic; keeps nothing from call to
+  /// call. A state in which something moves at more than 100 m/s, or is not finite, is left alone.
   void advance(State& state, Assemblies& assemblies, Tallies& tallies);
 
   /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction
