@@ -1,0 +1,90 @@
+#include "io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+namespace lilytank {
+namespace {
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// 0, or errno's value.
+int write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t n = ::write(descriptor, content.data(), content.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return errno;
+    content.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return 0;
+}
+
+/// Makes a rename last through a power cut; some file systems refuse, which does no harm.
+void sync_directory(const std::filesystem::path& directory) {
+  const Descriptor opened(
+      ::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.number() >= 0) ::fsync(opened.number());
+}
+
+}  // namespace
+
+std::string system_problem(const std::string& what, const std::string& file, int number) {
+  return what + " '" + file + "': " + std::generic_category().message(number);
+}
+
+void write_atomically(const std::string& file, std::string_view content) {
+  const std::string temporary = file + ".tmp";
+  int problem = 0;
+  {
+    const Descriptor opened(
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (opened.number() < 0) throw InputError(system_problem("cannot write", file, errno));
+    problem = write_all(opened.number(), content);
+    if (problem == 0 && ::fsync(opened.number()) != 0) problem = errno;
+  }
+  if (problem == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) problem = errno;
+  if (problem != 0) {
+    ::unlink(temporary.c_str());
+    throw InputError(system_problem("cannot write", file, problem));
+  }
+  sync_directory(std::filesystem::path(file).parent_path());
+}
+
+std::string read_whole(const std::string& file, const SourcePlace& asked_by) {
+  const auto refuse = [&](int number) -> InputError {
+    const std::string message = system_problem("cannot read", file, number);
+    return asked_by.file.empty() ? InputError(message) : InputError(asked_by, message);
+  };
+  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (opened.number() < 0) throw refuse(errno);
+  std::string content;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t n = ::read(opened.number(), buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw refuse(errno);
+    if (n == 0) return content;
+    content.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace lilytank

@@ -1,0 +1,20 @@
+// Files that appear whole or not at all, and whole files read.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// Writes `content` under a temporary name beside `file`, hands it to the disk, renames it. Throws
+/// InputError with the system's reason; the file is then as it was before.
+void write_atomically(const std::string& file, std::string_view content);
+
+/// The whole content of a file. Throws InputError, at `asked_by` where that is known.
+std::string read_whole(const std::string& file, const SourcePlace& asked_by = {});
+
+/// "cannot read 'x.csv': No such file or directory", with the reason for errno's value `number`.
+std::string system_problem(const std::string& what, const std::string& file, int number);
+
+}  // namespace lilytank

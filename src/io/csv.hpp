@@ -1,0 +1,46 @@
+// Comma-separated tables read strictly: every complaint has a line and a column.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// Walks over the rows of a table whose first line is known. Cells are not quoted.
+class CsvReader {
+ public:
+  /// `text` must outlive the reader. Throws InputError if the first line is not one of `headers`.
+  /// `may_be_cut`: a last row without its line end was cut by a kill and is dropped.
+  CsvReader(std::string_view text, std::string file, const std::vector<std::string>& headers,
+            bool may_be_cut = false);
+
+  /// Which of `headers` the file has.
+  std::size_t header() const { return header_; }
+  /// Goes to the next row; false at the end. Throws InputError on a wrong count of cells.
+  bool next();
+
+  bool empty(std::size_t column) const { return cells_[column].empty(); }
+  /// Cell values; throw InputError where a cell is not a finite number, or is outside low .. high.
+  double number(std::size_t column) const;
+  float float_number(std::size_t column) const;
+  std::int64_t whole(std::size_t column, std::int64_t low, std::int64_t high) const;
+
+  SourcePlace place(std::size_t column) const;
+  [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
+
+ private:
+  std::string quoted(std::size_t column) const;
+  std::string_view text_;
+  std::string file_;
+  std::vector<std::string> names_;
+  std::vector<std::string_view> cells_;
+  std::size_t at_ = 0, header_ = 0;
+  int line_ = 1;
+  bool may_be_cut_;
+  const char* row_ = nullptr;
+};
+
+}  // namespace lilytank

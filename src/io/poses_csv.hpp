@@ -1,0 +1,13 @@
+// Start poses: `id,x,y,theta`, one row a body, ids 0, 1, ... in order; m and rad.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lilytank/math.hpp"
+
+namespace lilytank {
+
+/// Reads poses from a file's content. Throws InputError with file, line and column.
+std::vector<Pose> parse_poses(const std::string& text, const std::string& file);
+
+}  // namespace lilytank

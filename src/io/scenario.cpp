@@ -1,0 +1,258 @@
+// From files and --set to a Scenario: read, lay over each other, check, build the Model.
+#include "lilytank/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/atomic_file.hpp"
+#include "io/poses_csv.hpp"
+#include "io/scenario_commands.hpp"
+#include "io/scenario_keys.hpp"
+#include "io/scenario_layers.hpp"
+#include "io/scenario_resolve.hpp"
+#include "io/scenario_values.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+bool is_rule(const Assignment& a) {
+  return a.keys.front() == "rules";
+}
+
+class Loader {
+ public:
+  Loader(const std::vector<std::string>& files, const std::vector<std::string>& sets)
+      : layers_(read_layers(files, sets)) {}
+
+  Scenario load() {
+    keys_ = scenario_keys(draft_);
+    assign_all(false);
+    read_rules();
+    assign_all(true);
+    check();
+    build_forces();
+    build_field();
+    build_start();
+    build_commands();
+    return finish();
+  }
+
+ private:
+  SourcePlace place(const std::string& path) const {
+    const auto found = places_.find(path);
+    return found == places_.end() ? SourcePlace{path, 0, 0} : found->second;
+  }
+  bool was_set(const std::string& path) const { return places_.count(path) != 0; }
+
+  // Rules are named by a file that the first pass finds; a second pass sets their probabilities.
+  void assign_all(bool rules) {
+    for (const Layer& layer : layers_) {
+      for (const Assignment& value : layer.values) {
+        if (is_rule(value) == rules) assign_one(value);
+      }
+      if (!rules) imply(layer);
+    }
+  }
+
+  void assign_one(const Assignment& value) {
+    const std::string path = value.path();
+    const auto at = [&](const ScenarioKey& key) { return key.path == path; };
+    const auto found = std::find_if(keys_.begin(), keys_.end(), at);
+    if (found == keys_.end()) {
+      const bool table = std::any_of(keys_.begin(), keys_.end(), [&](const ScenarioKey& key) {
+        return key.path.starts_with(path + ".");
+      });
+      if (table && std::holds_alternative<EmptyTable>(value.value)) return;
+      if (is_rule(value) && draft_.ruleset_file.empty()) {
+        throw InputError(value.key_places.front(),
+                         "'" + path + "' names a rule, but no ruleset.file is set");
+      }
+      throw unknown_key(value, keys_);
+    }
+    assign(*found, value);
+    places_[path] = value.place;
+  }
+
+  // What a layer says without words: naming a file chooses it, naming a parameter of a force that
+  // is not in the baseline switches it on.
+  void imply(const Layer& layer) {
+    std::map<std::string, SourcePlace> here;
+    for (const Assignment& value : layer.values) here[value.path()] = value.place;
+    const auto named = [&](const std::string& path) { return here.count(path) != 0; };
+    if (named("flow.file") && !named("flow.source")) {
+      draft_.source = draft_.flow_file.empty() ? FlowSource::tank : FlowSource::file;
+      places_["flow.source"] = here["flow.file"];
+    }
+    if (named("start.file") && !named("start.layout")) {
+      Layout& layout = draft_.scenario.model.start.layout;
+      layout = draft_.start_file.empty() ? Layout::random : Layout::poses;
+      places_["start.layout"] = here["start.file"];
+    }
+    for (ForceDraft& force : draft_.forces) {
+      const std::string base = "forces." + std::string(force.term->name()) + ".";
+      const auto first = here.lower_bound(base);
+      const bool any = first != here.end() && first->first.starts_with(base);
+      if (force.term->baseline() || !any || named(base + "on")) continue;
+      force.on = true;
+      places_[base + "on"] = first->second;
+    }
+  }
+
+  void read_rules() {
+    if (!draft_.ruleset_file.empty()) {
+      rules_text_ = read_whole(draft_.ruleset_file, place("ruleset.file"));
+      draft_.rules = parse_ruleset(rules_text_, draft_.ruleset_file);
+    }
+    // Beside the ruleset's file, so that resolved.toml reads in a natural order.
+    const auto after = std::find_if(keys_.begin(), keys_.end(), [](const ScenarioKey& key) {
+      return key.path == "start.layout";
+    });
+    const std::vector<ScenarioKey> rules = rule_keys(draft_);
+    keys_.insert(after, rules.begin(), rules.end());
+  }
+
+  void check() {
+    Scenario& s = draft_.scenario;
+    Model& m = s.model;
+    const double parts = std::floor(kTick / m.dt + 0.5);
+    if (std::fabs(m.dt * parts - kTick) > 1e-12) {
+      throw InputError(place("run.dt"), "run.dt = " + shortest(m.dt) +
+                                            " s is not 25 ms divided by a whole number - the "
+                                            "nearest is " +
+                                            shortest(kTick / parts) + " s, 25 ms / " +
+                                            std::to_string(static_cast<int>(parts)));
+    }
+    m.steps_per_tick = static_cast<int>(parts), m.dt = kTick / parts;
+    draft_.tank.radius = m.tank.radius;
+    if (m.bodies() == 0) {
+      throw InputError(place(was_set("module.count") ? "module.count" : "ball.count"),
+                       "there is nothing to simulate: module.count and ball.count are both 0");
+    }
+    if (m.start.radius > m.tank.radius) {
+      throw InputError(place(was_set("start.radius") ? "start.radius" : "tank.radius"),
+                       "start.radius = " + shortest(m.start.radius) +
+                           " m is beyond tank.radius = " + shortest(m.tank.radius) + " m");
+    }
+    const double widest =
+        std::max(m.module.count > 0 ? m.module.side : 0, m.ball.count > 0 ? 2 * m.ball.radius : 0);
+    if (m.start.layout == Layout::lattice && m.start.distance < widest) {
+      throw InputError(place("start.distance"), "start.distance = " + shortest(m.start.distance) +
+                                                    " m: bodies of " + shortest(widest) +
+                                                    " m would overlap on the lattice");
+    }
+    check_shares(draft_.rules);
+  }
+
+  // Rules with one left side share the unit interval.
+  void check_shares(const Ruleset& rules) const {
+    for (const Rule& rule : rules.rules) {
+      double sum = 0;
+      for (const Rule& other : rules.rules) {
+        const bool turned = other.before[0] == rule.before[1] && other.before[1] == rule.before[0];
+        const bool same = (rule.kind == RuleKind::link) == (other.kind == RuleKind::link);
+        if (same && (other.before == rule.before || turned)) sum += other.p;
+      }
+      const std::string path = "rules." + rule.name + ".p";
+      if (sum > 1 + 1e-9 && was_set(path)) {
+        throw InputError(place(path), path + " = " + shortest(rule.p) +
+                                          ": the rules with its left side then sum to " +
+                                          shortest(sum) + ", more than 1");
+      }
+    }
+  }
+
+  void build_forces() {
+    for (const ForceDraft& force : draft_.forces) {
+      if (force.on) draft_.scenario.model.forces.push_back({force.term, force.p});
+    }
+  }
+
+  void build_field() {
+    Model& m = draft_.scenario.model;
+    if (draft_.source == FlowSource::file && draft_.flow_file.empty()) {
+      throw InputError(place("flow.source"), "flow.source = \"file\" needs flow.file");
+    }
+    if (draft_.source == FlowSource::file) {
+      flow_text_ = read_whole(draft_.flow_file, place("flow.file"));
+      m.field =
+          std::make_shared<const FlowField>(read_flow_csv(draft_.flow_file, draft_.interpolation));
+    } else if (draft_.source == FlowSource::tank) {
+      m.field = std::make_shared<const FlowField>(analytic_tank(draft_.tank, draft_.interpolation));
+    } else {
+      m.field = std::make_shared<const FlowField>(2, m.tank.radius, std::vector<FlowSample>(4),
+                                                  std::vector<bool>(4, true), draft_.interpolation);
+    }
+  }
+
+  void build_start() {
+    StartParameters& start = draft_.scenario.model.start;
+    if (start.layout != Layout::poses) return;
+    if (draft_.start_file.empty()) {
+      throw InputError(place("start.layout"), "start.layout = \"poses\" needs start.file");
+    }
+    poses_text_ = read_whole(draft_.start_file, place("start.file"));
+    start.poses = parse_poses(poses_text_, draft_.start_file);
+    const int bodies = draft_.scenario.model.bodies();
+    if (static_cast<int>(start.poses.size()) == bodies) return;
+    throw InputError(
+        SourcePlace{draft_.start_file, 0, 0},
+        std::to_string(start.poses.size()) + " poses for " + std::to_string(bodies) + " bodies");
+  }
+
+  void build_commands() {
+    const std::vector<CommandTable>* tables = nullptr;
+    for (const Layer& layer : layers_) {
+      if (layer.has_commands) tables = &layer.commands;
+    }
+    Model& m = draft_.scenario.model;
+    if (tables != nullptr) commands_ = read_commands(*tables, m.module.count, command_files_);
+    if (!draft_.ruleset_file.empty()) m.rulesets.push_back(draft_.rules);
+    if (!command_files_.empty() && m.rulesets.empty()) {
+      throw InputError(place("command"),
+                       "a command replaces the ruleset, but no ruleset.file is set to begin with");
+    }
+    for (const RulesetFile& f : command_files_) {
+      m.rulesets.push_back(parse_ruleset(f.content, f.file));
+    }
+    for (ScheduledCommand& scheduled : commands_) {
+      if (scheduled.file >= 0) scheduled.command.ruleset = 1 + scheduled.file;
+      m.commands.push_back(scheduled.command);
+    }
+  }
+
+  Scenario finish() {
+    Scenario& s = draft_.scenario;
+    s.entries = entries_of(keys_, places_);
+    if (!rules_text_.empty()) s.files.push_back({kRulesetName, rules_text_});
+    for (std::size_t i = 0; i < command_files_.size(); ++i) {
+      s.files.push_back({command_ruleset_name(i), command_files_[i].content});
+    }
+    if (!flow_text_.empty()) s.files.push_back({kFlowName, flow_text_});
+    if (!poses_text_.empty()) s.files.push_back({kPosesName, poses_text_});
+    draft_.flow_file = flow_text_.empty() ? "" : kFlowName;
+    draft_.ruleset_file = rules_text_.empty() ? "" : kRulesetName;
+    draft_.start_file = poses_text_.empty() ? "" : kPosesName;
+    s.resolved = resolved_text(keys_, commands_);
+    s.identity = identity_of(s);
+    return std::move(s);
+  }
+
+  std::vector<Layer> layers_;
+  ScenarioDraft draft_;
+  std::vector<ScenarioKey> keys_;
+  std::map<std::string, SourcePlace> places_;  // of what was set
+  std::vector<ScheduledCommand> commands_;
+  std::vector<RulesetFile> command_files_;
+  std::string rules_text_, flow_text_, poses_text_;
+};
+
+}  // namespace
+
+Scenario load_scenario(const std::vector<std::string>& files,
+                       const std::vector<std::string>& sets) {
+  return Loader(files, sets).load();
+}
+
+}  // namespace lilytank

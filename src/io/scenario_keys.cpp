@@ -1,0 +1,153 @@
+#include "io/scenario_keys.hpp"
+
+#include <limits>
+
+namespace lilytank {
+namespace {
+
+constexpr double kLargestSeed = 9223372036854775807.0;  // what TOML's integers hold
+
+/// A word choice bound to an enum whose values are 0, 1, ... in the order of `words`.
+template <class Enum>
+WordChoice choice(Enum& target, std::vector<std::string> words) {
+  return {std::move(words), [&target] { return static_cast<std::size_t>(target); },
+          [&target](std::size_t i) { target = static_cast<Enum>(i); }};
+}
+
+using Keys = std::vector<ScenarioKey>;
+
+void run_keys(ScenarioDraft& d, Keys& keys) {
+  Scenario& s = d.scenario;
+  keys.push_back({"title", &s.title, "", 0, 0, "name of the scenario, used for the output folder"});
+  keys.push_back({"run.duration", &s.duration, "s", 0, 1e8, "simulated time"});
+  keys.push_back({"run.dt", &s.model.dt, "s", kTick / 256, kTick,
+                  "time step: 25 ms divided by a whole number"});
+  keys.push_back({"run.seed", &s.seed, "1", 0, kLargestSeed, "where all random numbers come from"});
+}
+
+void body_keys(ScenarioDraft& d, Keys& keys) {
+  Model& m = d.scenario.model;
+  keys.push_back({"tank.radius", &m.tank.radius, "m", 0.05, 5, "inner radius of the round tank"});
+  keys.push_back({"module.count", &m.module.count, "1", 0, 10000, "number of Lily modules"});
+  keys.push_back({"module.side", &m.module.side, "m", 0.005, 0.5, "side of the square module"});
+  keys.push_back({"module.mass", &m.module.mass, "kg", 1e-4, 10, "mass of a module"});
+  keys.push_back(
+      {"module.draught", &m.module.draught, "m", 1e-4, 0.5, "height of a face that feels drag"});
+  keys.push_back({"module.shadowing", &m.module.shadowing, "", 0, 0,
+                  "a face covered by a latched neighbour feels no drag"});
+  keys.push_back({"ball.count", &m.ball.count, "1", 0, 10000, "number of balls"});
+  keys.push_back({"ball.radius", &m.ball.radius, "m", 0.001, 0.2, "radius of a ball"});
+  keys.push_back({"ball.mass", &m.ball.mass, "kg", 1e-5, 10, "mass of a ball"});
+  keys.push_back({"ball.drag_area", &m.ball.drag_area, "m^2", 1e-7, 0.1,
+                  "area of a ball that the water pushes on"});
+  keys.push_back({"contact.friction", &m.contact.friction, "1", 0, 2, "Coulomb's coefficient"});
+  keys.push_back({"contact.restitution", &m.contact.restitution, "1", 0, 1,
+                  "share of the approach speed that is given back"});
+  keys.push_back({"contact.restitution_speed", &m.contact.restitution_speed, "m/s", 0, 1,
+                  "approach speed below which nothing is given back"});
+}
+
+void flow_keys(ScenarioDraft& d, Keys& keys) {
+  FlowParameters& f = d.scenario.model.flow;
+  keys.push_back({"flow.source", choice(d.source, {"tank", "file", "still"}), "", 0, 0,
+                  "built-in tank, a measured field, or still water"});
+  keys.push_back({"flow.file", FileName{&d.flow_file}, "", 0, 0,
+                  "CSV file of the field; naming one sets flow.source = \"file\""});
+  keys.push_back({"flow.interpolation", choice(d.interpolation, {"bilinear", "nearest"}), "", 0, 0,
+                  "how the field is read between cell centres; the paper takes the nearest"});
+  keys.push_back({"flow.gusts", choice(f.gusts, {"per_point", "per_module"}), "", 0, 0,
+                  "whether each drag point or each module has its own gust"});
+  keys.push_back(
+      {"flow.K_v", &f.K_v, "1", 0, 10, "factor on mean and deviation of the flow, Eq. 4"});
+  keys.push_back({"flow.rho", &f.rho, "kg/m^3", 1, 20000, "density of the water"});
+  keys.push_back({"flow.pump_power", &d.tank.pump_power, "%", 0, 100,
+                  "share of a pump's full flow of 9 l/min, of the built-in tank"});
+  keys.push_back({"flow.water_level", &d.tank.water_level, "m", -0.5, 0,
+                  "from the tank's upper border, of the built-in tank"});
+}
+
+void force_keys(ScenarioDraft& d, Keys& keys) {
+  for (ForceDraft& force : d.forces) {
+    const std::string base = "forces." + std::string(force.term->name()) + ".";
+    keys.push_back({base + "on", &force.on, "", 0, 0, std::string(force.term->summary())});
+    std::size_t i = 0;
+    for (const Parameter& p : force.term->parameters()) {
+      keys.push_back({base + std::string(p.name), &force.p[i++], std::string(p.unit), p.low, p.high,
+                      std::string(p.meaning), p.whole});
+    }
+  }
+}
+
+void control_keys(ScenarioDraft& d, Keys& keys) {
+  ControlParameters& c = d.scenario.model.control;
+  keys.push_back(
+      {"control.latches", &c.latches, "", 0, 0, "off: the magnets are off and nothing latches"});
+  keys.push_back({"control.clock", choice(c.clock, {"firmware", "events"}), "", 0, 0,
+                  "modules as state machines run every 25 ms, or bonds evaluated at random times"});
+  keys.push_back({"control.capture_distance", &c.capture_distance, "m", 0, 0.05,
+                  "distance of two face centres within which they latch"});
+  keys.push_back({"control.capture_angle", &c.capture_angle, "rad", 0, 0.75,
+                  "turn from face to face within which they latch"});
+  keys.push_back({"control.initiative", &c.initiative, "1", 0, 1,
+                  "probability per 25 ms that a module begins an exchange"});
+  keys.push_back({"control.reply_ticks", &c.reply_ticks, "1", 1, 255,
+                  "intervals of 25 ms that an initiator waits for its answer"});
+  keys.push_back({"control.evaluation_rate", &c.evaluation_rate, "1/s", 1e-6, 40,
+                  "evaluations of a bond per second, of the clock \"events\""});
+  keys.push_back({"control.off_scale", &c.off_scale, "1", 1, 65535,
+                  "an off face returns with probability (25 ms intervals off) / this"});
+}
+
+void start_keys(ScenarioDraft& d, Keys& keys) {
+  StartParameters& start = d.scenario.model.start;
+  keys.push_back({"start.layout", choice(start.layout, {"random", "lattice", "poses"}), "", 0, 0,
+                  "how bodies lie at the start"});
+  keys.push_back({"start.radius", &start.radius, "m", 0, 5, "centres start within it"});
+  keys.push_back({"start.distance", &start.distance, "m", 0, 1,
+                  "least distance of two centres at the start; the pitch of the lattice"});
+  keys.push_back({"start.file", FileName{&d.start_file}, "", 0, 0,
+                  "CSV file of poses; naming one sets start.layout = \"poses\""});
+}
+
+void output_keys(ScenarioDraft& d, Keys& keys) {
+  OutputParameters& o = d.scenario.output;
+  keys.push_back({"output.trajectory", choice(o.trajectory, {"none", "csv", "binary"}), "", 0, 0,
+                  "format of the stored poses"});
+  keys.push_back(
+      {"output.rate", &o.rate, "1/s", 1e-4, 1 / kTick, "stored frames per simulated second"});
+  keys.push_back({"output.metrics_interval", &o.metrics_interval, "s", kTick, 1e6,
+                  "time between rows of metrics.csv"});
+}
+
+}  // namespace
+
+ScenarioDraft::ScenarioDraft() {
+  for (const ForceTerm* term : force_library()) {
+    forces.push_back({term, term->baseline(), with_defaults(*term).p});
+  }
+}
+
+std::vector<ScenarioKey> scenario_keys(ScenarioDraft& draft) {
+  Keys keys;
+  run_keys(draft, keys);
+  body_keys(draft, keys);
+  flow_keys(draft, keys);
+  force_keys(draft, keys);
+  control_keys(draft, keys);
+  keys.push_back({"ruleset.file", FileName{&draft.ruleset_file}, "", 0, 0,
+                  "the rules that modules follow; without one, latches never end"});
+  start_keys(draft, keys);
+  output_keys(draft, keys);
+  return keys;
+}
+
+std::vector<ScenarioKey> rule_keys(ScenarioDraft& draft) {
+  Keys keys;
+  for (Rule& rule : draft.rules.rules) {
+    keys.push_back({"rules." + rule.name + ".p", &rule.p, "1", 0, 1,
+                    "probability per evaluation that the rule fires"});
+  }
+  return keys;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,200 @@
+#include "io/scenario_layers.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+SourcePlace place_of(const toml::source_region& region, const std::string& file) {
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+  try {
+    return toml::parse(std::string_view(text), std::string_view(file));
+  } catch (const toml::parse_error& e) {
+    throw InputError(place_of(e.source(), file), std::string(e.description()));
+  }
+}
+
+TomlValue list_of(const toml::array& array) {
+  Numbers numbers;
+  for (const toml::node& item : array) {
+    if (!item.is_integer()) return Unusable{"a list that is not of whole numbers"};
+    numbers.push_back(item.as_integer()->get());
+  }
+  return numbers;
+}
+
+TomlValue value_of(const toml::node& node) {
+  if (const auto* v = node.as_boolean()) return v->get();
+  if (const auto* v = node.as_integer()) return v->get();
+  if (const auto* v = node.as_floating_point()) return v->get();
+  if (const auto* v = node.as_string()) return v->get();
+  if (const auto* v = node.as_array()) return list_of(*v);
+  if (node.is_table()) return EmptyTable{};
+  return Unusable{"a date or time"};
+}
+
+/// Turns tables into assignments.
+class Flattener {
+ public:
+  Flattener(std::string file, std::string directory)
+      : file_(std::move(file)), directory_(std::move(directory)) {}
+
+  Layer layer(const toml::table& root) {
+    Layer out;
+    table(root, {}, {}, out.values);
+    if (const toml::node* node = root.get("command")) commands(*node, out);
+    return out;
+  }
+
+ private:
+  void table(const toml::table& from, const std::vector<std::string>& keys,
+             const std::vector<SourcePlace>& places, std::vector<Assignment>& out) {
+    for (const auto& [key, node] : from) {
+      if (keys.empty() && (key.str() == "base" || key.str() == "command")) continue;
+      auto path = keys;
+      auto path_places = places;
+      path.emplace_back(key.str());
+      path_places.push_back(place_of(key.source(), file_));
+      const toml::table* inner = node.as_table();
+      if (inner != nullptr && !inner->empty()) {
+        table(*inner, path, path_places, out);
+        continue;
+      }
+      const SourcePlace place = place_of(node.source(), file_);
+      out.push_back({path, path_places, value_of(node), place, directory_, ""});
+    }
+    // toml++ keeps keys sorted by name; messages should come in the file's order.
+    std::stable_sort(out.begin(), out.end(), [](const Assignment& a, const Assignment& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    });
+  }
+
+  void commands(const toml::node& node, Layer& out) {
+    out.has_commands = true;
+    const toml::array* list = node.as_array();
+    if (list == nullptr || (!list->empty() && !list->is_homogeneous<toml::table>())) {
+      throw InputError(place_of(node.source(), file_),
+                       "command is a list of tables, each under its own line [[command]]");
+    }
+    for (const toml::node& item : *list) {
+      CommandTable command{place_of(item.source(), file_), {}};
+      table(*item.as_table(), {}, {}, command.fields);
+      out.commands.push_back(std::move(command));
+    }
+  }
+
+  std::string file_, directory_;
+};
+
+/// Reads a file and the files under it.
+class FileReader {
+ public:
+  explicit FileReader(std::vector<Layer>& layers) : layers_(&layers) {}
+
+  void read(const std::string& file, const SourcePlace& asked_by) {
+    std::error_code ignored;
+    const std::string identity = fs::weakly_canonical(file, ignored).string();
+    if (std::find(open_.begin(), open_.end(), identity) != open_.end()) {
+      throw InputError(asked_by, "base '" + file + "' leads back to itself");
+    }
+    const toml::table root = parse_toml(read_whole(file, asked_by), file);
+    const std::string directory = fs::path(file).parent_path().string();
+    open_.push_back(identity);
+    if (const toml::node* base = root.get("base")) read_bases(*base, file, directory);
+    open_.pop_back();
+    layers_->push_back(Flattener(file, directory).layer(root));
+  }
+
+ private:
+  void read_bases(const toml::node& base, const std::string& file, const std::string& directory) {
+    const auto one = [&](const toml::node& node) {
+      const SourcePlace place = place_of(node.source(), file);
+      const auto* name = node.as_string();
+      if (name == nullptr) throw InputError(place, "base is a file name or a list of file names");
+      read((fs::path(directory) / name->get()).string(), place);
+    };
+    if (const toml::array* list = base.as_array()) {
+      for (const toml::node& node : *list) one(node);
+    } else {
+      one(base);
+    }
+  }
+
+  std::vector<Layer>* layers_;
+  std::vector<std::string> open_;
+};
+
+/// Adds "path=value" to `out`: the value is TOML, or else taken as text.
+void read_set(const std::string& set, std::vector<Assignment>& out) {
+  const SourcePlace place{"--set " + set, 0, 0};
+  const auto equals = set.find('=');
+  if (equals == std::string::npos || set.find('\n') != std::string::npos) {
+    throw InputError(place, "write --set path=value, as in --set tank.radius=0.3");
+  }
+  const std::string path(trimmed(std::string_view(set).substr(0, equals)));
+  const std::string raw(trimmed(std::string_view(set).substr(equals + 1)));
+  toml::table root;
+  bool text = false;
+  try {
+    root = toml::parse(path + " = " + raw);
+  } catch (const toml::parse_error&) {
+    text = true;
+  }
+  try {
+    if (text) root = toml::parse(path + " = 0");
+  } catch (const toml::parse_error&) {
+    throw InputError(place, "'" + path + "' is not a path such as tank.radius");
+  }
+  if (root.contains("base") || root.contains("command")) {
+    throw InputError(place, "'" + path + "' can be given in files only");
+  }
+  for (Assignment& value : Flattener(place.file, "").layer(root).values) {
+    value.place = place;
+    for (SourcePlace& key_place : value.key_places) key_place = place;
+    value.raw = raw;
+    if (text) value.value = raw;
+    out.push_back(std::move(value));
+  }
+}
+
+}  // namespace
+
+std::string kind_of(const TomlValue& value) {
+  if (std::holds_alternative<bool>(value)) return "a switch";
+  if (std::holds_alternative<std::int64_t>(value)) return "a whole number";
+  if (std::holds_alternative<double>(value)) return "a number";
+  if (std::holds_alternative<std::string>(value)) return "text";
+  if (std::holds_alternative<Numbers>(value)) return "a list";
+  if (std::holds_alternative<EmptyTable>(value)) return "a table";
+  return std::get<Unusable>(value).kind;
+}
+
+std::string Assignment::path() const {
+  std::string out;
+  for (const std::string& key : keys) out += (out.empty() ? "" : ".") + key;
+  return out;
+}
+
+std::vector<Layer> read_layers(const std::vector<std::string>& files,
+                               const std::vector<std::string>& sets) {
+  std::vector<Layer> layers;
+  FileReader reader(layers);
+  for (const std::string& file : files) reader.read(file, {});
+  Layer overrides;
+  for (const std::string& set : sets) read_set(set, overrides.values);
+  layers.push_back(std::move(overrides));
+  return layers;
+}
+
+}  // namespace lilytank

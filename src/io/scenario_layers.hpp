@@ -1,0 +1,54 @@
+// Scenario files as lists of assignments, in the order in which they are laid over each other.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// A TOML value that has no place in a scenario, named for messages: "a date", "a mixed list".
+struct Unusable {
+  std::string kind;
+};
+/// A table without keys; its path is still to be checked.
+struct EmptyTable {};
+using Numbers = std::vector<std::int64_t>;
+using TomlValue =
+    std::variant<bool, std::int64_t, double, std::string, Numbers, Unusable, EmptyTable>;
+
+/// "a number", "text", ... for messages.
+std::string kind_of(const TomlValue& value);
+
+/// One `path = value`, and where it stands.
+struct Assignment {
+  std::vector<std::string> keys;        ///< the path's parts
+  std::vector<SourcePlace> key_places;  ///< of each part
+  TomlValue value;
+  SourcePlace place;      ///< of the value
+  std::string directory;  ///< files that the value names are relative to this
+  std::string raw;        ///< the value as given to --set
+  std::string path() const;
+};
+
+/// A [[command]] table.
+struct CommandTable {
+  SourcePlace place;
+  std::vector<Assignment> fields;
+};
+
+/// What one file, or all --set together, says. A layer with commands replaces those below it.
+struct Layer {
+  std::vector<Assignment> values;
+  std::vector<CommandTable> commands;
+  bool has_commands = false;
+};
+
+/// Reads the files, each after the files named by its `base`, and then the sets. Throws InputError:
+/// unreadable file, TOML syntax, circle of bases.
+std::vector<Layer> read_layers(const std::vector<std::string>& files,
+                               const std::vector<std::string>& sets);
+
+}  // namespace lilytank

@@ -1,0 +1,94 @@
+#include "io/scenario_resolve.hpp"
+
+#include "io/scenario_values.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+bool bare(const std::string& name) {
+  const auto odd =
+      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-");
+  return !name.empty() && odd == std::string::npos;
+}
+
+/// The header and the last name of a path: "forces.damping" and "D_linear".
+std::pair<std::string, std::string> parted(const std::string& path) {
+  const auto dot = path.rfind('.');
+  if (dot == std::string::npos) return {"", path};
+  std::string header = path.substr(0, dot);
+  const auto first = header.find('.');
+  // Rule names are the user's and may hold anything.
+  if (first != std::string::npos && !bare(header.substr(first + 1))) {
+    header = header.substr(0, first + 1) + toml_quoted(header.substr(first + 1));
+  }
+  return {header, path.substr(dot + 1)};
+}
+
+std::string comment_of(const ScenarioKey& key) {
+  std::string out = key.unit.empty() || key.unit == "1" ? "" : key.unit;
+  const std::string bounds = bounds_text(key);
+  if (!bounds.empty()) out += (out.empty() ? "" : ", ") + bounds;
+  return out + (out.empty() ? "" : ": ") + key.meaning;
+}
+
+std::string command_text(const ScheduledCommand& scheduled) {
+  const Command& command = scheduled.command;
+  std::string modules;
+  for (const int m : command.modules) modules += (modules.empty() ? "" : ", ") + std::to_string(m);
+  std::string out = "\n[[command]]\nat = " + shortest(command.at) +
+                    "  # s\ndo = " + toml_quoted(command_word(command.kind)) + "\nmodules = [" +
+                    modules + "]" + (modules.empty() ? "  # all" : "") + "\n";
+  if (scheduled.file >= 0) {
+    out += "file = " + toml_quoted(command_ruleset_name(static_cast<std::size_t>(scheduled.file))) +
+           "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string command_ruleset_name(std::size_t index) {
+  return "ruleset_" + std::to_string(index + 2) + ".rules";
+}
+
+std::vector<ScenarioEntry> entries_of(const std::vector<ScenarioKey>& keys,
+                                      const std::map<std::string, SourcePlace>& places) {
+  std::vector<ScenarioEntry> entries;
+  for (const ScenarioKey& key : keys) {
+    ScenarioEntry entry{key.path, value_text(key), key.unit, bounds_text(key), key.meaning, true,
+                        {}};
+    if (const auto set = places.find(key.path); set != places.end()) {
+      entry.is_default = false;
+      entry.where = set->second;
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::string resolved_text(const std::vector<ScenarioKey>& keys,
+                          const std::vector<ScheduledCommand>& commands) {
+  std::string out =
+      "# A lilytank scenario with every value. Program version " LILYTANK_VERSION ".\n";
+  std::string header;
+  for (const ScenarioKey& key : keys) {
+    const auto [table, name] = parted(key.path);
+    if (table != header) out += "\n[" + table + "]\n";
+    header = table;
+    out += name + " = " + value_text(key) + "  # " + comment_of(key) + "\n";
+  }
+  for (const ScheduledCommand& command : commands) out += command_text(command);
+  return out;
+}
+
+std::uint64_t identity_of(const Scenario& scenario) {
+  Fnv hash;
+  hash.add(scenario.resolved);
+  for (const Scenario::Attachment& file : scenario.files)
+    hash.add(file.name), hash.add(file.content);
+  return hash.value();
+}
+
+}  // namespace lilytank

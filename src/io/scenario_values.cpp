@@ -1,0 +1,175 @@
+#include "io/scenario_values.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "io/units.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+/// " m", or nothing for numbers without a unit.
+std::string after(const std::string& unit) {
+  return unit.empty() || unit == "1" ? "" : " " + unit;
+}
+
+/// The value as the user wrote it: a quantity in quotes with its SI value, or a plain number.
+std::string as_written(const Assignment& from, double value, const std::string& unit) {
+  const auto* text = std::get_if<std::string>(&from.value);
+  const std::string plain = shortest(value) + after(unit);
+  return text == nullptr || *text == plain ? plain : *text + " (" + plain + ")";
+}
+
+/// With ten digits, for numbers that rounding has touched.
+std::string rounded(double value) {
+  char buffer[40];
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 10).ptr;
+  return {buffer, end};
+}
+
+/// What a value out of bounds may have been meant as.
+std::string meant(const Assignment& from, const ScenarioKey& key, double value) {
+  if (key.path.ends_with(".sigma_stoch")) {
+    const double tabled = value / 1e4;
+    if (tabled >= key.low && tabled <= key.high) {
+      return " - the paper's table is in 1e-4 N: write " + rounded(tabled) + ", in N";
+    }
+  }
+  const bool plain = !std::holds_alternative<std::string>(from.value);
+  return plain ? unit_hint(value, key.unit, key.low, key.high) : "";
+}
+
+void check_bounds(const ScenarioKey& key, const Assignment& from, double value) {
+  if (value >= key.low && value <= key.high) return;
+  throw InputError(from.place, key.path + " = " + as_written(from, value, key.unit) +
+                                   " is outside " + bounds_text(key) + after(key.unit) +
+                                   meant(from, key, value));
+}
+
+InputError wrong_kind(const Assignment& from, const std::string& path, const std::string& right) {
+  return {from.place, path + " is " + right + ", not " + kind_of(from.value)};
+}
+
+std::int64_t whole_of(const ScenarioKey& key, const Assignment& from) {
+  if (const auto* v = std::get_if<std::int64_t>(&from.value)) return *v;
+  if (const auto* v = std::get_if<double>(&from.value)) {
+    throw InputError(from.place, key.path + " is a whole number; " + shortest(*v) + " is not");
+  }
+  throw wrong_kind(from, key.path, "a whole number");
+}
+
+double checked_number(const ScenarioKey& key, const Assignment& from) {
+  const double value =
+      key.whole ? static_cast<double>(whole_of(key, from)) : number_of(from, key.path, key.unit);
+  check_bounds(key, from, value);
+  return value;
+}
+
+std::int64_t checked_whole(const ScenarioKey& key, const Assignment& from) {
+  const std::int64_t value = whole_of(key, from);
+  check_bounds(key, from, static_cast<double>(value));
+  return value;
+}
+
+void assign_word(const WordChoice& target, const ScenarioKey& key, const Assignment& from) {
+  const std::string word = text_of(from, key.path);
+  const auto found = std::find(target.words.begin(), target.words.end(), word);
+  if (found == target.words.end()) throw unknown_word(from.place, key.path, word, target.words);
+  target.set(static_cast<std::size_t>(found - target.words.begin()));
+}
+
+bool switch_of(const ScenarioKey& key, const Assignment& from) {
+  if (const auto* v = std::get_if<bool>(&from.value)) return *v;
+  throw wrong_kind(from, key.path, "a switch, true or false");
+}
+
+}  // namespace
+
+std::string text_of(const Assignment& from, const std::string& path) {
+  if (const auto* v = std::get_if<std::string>(&from.value)) return *v;
+  const bool scalar = std::holds_alternative<bool>(from.value) ||
+                      std::holds_alternative<std::int64_t>(from.value) ||
+                      std::holds_alternative<double>(from.value);
+  if (scalar && !from.raw.empty()) return from.raw;  // --set title=7
+  throw wrong_kind(from, path, "text in quotes");
+}
+
+double number_of(const Assignment& from, const std::string& path, const std::string& unit) {
+  if (const auto* v = std::get_if<std::int64_t>(&from.value)) return static_cast<double>(*v);
+  if (const auto* v = std::get_if<std::string>(&from.value)) {
+    return read_quantity(*v, unit, path, from.place);
+  }
+  const auto* v = std::get_if<double>(&from.value);
+  if (v == nullptr) throw wrong_kind(from, path, described(unit));
+  if (!std::isfinite(*v)) {
+    throw InputError(from.place, path + " = " + shortest(*v) + " is not a finite number");
+  }
+  return *v;
+}
+
+void assign(const ScenarioKey& key, const Assignment& from) {
+  const auto store = Overloaded{
+      [&](double* to) { *to = checked_number(key, from); },
+      [&](int* to) { *to = static_cast<int>(checked_whole(key, from)); },
+      [&](std::uint64_t* to) { *to = static_cast<std::uint64_t>(checked_whole(key, from)); },
+      [&](bool* to) { *to = switch_of(key, from); },
+      [&](std::string* to) { *to = text_of(from, key.path); },
+      [&](const WordChoice& to) { assign_word(to, key, from); },
+      [&](const FileName& to) {
+        const std::string name = text_of(from, key.path);
+        *to.name = name.empty() ? "" : (std::filesystem::path(from.directory) / name).string();
+      },
+  };
+  std::visit(store, key.target);
+}
+
+std::string value_text(const ScenarioKey& key) {
+  const auto text = Overloaded{
+      [](const double* v) { return shortest(*v); },
+      [](const int* v) { return std::to_string(*v); },
+      [](const std::uint64_t* v) { return std::to_string(*v); },
+      [](const bool* v) { return std::string(*v ? "true" : "false"); },
+      [](const std::string* v) { return toml_quoted(*v); },
+      [](const WordChoice& v) { return toml_quoted(v.words[v.get()]); },
+      [](const FileName& v) { return toml_quoted(*v.name); },
+  };
+  return std::visit(text, key.target);
+}
+
+std::string bounds_text(const ScenarioKey& key) {
+  if (const auto* choice = std::get_if<WordChoice>(&key.target)) {
+    std::string out;
+    for (const std::string& word : choice->words) out += (out.empty() ? "" : " | ") + word;
+    return out;
+  }
+  if (std::holds_alternative<bool*>(key.target)) return "true | false";
+  if (key.low == key.high) return "";
+  return shortest(key.low) + " .. " + shortest(key.high);
+}
+
+std::string toml_quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\', out += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      constexpr char digits[] = "0123456789abcdef";
+      out += "\\u00", out += digits[code >> 4], out += digits[code & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+}  // namespace lilytank

@@ -1,0 +1,240 @@
+#include "io/units.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+struct NamedUnit {
+  std::string_view name;
+  Unit unit;
+  bool prefixes;
+};
+
+constexpr double kDegree = 0.017453292519943295;  // rad
+
+// Tried in this order, whole words first: "min" is a minute, "d" a day, "Pa" no prefix at all.
+constexpr NamedUnit kUnits[] = {
+    {"1", {{}, 0, 1}, false},
+    {"%", {{}, -2, 1}, false},
+    {"m", {{1, 0, 0, 0}, 0, 1}, true},
+    {"g", {{0, 1, 0, 0}, -3, 1}, true},
+    {"s", {{0, 0, 1, 0}, 0, 1}, true},
+    {"rad", {{0, 0, 0, 1}, 0, 1}, true},
+    {"min", {{0, 0, 1, 0}, 0, 60}, false},
+    {"h", {{0, 0, 1, 0}, 0, 3600}, false},
+    {"d", {{0, 0, 1, 0}, 0, 86400}, false},
+    {"deg", {{0, 0, 0, 1}, 0, kDegree}, false},
+    {"N", {{1, 1, -2, 0}, 0, 1}, true},
+    {"Hz", {{0, 0, -1, 0}, 0, 1}, true},
+    {"l", {{3, 0, 0, 0}, -3, 1}, true},
+    {"Pa", {{-1, 1, -2, 0}, 0, 1}, true},
+    {"J", {{2, 1, -2, 0}, 0, 1}, true},
+    {"W", {{2, 1, -3, 0}, 0, 1}, true},
+};
+
+struct Prefix {
+  std::string_view name;
+  int ten;
+};
+constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"\u00b5", -6}, {"m", -3},
+                                {"c", -2}, {"d", -1}, {"k", 3},       {"M", 6}};
+
+std::optional<Unit> named_unit(std::string_view word) {
+  for (const NamedUnit& known : kUnits) {
+    if (word == known.name) return known.unit;
+  }
+  for (const NamedUnit& known : kUnits) {
+    if (!known.prefixes || !word.ends_with(known.name)) continue;
+    for (const Prefix& prefix : kPrefixes) {
+      if (word.substr(0, word.size() - known.name.size()) != prefix.name) continue;
+      Unit unit = known.unit;
+      unit.ten += prefix.ten;
+      return unit;
+    }
+  }
+  return std::nullopt;
+}
+
+Unit power(const Unit& unit, int n) {
+  Unit out;
+  for (std::size_t i = 0; i < out.powers.size(); ++i) out.powers[i] = unit.powers[i] * n;
+  out.ten = unit.ten * n;
+  for (int i = 0; i < std::abs(n); ++i) out.scale *= unit.scale;
+  if (n < 0) out.scale = 1 / out.scale;
+  return out;
+}
+
+Unit product(const Unit& a, const Unit& b) {
+  Unit out;
+  for (std::size_t i = 0; i < out.powers.size(); ++i) out.powers[i] = a.powers[i] + b.powers[i];
+  out.ten = a.ten + b.ten, out.scale = a.scale * b.scale;
+  return out;
+}
+
+/// Reads factors joined by blanks, '*' and '/', each a word or a group, with '^' and a power.
+class UnitReader {
+ public:
+  explicit UnitReader(std::string_view text) : text_(text) {}
+
+  std::optional<Unit> whole() {
+    const auto unit = factors(0);
+    return at_ == text_.size() ? unit : std::nullopt;
+  }
+
+ private:
+  void skip_blanks() {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+  }
+
+  std::optional<Unit> factors(int depth) {
+    Unit out;
+    int sign = 1;
+    for (bool first = true;; first = false) {
+      skip_blanks();
+      if (at_ == text_.size() || text_[at_] == ')')
+        return first ? std::nullopt : std::optional(out);
+      if (!first && (text_[at_] == '*' || text_[at_] == '/')) {
+        sign = text_[at_++] == '/' ? -1 : 1;
+        skip_blanks();
+      }
+      const auto next = factor(depth);
+      if (!next) return std::nullopt;
+      out = product(out, power(*next, sign));
+      sign = 1;
+    }
+  }
+
+  std::optional<Unit> factor(int depth) {
+    std::optional<Unit> unit;
+    if (at_ < text_.size() && text_[at_] == '(') {
+      if (depth > 3) return std::nullopt;
+      ++at_;
+      unit = factors(depth + 1);
+      if (!unit || at_ == text_.size() || text_[at_++] != ')') return std::nullopt;
+    } else {
+      const std::size_t end = std::min(text_.find_first_of(" */^()", at_), text_.size());
+      unit = named_unit(text_.substr(at_, end - at_));
+      at_ = end;
+    }
+    if (!unit || at_ == text_.size() || text_[at_] != '^') return unit;
+    int n = 0;
+    const char* begin = text_.data() + at_ + 1;
+    const auto [end, problem] = std::from_chars(begin, text_.data() + text_.size(), n);
+    if (problem != std::errc() || std::abs(n) > 9) return std::nullopt;
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return power(*unit, n);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+/// The decimal number `digits` times 10^shift, rounded once.
+std::optional<double> shifted(std::string_view digits, int shift) {
+  const auto e = digits.find_first_of("eE");
+  int exponent = shift;
+  if (e != std::string_view::npos) {
+    const auto written = parse_whole(digits.substr(e + 1));
+    if (!written || std::abs(*written) > 9999) return std::nullopt;
+    exponent += static_cast<int>(*written);
+  }
+  return parse_number(std::string(digits.substr(0, e)) + "e" + std::to_string(exponent));
+}
+
+struct Dimension {
+  std::string_view unit, name;
+};
+constexpr Dimension kDimensions[] = {
+    {"m", "a length"},
+    {"kg", "a mass"},
+    {"s", "a time"},
+    {"rad", "an angle"},
+    {"N", "a force"},
+    {"m/s", "a speed"},
+    {"1/s", "a rate"},
+    {"rad/s", "a spin"},
+    {"m^2", "an area"},
+    {"N m", "a torque"},
+    {"N/m", "a stiffness"},
+    {"kg/m^3", "a density"},
+    {"m/s^2", "an acceleration"},
+    {"m^3", "a volume"},
+    {"kg m^2", "a moment of inertia"},
+};
+
+std::string_view dimension_name(std::string_view unit) {
+  const auto wanted = parse_unit(unit);
+  for (const Dimension& dimension : kDimensions) {
+    if (wanted && wanted->same_dimension(*parse_unit(dimension.unit))) return dimension.name;
+  }
+  return "a value";
+}
+
+}  // namespace
+
+std::optional<Unit> parse_unit(std::string_view text) {
+  return UnitReader(text).whole();
+}
+
+std::string described(std::string_view unit) {
+  if (unit == "1" || unit.empty()) return "a number without a unit";
+  if (unit == "%") return "a share in %";
+  return std::string(dimension_name(unit)) + " in " + std::string(unit);
+}
+
+double read_quantity(std::string_view text, std::string_view unit, std::string_view path,
+                     const SourcePlace& place) {
+  const std::string quoted = "\"" + std::string(text) + "\"", name(path);
+  std::string_view rest = trimmed(text);
+  if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
+  double ignored = 0;
+  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), ignored);
+  const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data()));
+  const bool number = problem == std::errc() && std::isfinite(ignored);
+  if (!number) {
+    throw InputError(
+        place, name + " = " + quoted + " is not a number; " + name + " is " + described(unit));
+  }
+  const std::string_view given = trimmed(rest.substr(digits.size()));
+  if (given.empty()) {
+    throw InputError(place, name + " = " + quoted + " has no unit - write " + std::string(digits) +
+                                " without quotes for SI units, or name the unit");
+  }
+  const auto wanted = parse_unit(unit), found = parse_unit(given);
+  if (given == unit) return *parse_number(digits);
+  if (!found) {
+    throw InputError(place, "'" + std::string(given) + "' is not a unit known here; " + name +
+                                " is " + described(unit));
+  }
+  if (!wanted || !found->same_dimension(*wanted)) {
+    throw InputError(place,
+                     name + " is " + described(unit) + "; '" + std::string(given) + "' is not");
+  }
+  const auto value = shifted(digits, found->ten - wanted->ten);
+  const double scaled = value ? *value * (found->scale / wanted->scale) : HUGE_VAL;
+  if (!std::isfinite(scaled)) throw InputError(place, name + " = " + quoted + " is too large");
+  return scaled;
+}
+
+std::string unit_hint(double value, std::string_view unit, double low, double high) {
+  constexpr std::string_view kCommon[] = {"mm",   "cm",   "g",    "ms",   "min",
+                                          "h",    "mN",   "deg",  "%",    "mm^2",
+                                          "cm^2", "mm/s", "cm/s", "mN m", "deg/s"};
+  const auto wanted = parse_unit(unit);
+  if (!wanted) return {};
+  for (const std::string_view name : kCommon) {
+    const auto common = parse_unit(name);
+    if (name == unit || !common || !common->same_dimension(*wanted)) continue;
+    const std::string written = shortest(value) + " " + std::string(name);
+    const double meant = read_quantity(written, unit, "", {});
+    if (meant < low || meant > high || meant == value) continue;
+    return " - if this is in " + std::string(name) + ", write \"" + written + "\"";
+  }
+  return {};
+}
+
+}  // namespace lilytank

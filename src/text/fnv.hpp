@@ -1,0 +1,24 @@
+// FNV-1a, 64 bits: short names for long texts. Not meant against forgery.
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+namespace lilytank {
+
+/// A running hash [Fowler, Noll and Vo].
+class Fnv {
+ public:
+  /// Adds a text and its end, so that ("ab", "c") and ("a", "bc") differ.
+  void add(std::string_view text) {
+    for (const char c : text) byte(static_cast<unsigned char>(c));
+    for (std::uint64_t n = text.size(); n != 0; n >>= 8) byte(static_cast<unsigned char>(n));
+    byte(0);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void byte(unsigned char b) { value_ = (value_ ^ b) * 0x100000001b3; }
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+}  // namespace lilytank
