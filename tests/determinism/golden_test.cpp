@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
 #include "support/scenes.hpp"
 
