@@ -77,6 +77,9 @@ Match match(const Ruleset& rules, Label initiator, Label responder, bool standin
 /// column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
 Ruleset read_ruleset(const std::string& file);
+/// Throws InputError where a p is outside [0,1] or the rules that share a left side (and with it one
+/// random number) have p that add up to more than 1. For callers that change p after reading.
+void check_probabilities(const Ruleset& rules);
 /// Writes a ruleset so that parse_ruleset gives it back.
 std::string to_text(const Ruleset& rules);
 

@@ -2,9 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "lilytank/world.hpp"
-#include "physics/assembly.hpp"
-#include "physics/motion.hpp"
+#include "control/docking.hpp"
+#include "control/exchange.hpp"
 
 namespace lilytank {
 
@@ -12,14 +11,18 @@ namespace lilytank {
 class Controller {
  public:
   explicit Controller(const Model& model);
-  /// One tick: commands that are due, docking, exchange by the model's clock, faces that come on
-  /// again. Changes `state` and `assemblies`, appends to `events`, adds to `tallies`.
+  /// One tick: commands that are due, faces that come on again, docking, exchange by the model's
+  /// clock. Changes `state` and `assemblies`, appends to `events`, adds to `tallies`.
   void tick(State& state, Assemblies& assemblies, Motion& motion, std::vector<Event>& events,
             Tallies& tallies);
 
  private:
+  void commands(Tick& tick) const;
+  void obey(Tick& tick, const Command& command) const;
+
   const Model* model_;
-  std::vector<std::uint8_t> peer_;  ///< [4 * modules] a face of a neighbour is in reach
+  Docking docking_;
+  Exchange exchange_;
 };
 
 }  // namespace lilytank

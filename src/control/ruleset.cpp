@@ -1,0 +1,54 @@
+#include "lilytank/ruleset.hpp"
+
+#include <algorithm>
+
+namespace lilytank {
+
+int hop_of(int last, int connector) {
+  return last < 0 ? 0 : ((connector - last) & 3) + 1;
+}
+
+int last_after(int connector, int hop) {
+  return hop == 0 ? -1 : (connector + hop - 1) & 3;
+}
+
+int reverse_hop(int hop) {
+  return hop == 0 ? 0 : ((1 - hop) & 3) + 1;
+}
+
+Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u) {
+  Match found;
+  double share = 0;  // of [0,1), taken by the rules before this one
+  for (std::size_t k = 0; k < rules.rules.size(); ++k) {
+    const Rule& rule = rules.rules[k];
+    if ((rule.kind != RuleKind::link) != standing) continue;
+    const bool straight = rule.before[0] == initiator && rule.before[1] == responder;
+    const bool swapped = rule.before[0] == responder && rule.before[1] == initiator;
+    if (!straight && !swapped) continue;
+    found.applicable = true;
+    share += rule.p;
+    // A share of 1 takes all, whatever the rounding of the sum.
+    if (u < share || share >= 1) {
+      found.rule = static_cast<int>(k);
+      found.swapped = !straight;
+      return found;
+    }
+  }
+  return found;
+}
+
+std::vector<Cell> canonical_shape(std::vector<Cell> cells) {
+  std::vector<Cell> best;
+  for (int turn = 0; turn < 4 && !cells.empty(); ++turn) {
+    std::vector<Cell> moved = cells;
+    Cell low = moved.front();
+    for (const Cell& cell : moved) low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
+    for (Cell& cell : moved) cell = {cell.x - low.x, cell.y - low.y};
+    std::sort(moved.begin(), moved.end());
+    if (best.empty() || moved < best) best = std::move(moved);
+    for (Cell& cell : cells) cell = {-cell.y, cell.x};
+  }
+  return best;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,49 @@
+#include "control/tick.hpp"
+
+#include <utility>
+
+namespace lilytank {
+
+void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule) {
+  if (b.module >= 0 && b.module < a.module) std::swap(a, b);
+  Event event;
+  event.step = tick.state.step;
+  event.kind = kind;
+  event.rule = static_cast<std::int16_t>(rule);
+  event.a = a.module;
+  event.label_a = tick.state.firmware[a.module].label;
+  event.last_a = tick.state.firmware[a.module].last;
+  if (b.module >= 0) {
+    event.face_a = static_cast<std::int8_t>(a.face);
+    event.b = b.module;
+    event.face_b = static_cast<std::int8_t>(b.face);
+    event.label_b = tick.state.firmware[b.module].label;
+    event.last_b = tick.state.firmware[b.module].last;
+  }
+  tick.events.push_back(event);
+}
+
+namespace {
+
+void set_face(State& state, Connector at, Connector partner, FaceStatus status) {
+  Face& face = face_of(state, at);
+  face = Face{};
+  face.status = status;
+  face.partner = partner.module;
+  face.partner_face = static_cast<std::uint8_t>(partner.face);
+}
+
+}  // namespace
+
+void hold(State& state, Connector a, Connector b) {
+  set_face(state, a, b, FaceStatus::latched);
+  set_face(state, b, a, FaceStatus::latched);
+}
+
+void release(Tick& tick, Connector a, Connector b) {
+  set_face(tick.state, a, {}, FaceStatus::off);
+  set_face(tick.state, b, {}, FaceStatus::off);
+  split(tick.model, tick.state, tick.assemblies, a.module);
+}
+
+}  // namespace lilytank

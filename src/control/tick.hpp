@@ -1,0 +1,46 @@
+// What one tick of the modules' firmware works on.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "lilytank/world.hpp"
+#include "physics/assembly.hpp"
+#include "physics/motion.hpp"
+
+namespace lilytank {
+
+/// All that may be read and changed during one tick of 25 ms, handed from part to part.
+struct Tick {
+  const Model& model;
+  State& state;
+  Assemblies& assemblies;
+  Motion& motion;
+  std::vector<Event>& events;
+  Tallies& tallies;
+  std::int64_t number;  ///< ticks since the start
+
+  bool on(int module) const { return state.firmware[module].power == Power::on; }
+};
+
+/// One connector of one module.
+struct Connector {
+  std::int32_t module = -1;
+  std::int32_t face = 0;
+};
+
+inline Face& face_of(State& state, Connector at) {
+  return state.faces[4 * at.module + at.face];
+}
+inline bool holds(const Face& face) {
+  return face.partner >= 0;
+}
+
+/// Makes two faces hold each other as a new latch. No event, and the assemblies stay as they are.
+void hold(State& state, Connector a, Connector b);
+/// Two faces that hold each other let go: both are off from now on, and the assembly falls into
+/// its parts. No event; labels are the caller's.
+void release(Tick& tick, Connector a, Connector b);
+/// Reports what happened between two modules, the lower one first, with their states as they are.
+void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule = -1);
+
+}  // namespace lilytank
