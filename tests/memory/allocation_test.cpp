@@ -1,0 +1,53 @@
+// A world takes no memory after its first step, and little before.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "support/scenes.hpp"
+
+namespace {
+std::atomic<std::int64_t> calls{0}, bytes{0};
+}
+
+void* operator new(std::size_t size) {
+  ++calls, bytes += static_cast<std::int64_t>(size);
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t align) {
+  ++calls, bytes += static_cast<std::int64_t>(size);
+  const auto a = static_cast<std::size_t>(align);
+  if (void* memory = std::aligned_alloc(a, (size + a - 1) / a * a)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace lilytank {
+namespace {
+
+TEST(Memory, NothingIsAllocatedAfterTheFirstStep) {
+  for (const Model& model : {test::chain_scene(Clock::firmware), test::chain_scene(Clock::events),
+                             test::mixed_scene(), test::packed_scene()}) {
+    World world(model, 5);
+    world.step();
+    const std::int64_t before = calls;
+    for (int step = 0; step < 20000; ++step) ASSERT_EQ(world.step(), RunStatus::ok);
+    EXPECT_EQ(calls, before);
+  }
+}
+
+TEST(Memory, AWorldOfFifteenLiliesHoldsUnder100Kilobytes) {
+  const Model model = test::chain_scene(Clock::firmware);
+  const std::int64_t before = bytes;
+  World world(model, 5);
+  world.step();
+  EXPECT_LT(bytes - before, 100000);
+}
+
+}  // namespace
+}  // namespace lilytank
