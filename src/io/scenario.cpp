@@ -142,25 +142,16 @@ class Loader {
                                                     " m: bodies of " + shortest(widest) +
                                                     " m would overlap on the lattice");
     }
-    check_shares(draft_.rules);
+    check_rules();
   }
 
-  // Rules with one left side share the unit interval.
-  void check_shares(const Ruleset& rules) const {
-    for (const Rule& rule : rules.rules) {
-      double sum = 0;
-      for (const Rule& other : rules.rules) {
-        const bool turned = other.before[0] == rule.before[1] && other.before[1] == rule.before[0];
-        const bool same = (rule.kind == RuleKind::link) == (other.kind == RuleKind::link);
-        if (same && (other.before == rule.before || turned)) sum += other.p;
-      }
+  // Rules with one left side share a random number; a p set here counts where it was set.
+  void check_rules() {
+    for (Rule& rule : draft_.rules.rules) {
       const std::string path = "rules." + rule.name + ".p";
-      if (sum > 1 + 1e-9 && was_set(path)) {
-        throw InputError(place(path), path + " = " + shortest(rule.p) +
-                                          ": the rules with its left side then sum to " +
-                                          shortest(sum) + ", more than 1");
-      }
+      if (was_set(path)) rule.where = place(path);
     }
+    check_probabilities(draft_.rules);
   }
 
   void build_forces() {

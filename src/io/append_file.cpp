@@ -1,0 +1,72 @@
+#include "io/append_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+
+#include "io/atomic_file.hpp"
+
+namespace lilytank {
+namespace {
+constexpr std::size_t kPiece = 1 << 18;  // bytes
+}
+
+AppendFile::AppendFile(std::string file, std::int64_t keep_bytes) : file_(std::move(file)) {
+  const int fresh = keep_bytes < 0 ? O_CREAT | O_TRUNC : 0;
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC | fresh, 0666);
+  if (descriptor_ < 0) throw InputError(system_problem("cannot write", file_, errno));
+  if (keep_bytes < 0) return;
+  struct stat now {};
+  const bool known = ::fstat(descriptor_, &now) == 0;
+  if (!known || now.st_size < keep_bytes || ::ftruncate(descriptor_, keep_bytes) != 0 ||
+      ::lseek(descriptor_, keep_bytes, SEEK_SET) != keep_bytes) {
+    ::close(std::exchange(descriptor_, -1));
+    throw InputError("'" + file_ + "' is shorter than its checkpoint says: it was changed");
+  }
+  length_ = keep_bytes;
+}
+
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      waiting_(std::move(other.waiting_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      length_(other.length_) {}
+
+AppendFile::~AppendFile() {
+  if (descriptor_ < 0) return;
+  try {
+    hand_over();
+  } catch (const InputError&) {  // a destructor has nobody to tell
+  }
+  ::close(descriptor_);
+}
+
+void AppendFile::append(std::string_view text) {
+  waiting_ += text;
+  if (waiting_.size() >= kPiece) hand_over();
+}
+
+void AppendFile::hand_over() {
+  std::string_view rest = waiting_;
+  while (!rest.empty()) {
+    const ssize_t n = ::write(descriptor_, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw InputError(system_problem("cannot write", file_, errno));
+    rest.remove_prefix(static_cast<std::size_t>(n));
+    length_ += n;
+  }
+  waiting_.clear();
+}
+
+std::int64_t AppendFile::flush() {
+  hand_over();
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) {
+    throw InputError(system_problem("cannot write", file_, errno));
+  }
+  return length_;
+}
+
+}  // namespace lilytank

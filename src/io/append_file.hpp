@@ -1,0 +1,32 @@
+// A file that only grows, and can be cut back to where a checkpoint left it.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace lilytank {
+
+/// Collects text and appends it in large pieces. Not shared between threads.
+class AppendFile {
+ public:
+  /// Begins an empty file, or goes on in an existing one cut to `keep_bytes` >= 0. Throws
+  /// InputError if the file cannot be opened or is shorter than that.
+  explicit AppendFile(std::string file, std::int64_t keep_bytes = -1);
+  /// Hands over what is left; problems are then lost, so flush first.
+  ~AppendFile();
+  AppendFile(AppendFile&& other) noexcept;
+  AppendFile& operator=(AppendFile&&) = delete;
+
+  /// Throws InputError if the disk is full or fails.
+  void append(std::string_view text);
+  /// Everything appended so far is on the disk on return; returns the file's length in bytes.
+  std::int64_t flush();
+
+ private:
+  void hand_over();
+  std::string file_, waiting_;
+  int descriptor_ = -1;
+  std::int64_t length_ = 0;
+};
+
+}  // namespace lilytank

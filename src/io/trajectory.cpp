@@ -1,0 +1,49 @@
+#include "lilytank/trajectory.hpp"
+
+#include "io/atomic_file.hpp"
+#include "io/trajectory_format.hpp"
+
+namespace lilytank {
+namespace {
+
+class NoWriter final : public TrajectoryWriter {
+ public:
+  void write(const World&, const std::vector<std::uint8_t>&) override {}
+  std::int64_t flush() override { return 0; }
+};
+
+}  // namespace
+
+Markings markings_of(const World& world, int module, const std::vector<std::uint8_t>& complete) {
+  const State& state = world.state();
+  const auto i = static_cast<std::size_t>(module);
+  Markings out;
+  out.label = static_cast<std::int16_t>(state.firmware[i].label);
+  out.last = state.firmware[i].last;
+  for (std::size_t f = 0; f < 4; ++f) {
+    const FaceStatus status = state.faces[4 * i + f].status;
+    const bool bonded = status == FaceStatus::bonded;
+    const int bit = 1 << f;
+    if (bonded) out.bonded = static_cast<std::uint8_t>(out.bonded | bit);
+    if (bonded || status == FaceStatus::latched) {
+      out.latched = static_cast<std::uint8_t>(out.latched | bit);
+    }
+  }
+  if (i < complete.size()) out.complete = complete[i];
+  return out;
+}
+
+std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
+                                                  const Model& model, std::int64_t keep_bytes) {
+  if (format == TrajectoryFormat::csv) return open_csv_trajectory(file, keep_bytes);
+  if (format == TrajectoryFormat::binary) return open_binary_trajectory(file, model, keep_bytes);
+  return std::make_unique<NoWriter>();
+}
+
+Trajectory read_trajectory(const std::string& file) {
+  const std::string content = read_whole(file);
+  const bool binary = std::string_view(content).starts_with(kTrajectoryMagic);
+  return binary ? parse_binary_trajectory(content, file) : parse_csv_trajectory(content, file);
+}
+
+}  // namespace lilytank
