@@ -1,0 +1,150 @@
+#include "bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palette.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Colour kBall{0.992, 0.988, 0.976};
+constexpr Colour kBallLine{0.471, 0.443, 0.400};
+
+FaceLook face_look(const Markings& m, int face, bool latches) {
+  const int bit = 1 << face;
+  if (m.bonded & bit) return FaceLook::bonded;
+  if (m.latched & bit) return FaceLook::latched;
+  return latches ? FaceLook::free : FaceLook::off;
+}
+
+}  // namespace
+
+BodyPainter::BodyPainter(const Model& model, const View& view, bool labels)
+    : model_(model), view_(view), labels_(labels) {}
+
+ModulePlace BodyPainter::place(const BodyPose& pose) const {
+  return {view_.x(pose.x), view_.y(pose.y), pose.theta, view_.scale * model_.module.side};
+}
+
+ModuleLook BodyPainter::look(const Snapshot& now, int i) const {
+  ModuleLook look;
+  look.fill = palette::isolated;
+  look.faces.fill(FaceLook::off);
+  if (now.marks.empty()) return look;
+  const Markings& m = now.marks[static_cast<std::size_t>(i)];
+  look.fill = colour_of_state(m.label);
+  if (!m.complete) look.fill = mixed(look.fill, palette::paper, 0.28);
+  for (int face = 0; face < 4; ++face) {
+    look.faces[static_cast<std::size_t>(face)] = face_look(m, face, model_.control.latches);
+  }
+  if (labels_) {
+    look.label = std::to_string(m.label);
+    look.last = m.last;
+  }
+  return look;
+}
+
+void BodyPainter::shadows(const Canvas& canvas, const Snapshot& now) const {
+  for (std::size_t i = 0; i < now.poses.size(); ++i) {
+    ModulePlace p = place(now.poses[i]);
+    p.x += 2.5, p.y += 4;
+    if (static_cast<int>(i) < now.modules)
+      module_path(canvas, p);
+    else
+      canvas.circle(p.x, p.y, view_.scale * model_.ball.radius);
+  }
+  canvas.fill(faded(palette::ink, 0.13));
+}
+
+void BodyPainter::halo(const Canvas& canvas, const Snapshot& now) const {
+  bool any = false;
+  for (int i = 0; i < now.modules; ++i) {
+    if (!now.complete(i)) continue;
+    module_path(canvas, place(now.poses[static_cast<std::size_t>(i)]));
+    any = true;
+  }
+  if (any) draw_halo(canvas);
+}
+
+void BodyPainter::balls(const Canvas& canvas, const Snapshot& now) const {
+  const double radius = view_.scale * model_.ball.radius, line = 1.8;
+  for (std::size_t i = static_cast<std::size_t>(now.modules); i < now.poses.size(); ++i) {
+    const double x = view_.x(now.poses[i].x), y = view_.y(now.poses[i].y);
+    canvas.circle(x, y, radius);
+    canvas.fill(kBall);
+    canvas.circle(x, y, radius - line / 2);
+    canvas.stroke(kBallLine, line);
+    cairo_new_sub_path(canvas.get());  // a gleam, so that a ball does not look like a hole
+    cairo_arc(canvas.get(), x, y, 0.66 * radius, 1.12 * kPi, 1.42 * kPi);
+    canvas.stroke(faded(kBallLine, 0.45), line);
+  }
+}
+
+void BodyPainter::bodies(const Canvas& canvas, const Snapshot& now) const {
+  shadows(canvas, now);
+  balls(canvas, now);
+  halo(canvas, now);
+  for (int i = 0; i < now.modules; ++i) {
+    draw_module(canvas, place(now.poses[static_cast<std::size_t>(i)]), look(now, i));
+  }
+  for (int i = 0; i < now.modules; ++i) {
+    draw_connectors(canvas, place(now.poses[static_cast<std::size_t>(i)]), look(now, i));
+  }
+}
+
+void BodyPainter::collect_trail(const Trajectory& trajectory, const Snapshot& now, double seconds,
+                                int body) {
+  trail_.clear();
+  const auto b = static_cast<std::size_t>(body);
+  const auto bodies = static_cast<std::size_t>(trajectory.bodies);
+  trail_.push_back({{start_.poses[b].x, start_.poses[b].y}, now.time - start_.time});
+  for (int f = start_.frame + 1; f <= now.frame; ++f) {
+    const std::size_t i = static_cast<std::size_t>(f) * bodies + b;
+    const double age = now.time - trajectory.time[static_cast<std::size_t>(f)];
+    if (age > 0 && age < seconds) trail_.push_back({{trajectory.x[i], trajectory.y[i]}, age});
+  }
+  trail_.push_back({{now.poses[b].x, now.poses[b].y}, 0});
+}
+
+// Straight pieces between stored frames would show corners: a Catmull-Rom spline rounds them.
+void BodyPainter::draw_trail(const Canvas& canvas, const Colour& colour, double seconds) const {
+  constexpr int kTones = 12;
+  cairo_t* c = canvas.get();
+  const std::size_t n = trail_.size();
+  const auto tone = [&](std::size_t i) {
+    const double age = 0.5 * (trail_[i].age + trail_[i + 1].age);
+    return std::clamp(static_cast<int>(kTones * (1 - age / seconds)), 0, kTones - 1);
+  };
+  for (std::size_t i = 0; i + 1 < n;) {
+    const int now = tone(i);
+    cairo_move_to(c, view_.x(trail_[i].at.x()), view_.y(trail_[i].at.y()));
+    for (; i + 1 < n && tone(i) == now; ++i) {
+      const Vec2 &p = trail_[i].at, &q = trail_[i + 1].at;
+      const Vec2 before = i > 0 ? trail_[i - 1].at : p, after = i + 2 < n ? trail_[i + 2].at : q;
+      const Vec2 k1 = p + (q - before) / 6, k2 = q - (after - p) / 6;
+      cairo_curve_to(c, view_.x(k1.x()), view_.y(k1.y()), view_.x(k2.x()), view_.y(k2.y()),
+                     view_.x(q.x()), view_.y(q.y()));
+    }
+    const double share = (now + 0.5) / kTones;
+    canvas.stroke(faded(colour, 0.62 * std::pow(share, 1.4)), (1.6 + 3.2 * share));
+  }
+}
+
+void BodyPainter::trails(const Canvas& canvas, const Trajectory& trajectory, const Snapshot& now,
+                         double seconds) {
+  if (!(seconds > 0)) return;
+  interpolate(trajectory, std::max(trajectory.time.front(), now.time - seconds), start_);
+  const Saved saved(canvas);
+  cairo_set_line_cap(canvas.get(), CAIRO_LINE_CAP_BUTT);
+  cairo_set_tolerance(canvas.get(), 0.3);
+  for (int body = 0; body < trajectory.bodies; ++body) {
+    collect_trail(trajectory, now, seconds, body);
+    const Colour own = body < now.modules && !now.marks.empty()
+                           ? colour_of_state(now.marks[static_cast<std::size_t>(body)].label)
+                           : palette::isolated;
+    draw_trail(canvas, mixed(own, palette::ink, 0.28), seconds);
+  }
+}
+
+}  // namespace lilytank

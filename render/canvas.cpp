@@ -1,0 +1,215 @@
+#include "canvas.hpp"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <new>
+
+#include "lilytank/error.hpp"
+#include "lilytank/math.hpp"
+
+namespace lilytank {
+namespace {
+
+// DejaVu is in every distribution and has all signs that the pictures use; where it is missing,
+// the system's sans serif steps in.
+constexpr char kFamily[] = "DejaVu Sans";
+
+const char* ending_of(PictureFormat format) {
+  switch (format) {
+    case PictureFormat::png:
+      return ".png";
+    case PictureFormat::svg:
+      return ".svg";
+    case PictureFormat::pdf:
+      return ".pdf";
+  }
+  return "";
+}
+
+// Called from C, so no exception may leave it.
+cairo_status_t append(void* sink, const unsigned char* data, unsigned length) {
+  try {
+    static_cast<std::string*>(sink)->append(reinterpret_cast<const char*>(data), length);
+  } catch (const std::bad_alloc&) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+  return CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace
+
+PictureFormat format_of(const std::string& file, std::span<const PictureFormat> allowed) {
+  std::string low = file, names;
+  for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const PictureFormat f : allowed) {
+    if (low.ends_with(ending_of(f)) && low.size() > 4) return f;
+    names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(ending_of(f));
+  }
+  throw InputError("cannot tell the picture's format from '" + file + "': its name must end in " +
+                   names);
+}
+
+Canvas::Canvas(cairo_surface_t* surface, std::unique_ptr<std::string> sink)
+    : sink_(std::move(sink)), surface_(surface), context_(cairo_create(surface)) {
+  if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
+    throw InputError(std::string("cannot make the picture: ") +
+                     cairo_status_to_string(cairo_surface_status(surface)));
+  }
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  // Without hinting a text has the same proportions at every size of the picture.
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(get(), options);
+  cairo_font_options_destroy(options);
+  cairo_set_line_join(get(), CAIRO_LINE_JOIN_ROUND);
+}
+
+Canvas Canvas::raster(int width, int height) {
+  return Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), nullptr);
+}
+
+Canvas Canvas::vector(PictureFormat format, double width, double height) {
+  auto sink = std::make_unique<std::string>();
+  cairo_surface_t* surface =
+      format == PictureFormat::pdf
+          ? cairo_pdf_surface_create_for_stream(append, sink.get(), width, height)
+          : cairo_svg_surface_create_for_stream(append, sink.get(), width, height);
+  if (format == PictureFormat::svg) {
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  }
+  return Canvas(surface, std::move(sink));
+}
+
+Canvas Canvas::page(PictureFormat format, double width, double height, double scale) {
+  if (format != PictureFormat::png) return vector(format, width, height);
+  Canvas canvas = raster(static_cast<int>(std::lround(width * scale)),
+                         static_cast<int>(std::lround(height * scale)));
+  cairo_scale(canvas.get(), scale, scale);
+  return canvas;
+}
+
+void Canvas::colour(const Colour& c) const {
+  cairo_set_source_rgba(get(), c.r, c.g, c.b, c.a);
+}
+
+void Canvas::fill(const Colour& c) const {
+  colour(c);
+  cairo_fill(get());
+}
+
+void Canvas::fill_keep(const Colour& c) const {
+  colour(c);
+  cairo_fill_preserve(get());
+}
+
+void Canvas::stroke(const Colour& c, double width) const {
+  colour(c);
+  cairo_set_line_width(get(), width);
+  cairo_stroke(get());
+}
+
+void Canvas::rounded(double x, double y, double width, double height, double radius) const {
+  const double r = std::min({radius, width / 2, height / 2});
+  cairo_new_sub_path(get());
+  cairo_arc(get(), x + width - r, y + r, r, -kPi / 2, 0);
+  cairo_arc(get(), x + width - r, y + height - r, r, 0, kPi / 2);
+  cairo_arc(get(), x + r, y + height - r, r, kPi / 2, kPi);
+  cairo_arc(get(), x + r, y + r, r, kPi, 1.5 * kPi);
+  cairo_close_path(get());
+}
+
+void Canvas::line(double x0, double y0, double x1, double y1, const Colour& c, double width) const {
+  cairo_move_to(get(), x0, y0);
+  cairo_line_to(get(), x1, y1);
+  stroke(c, width);
+}
+
+void Canvas::circle(double x, double y, double radius) const {
+  cairo_new_sub_path(get());
+  cairo_arc(get(), x, y, radius, 0, 2 * kPi);
+  cairo_close_path(get());
+}
+
+void Canvas::font(const TextStyle& style) const {
+  cairo_select_font_face(get(), kFamily, CAIRO_FONT_SLANT_NORMAL,
+                         style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(get(), style.size);
+}
+
+double Canvas::width_of(const std::string& s, const TextStyle& style) const {
+  font(style);
+  cairo_text_extents_t box;
+  cairo_text_extents(get(), s.c_str(), &box);
+  return box.x_advance;
+}
+
+void Canvas::text(double x, double y, const std::string& s, const TextStyle& style) const {
+  font(style);
+  double shift = 0;
+  if (style.align != Align::left) {
+    cairo_text_extents_t box;
+    cairo_text_extents(get(), s.c_str(), &box);
+    shift = style.align == Align::right ? box.x_advance : box.x_advance / 2;
+  }
+  colour(style.colour);
+  cairo_move_to(get(), x - shift, y);
+  cairo_show_text(get(), s.c_str());
+  cairo_new_path(get());
+}
+
+void Canvas::moving_text(double x, double y, const std::string& s, const TextStyle& style) const {
+  constexpr double kDigitHeight = 0.729;  // of DejaVu Sans, in font sizes
+  font(style);
+  cairo_text_extents_t box;
+  cairo_text_extents(get(), s.c_str(), &box);
+  cairo_move_to(get(), x - box.x_advance / 2, y + kDigitHeight / 2 * style.size);
+  cairo_text_path(get(), s.c_str());
+  fill(style.colour);
+}
+
+std::string Canvas::fitted(const std::string& s, double width, const TextStyle& style) const {
+  if (width_of(s, style) <= width) return s;
+  std::string cut = s;
+  while (!cut.empty()) {
+    // Take a whole UTF-8 character: its continuation bytes read 10xxxxxx.
+    while (!cut.empty() && (cut.back() & 0xC0) == 0x80) cut.pop_back();
+    if (!cut.empty()) cut.pop_back();
+    const std::string candidate = cut + "…";
+    if (width_of(candidate, style) <= width) return candidate;
+  }
+  return "…";
+}
+
+std::span<unsigned char> Canvas::pixels() const {
+  cairo_surface_t* s = surface_.get();
+  cairo_surface_flush(s);
+  const auto bytes = static_cast<std::size_t>(cairo_image_surface_get_stride(s)) *
+                     static_cast<std::size_t>(cairo_image_surface_get_height(s));
+  return {cairo_image_surface_get_data(s), bytes};
+}
+
+std::string Canvas::encoded() {
+  std::string bytes;
+  cairo_status_t status = cairo_status(get());
+  if (status == CAIRO_STATUS_SUCCESS) {
+    if (sink_) {
+      cairo_surface_finish(surface_.get());
+      status = cairo_surface_status(surface_.get());
+      bytes = std::move(*sink_);
+    } else {
+      cairo_surface_flush(surface_.get());
+      status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
+    }
+  }
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw InputError(std::string("cannot make the picture: ") + cairo_status_to_string(status));
+  }
+  return bytes;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,101 @@
+#include "frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "output_file.hpp"
+#include "palette.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kTankCentreX = 560, kTankCentreY = 540;
+constexpr double kTankRadius = 466;  // units; the rim and the inlets come on top
+constexpr Panel::Box kPanel{1130, 40, 730, 1000};
+
+const FrameStyle& checked(const FrameStyle& style, const StoredRun& run) {
+  if (style.size < 120 || style.size > 8640) {
+    throw InputError("the picture's height must be 120 .. 8640 pixels, not " +
+                     std::to_string(style.size));
+  }
+  if (!(style.trail >= 0)) throw InputError("the trail's length must be 0 s or more");
+  const Trajectory& t = run.trajectory;
+  check_time(t, t.time.empty() ? 0 : t.time.back());
+  return style;
+}
+
+View view_of(const Model& model) {
+  return {kTankCentreX, kTankCentreY, kTankRadius / model.tank.radius};
+}
+
+}  // namespace
+
+int width_for(int height) {
+  return 2 * static_cast<int>(std::lround(height * 8.0 / 9.0));
+}
+
+FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double speed)
+    : run_(run),
+      style_(checked(style, run)),
+      view_(view_of(run.scenario.model)),
+      panel_(run, style, kPanel, speed),
+      bodies_(run.scenario.model, view_, style.labels) {}
+
+void FramePainter::draw_static(const Canvas& canvas) const {
+  canvas.colour(palette::paper);
+  cairo_paint(canvas.get());
+  draw_tank(canvas, view_, run_.scenario.model, style_.flow);
+  draw_scale_bar(canvas, view_, run_.scenario.model, 60, 1036);
+  panel_.draw_static(canvas);
+}
+
+void FramePainter::draw_moving(const Canvas& canvas, double time) {
+  check_time(run_.trajectory, time);
+  interpolate(run_.trajectory, time, now_);
+  bodies_.trails(canvas, run_.trajectory, now_, style_.trail);
+  bodies_.bodies(canvas, now_);
+  panel_.draw_moving(canvas, now_);
+}
+
+FrameRaster::FrameRaster(const StoredRun& run, const FrameStyle& style, double speed, int height)
+    : width_(width_for(height)),
+      height_(height),
+      painter_(run, style, speed),
+      background_(Canvas::raster(width_, height_)),
+      page_(Canvas::raster(width_, height_)) {
+  for (const Canvas* canvas : {&background_, &page_}) {
+    cairo_scale(canvas->get(), width_ / FramePainter::kWidth, height_ / FramePainter::kHeight);
+  }
+  painter_.draw_static(background_);
+}
+
+Canvas& FrameRaster::draw(double time) {
+  const auto from = background_.pixels(), to = page_.pixels();
+  std::memcpy(to.data(), from.data(), to.size());
+  cairo_surface_mark_dirty(cairo_get_target(page_.get()));
+  painter_.draw_moving(page_, time);
+  return page_;
+}
+
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
+                const std::string& file) {
+  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg};
+  const PictureFormat format = format_of(file, kFormats);
+  check_time(run.trajectory, time);
+  if (format == PictureFormat::png) {
+    FrameRaster raster(run, style, 0, style.size);
+    write_whole(file, raster.draw(time).encoded());
+    return;
+  }
+  FramePainter painter(run, style, 0);
+  const double scale = style.size / FramePainter::kHeight;
+  Canvas canvas = Canvas::vector(format, width_for(style.size), style.size);
+  cairo_scale(canvas.get(), scale, scale);
+  painter.draw_static(canvas);
+  painter.draw_moving(canvas, time);
+  write_whole(file, canvas.encoded());
+}
+
+}  // namespace lilytank

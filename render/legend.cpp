@@ -1,0 +1,146 @@
+#include "legend.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "modules.hpp"
+#include "palette.hpp"
+#include "streamlines.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kChip = 44;       // side of a drawn module
+constexpr double kRow = 64;        // height of a row
+constexpr std::size_t kMost = 11;  // states that fit a row
+const TextStyle kText{20, palette::muted, false, Align::left};
+
+// The control states that modules of this run can have or had.
+std::vector<int> states_of(const StoredRun& run) {
+  std::set<int> states;
+  for (const Ruleset& rules : run.scenario.model.rulesets) {
+    for (const Rule& rule : rules.rules) {
+      for (const Label& l : rule.before) states.insert(l.state);
+      for (const Label& l : rule.after) states.insert(l.state);
+    }
+  }
+  for (const Markings& m : run.trajectory.markings) states.insert(m.label);
+  return {states.begin(), states.end()};
+}
+
+void draw_states(const Canvas& canvas, const std::vector<int>& states, double x, double y,
+                 double width) {
+  canvas.text(x, y + 7, "state", kText);
+  double at = x + 130 + kChip / 2;
+  const std::size_t shown = std::min(states.size(), kMost);
+  const double pitch = std::min(
+      kChip + 10, (width - 130 - kChip) / static_cast<double>(std::max<std::size_t>(shown, 2) - 1));
+  for (std::size_t i = 0; i < shown; ++i) {
+    ModuleLook look;
+    look.fill = colour_of_state(states[i]);
+    look.faces.fill(FaceLook::off);
+    look.label = std::to_string(states[i]);
+    const ModulePlace place{at, y, 0, std::min(kChip, pitch - 5)};
+    draw_module(canvas, place, look);
+    canvas.moving_text(place.x, place.y, look.label,
+                       {0.42 * place.side, readable_on(look.fill), true, Align::centre});
+    at += pitch;
+  }
+  if (shown < states.size())
+    canvas.text(at - pitch / 2 + 6, y + 7, "…", kText);
+  else if (at + 160 < x + width)
+    canvas.text(at - 8, y + 7, "0: isolated", kText);
+}
+
+// Two modules side by side whose common face looks like `face`.
+void draw_pair(const Canvas& canvas, FaceLook face, double x, double y) {
+  ModuleLook look;
+  look.fill = mixed(palette::isolated, palette::paper, 0.3);
+  look.faces.fill(FaceLook::off);
+  const double gap = face == FaceLook::free ? 7 : 0, half = kChip / 2;
+  ModuleLook left = look, right = look;
+  left.faces[0] = right.faces[2] = face;
+  const ModulePlace a{x - half - gap / 2, y, 0, 2 * half}, b{x + half + gap / 2, y, 0, 2 * half};
+  const Saved saved(canvas);
+  const double shown = 1.3 * half + gap / 2;  // of each; the rest is cut off
+  cairo_rectangle(canvas.get(), x - shown, y - half, 2 * shown, 2 * half);
+  cairo_clip(canvas.get());
+  draw_module(canvas, a, left);
+  draw_module(canvas, b, right);
+  draw_connectors(canvas, a, left);
+  draw_connectors(canvas, b, right);
+}
+
+void draw_faces(const Canvas& canvas, double x, double y) {
+  struct Entry {
+    FaceLook face;
+    const char* name;
+    double at;
+  };
+  canvas.text(x, y + 7, "faces", kText);
+  for (const Entry& e :
+       {Entry{FaceLook::free, "free", 130}, Entry{FaceLook::latched, "latched", 312},
+        Entry{FaceLook::bonded, "bonded", 524}}) {
+    draw_pair(canvas, e.face, x + e.at + 32, y);
+    canvas.text(x + e.at + 78, y + 7, e.name, kText);
+  }
+}
+
+void draw_marks(const Canvas& canvas, double x, double y) {
+  ModuleLook look;
+  look.fill = mixed(palette::isolated, palette::paper, 0.3);
+  look.faces.fill(FaceLook::off);
+  look.last = 0;
+  const ModulePlace place{x + 130 + kChip / 2, y, 0, kChip};
+  draw_module(canvas, place, look);
+  draw_connectors(canvas, place, look);
+  canvas.text(place.x + kChip / 2 + 14, y + 7, "engaged last", kText);
+
+  look.last = -1;
+  const ModulePlace done{x + 412, y, 0, kChip * 0.8};
+  module_path(canvas, done);
+  draw_halo(canvas);
+  draw_module(canvas, done, look);
+  canvas.text(done.x + kChip / 2 + 14, y + 7, "part of a finished copy", kText);
+}
+
+void draw_flow(const Canvas& canvas, const StoredRun& run, double x, double y) {
+  const Model& model = run.scenario.model;
+  canvas.text(x, y + 7, "water", kText);
+  char text[80];
+  std::snprintf(text, sizeof text, "mean flow, stronger where faster, up to %.2g m/s",
+                model.flow.K_v * peak_speed(*model.field, model.tank.radius));
+  for (int i = 0; i < 3; ++i) {
+    const double strength = 0.22 + 0.25 * i, top = y - 10 + 10 * i;
+    canvas.line(x + 130, top, x + 174, top, faded(palette::stream, strength), 1 + 0.7 * i);
+  }
+  canvas.text(x + 188, y + 7, text, kText);
+}
+
+bool has_flow(const StoredRun& run, const FrameStyle& style) {
+  return run.scenario.model.field && style.flow != FlowStyle::none;
+}
+bool has_labels(const StoredRun& run) {
+  return !run.trajectory.markings.empty();
+}
+
+}  // namespace
+
+void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, double x,
+                 double y, double width) {
+  double row = y + kRow / 2;
+  if (has_labels(run)) {
+    draw_states(canvas, states_of(run), x, row, width);
+    draw_faces(canvas, x, row + kRow);
+    draw_marks(canvas, x, row + 2 * kRow);
+    row += 3 * kRow;
+  }
+  if (has_flow(run, style)) draw_flow(canvas, run, x, row);
+}
+
+double legend_height(const StoredRun& run, const FrameStyle& style) {
+  return kRow * ((has_labels(run) ? 3 : 0) + (has_flow(run, style) ? 1 : 0));
+}
+
+}  // namespace lilytank

@@ -1,0 +1,15 @@
+// What the colours and signs of a frame mean.
+#pragma once
+#include "canvas.hpp"
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+
+/// Draws the legend of a run with its top left corner at (x, y), `width` units wide: control
+/// states, faces, finished copies and flow, as far as the run has them.
+void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, double x,
+                 double y, double width);
+/// Its height (units).
+double legend_height(const StoredRun& run, const FrameStyle& style);
+
+}  // namespace lilytank

@@ -1,0 +1,36 @@
+// The colours of all pictures: calm, and told apart by readers with any colour vision.
+#pragma once
+#include "canvas.hpp"
+
+namespace lilytank {
+
+/// Colours that have one meaning in every picture.
+namespace palette {
+inline constexpr Colour paper{1, 1, 1};
+inline constexpr Colour ink{0.122, 0.161, 0.200};
+inline constexpr Colour muted{0.345, 0.404, 0.447};
+inline constexpr Colour hairline{0.831, 0.859, 0.878};
+inline constexpr Colour water_centre{0.945, 0.973, 0.984};
+inline constexpr Colour water_edge{0.859, 0.925, 0.953};
+inline constexpr Colour stream{0.392, 0.588, 0.690};
+inline constexpr Colour rim{0.776, 0.816, 0.843};
+inline constexpr Colour rim_line{0.549, 0.612, 0.659};
+inline constexpr Colour halo{0.953, 0.643, 0.071};
+inline constexpr Colour accent{0.000, 0.353, 0.604};
+inline constexpr Colour isolated{0.831, 0.851, 0.867};
+}  // namespace palette
+
+/// The colour of control state l_a: neutral for 0, then nine hues after P. Tol's "muted" scheme,
+/// which begin again in lighter and darker tones.
+Colour colour_of_state(int state);
+/// The colour of curve i of a plot (after P. Tol's "bright" and "vibrant" schemes), six in turn.
+Colour colour_of_curve(int curve);
+
+/// `share` of b in a, 0 .. 1; the opacity is a's.
+Colour mixed(const Colour& a, const Colour& b, double share);
+/// The colour with another opacity.
+Colour faded(const Colour& c, double opacity);
+/// Ink or white, whichever reads better on `background`.
+Colour readable_on(const Colour& background);
+
+}  // namespace lilytank
