@@ -19,47 +19,64 @@ struct Species {
 };
 
 /// All species that a ruleset can make, by applying its rules to single modules until nothing new
-/// comes; `closed` is false where `limit` stopped it, and legality is then not judged.
+/// comes; `closed` is false where a limit stopped it, and legality is then not judged.
 struct SpeciesTable {
   std::vector<Species> species;
   bool closed = true;
   bool contains(const std::string& key) const;
 };
-SpeciesTable reachable_species(const Ruleset& rules, int limit = 4096);
+/// `limit` species at most, of `largest` modules at most: for worlds of no more modules than that
+/// the table is complete if it is closed. Rules with p = 0 do not fire. Joins of assemblies that
+/// would overlap are left out; contacts other than the one that joins stay without a bond.
+SpeciesTable reachable_species(const Ruleset& rules, int limit = 4096, int largest = 64);
 
-/// Follows a world: what stands now, and when copies of the target were completed.
+/// Follows a world: what stands now, and when copies of the target were completed. An assembly is
+/// what bonds connect (a new latch, not yet answered by a rule, connects nothing); in a model
+/// without rulesets it is what latches connect. A standing copy is an assembly of the target's
+/// shape, turned but not mirrored.
 class AssemblyRecord {
  public:
   explicit AssemblyRecord(const Model& model);
-  /// Call after every step (cheap where nothing changed). A ruleset change starts a new table.
+  /// Call after every step (cheap where nothing changed). A ruleset change starts a new table of
+  /// legal species, which holds what stood at that moment as well; a change of the target's shape
+  /// starts the count of copies anew.
   void observe(const World& world);
-  /// Rebuilds from a world (after a resume), keeping counters given by from_text.
-  int copies() const { return copies_; }             ///< of the target, standing now
+  int copies() const { return copies_; }  ///< of the target, standing now
   int most_copies() const { return most_copies_; }
   int possible_copies() const { return possible_; }  ///< floor(modules / target size)
   /// Time at which the number of standing copies first reached 1, 2, ... (s).
   const std::vector<double>& completion_times() const { return completion_; }
   /// Standing assemblies by size; [0] unused.
   const std::vector<int>& by_size() const { return by_size_; }
-  /// Assemblies ever seen that the ruleset cannot make (0 for a correct simulation).
+  /// How often an assembly has appeared that the ruleset cannot make (0 for a correct simulation).
   std::int64_t illegal() const { return illegal_; }
   /// Standing count of each species ever seen, by key.
   const std::map<std::string, int>& standing() const { return standing_; }
   const std::map<std::string, Species>& seen() const { return seen_; }
   /// [modules] 1 where the module is part of a standing copy.
   const std::vector<std::uint8_t>& complete() const { return complete_; }
-  /// Firings and evaluations by rule, [rules of all rulesets in order].
+  /// How often each rule fired: [ruleset][rule].
   const std::vector<std::vector<std::int64_t>>& firings() const { return firings_; }
-  /// Counters as text and back, for checkpoints.
+  /// Counters as text and back, for checkpoints: restore() makes a new record go on where the one
+  /// that wrote the text stood, and counts what stands from the world. Throws InputError if the
+  /// text is not of a record of this model.
   std::string to_text() const;
   void restore(const std::string& text, const World& world);
 
  private:
+  void start_table(int ruleset, bool keep_standing);
+  void build_table();
+  bool count_firings(const World& world);
+  void count(const World& world);
+  void count_assembly(const State& state, int first, std::vector<std::uint8_t>& done);
   void recount(const World& world);
+  bool connects(const Face& face) const;
+  bool take_line(const std::string& line);
   const Model* model_;
   int ruleset_ = -1;
   SpeciesTable table_;
-  std::vector<Cell> target_;
+  std::vector<std::string> seeds_;  // species, beside single modules, that the table begins with
+  std::vector<Cell> target_;        // canonical
   int copies_ = 0, most_copies_ = 0, possible_ = 0;
   std::int64_t illegal_ = 0;
   std::vector<double> completion_;

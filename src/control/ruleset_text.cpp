@@ -1,12 +1,12 @@
 // The text format of rulesets: reading, checking, writing.
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "control/ruleset_scanner.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -31,10 +31,6 @@ std::string text_of(Label label) {
 }
 std::string text_of(const std::array<Label, 2>& side, bool held) {
   return text_of(side[0]) + (held ? "-" : " ") + text_of(side[1]);
-}
-std::string text_of(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
 }
 bool held_before(const Rule& rule) {
   return rule.kind != RuleKind::link;
@@ -269,7 +265,7 @@ void check_probabilities(const Ruleset& rules) {
   for (std::size_t k = 0; k < rules.rules.size(); ++k) {
     const Rule& rule = rules.rules[k];
     if (!(rule.p >= 0 && rule.p <= 1))
-      throw InputError(rule.where, "rule '" + rule.name + "': p = " + text_of(rule.p) +
+      throw InputError(rule.where, "rule '" + rule.name + "': p = " + shortest(rule.p) +
                                        " is not a probability: expected 0 .. 1");
     double sum = 0;
     for (std::size_t m = 0; m <= k; ++m) {
@@ -284,7 +280,7 @@ void check_probabilities(const Ruleset& rules) {
       throw InputError(rule.where, "rule '" + rule.name + "': the rules with left side " +
                                        text_of(rule.before, held_before(rule)) +
                                        " share one random number, and their p add up to " +
-                                       text_of(sum) + ", more than 1");
+                                       shortest(sum) + ", more than 1");
   }
 }
 
@@ -320,7 +316,7 @@ std::string to_text(const Ruleset& rules) {
   for (const Rule& rule : rules.rules) {
     out += rule.name + ":" + std::string(width - rule.name.size() + 1, ' ');
     out += text_of(rule.before, held_before(rule)) + " -> " + text_of(rule.after, held_after(rule));
-    out += "  p=" + text_of(rule.p) + "\n";
+    out += "  p=" + shortest(rule.p) + "\n";
   }
   return out;
 }
