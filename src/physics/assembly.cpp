@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kStepX[4] = {1, 0, -1, 0}, kStepY[4] = {0, 1, 0, -1};
 
-
 Cell turned(Cell c, int quarters) {
   switch (quarters & 3) {
     case 0:

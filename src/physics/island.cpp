@@ -1,0 +1,195 @@
+#include "island.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "small_turn.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kStride = 1.5e-3;     // m, most that a pair moves relatively in a substep
+constexpr double kTurnError = 6e-5;    // m, most that an arc strays from its tangent in a substep
+constexpr double kWallShare = 0.3;     // the round wall is smooth: sliding along it costs less
+constexpr double kLongestPush = 2e-3;  // m, per contact and sweep
+
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
+// Longest way of any point of a mover from one pose to another.
+double way(const Mover& m, const Pose& from) {
+  const Pose& to = m.pose;
+  return length(to.x - from.x, to.y - from.y) +
+         m.reach * length(to.r.c - from.r.c, to.r.s - from.r.s);
+}
+
+// Velocity of a point (ox, oy in the mover's frame).
+Vec2 velocity_at(const Mover& m, double ox, double oy) {
+  const double rx = m.pose.r.c * ox - m.pose.r.s * oy, ry = m.pose.r.s * ox + m.pose.r.c * oy;
+  return {m.twist.vx - m.twist.omega * ry, m.twist.vy + m.twist.omega * rx};
+}
+
+}  // namespace
+
+Island::Island(const Model& model)
+    : half_(0.5 * model.module.side), radius_(model.ball.radius), tank_(model.tank.radius) {
+  const auto n = static_cast<std::size_t>(model.bodies());
+  movers_.reserve(n + 1);
+  nears_.reserve(std::min(n * (n + 1) / 2, 24 * n));
+  clear();
+}
+
+void Island::clear() {
+  movers_.clear();
+  movers_.emplace_back();
+  movers_[0].turn_limit = 1;
+  nears_.clear();
+}
+
+int Island::add(const Mover& mover) {
+  movers_.push_back(mover);
+  Mover& m = movers_.back();
+  m.start = m.good = m.pose;
+  m.turn_limit = std::sqrt(2 * kTurnError / m.reach);
+  return static_cast<int>(movers_.size()) - 1;
+}
+
+void Island::add(const Near& near) {
+  nears_.push_back(near);
+}
+
+void Island::sort_pairs() {
+  std::sort(nears_.begin(), nears_.end(), [](const Near& p, const Near& q) {
+    return p.order_a != q.order_a ? p.order_a < q.order_a : p.order_b < q.order_b;
+  });
+}
+
+double Island::separation(const Near& near) const {
+  const Mover &a = movers_[near.a], &b = movers_[near.b];
+  switch (near.kind) {
+    case PairKind::squares:
+      return lilytank::separation(square_of(a, near.ax, near.ay, half_, 0),
+                                  square_of(b, near.bx, near.by, half_, 0));
+    case PairKind::square_disc:
+      return lilytank::separation(square_of(a, near.ax, near.ay, half_, 0), disc_of(b, radius_));
+    case PairKind::discs:
+      return lilytank::separation(disc_of(a, radius_), disc_of(b, radius_));
+    case PairKind::wall_square:
+      return wall_separation(square_of(b, near.bx, near.by, half_, 0), tank_);
+    default:
+      return wall_separation(disc_of(b, radius_), tank_);
+  }
+}
+
+Survey Island::survey(double left) {
+  Survey s{0, left, 0, left};
+  const double corner = half_ * std::sqrt(2.0);
+  for (Near& near : nears_) {
+    const Mover &a = movers_[near.a], &b = movers_[near.b];
+    near.separation = separation(near);
+    s.deepest = std::max(s.deepest, -near.separation);
+    const Vec2 va = velocity_at(a, near.ax, near.ay), vb = velocity_at(b, near.bx, near.by);
+    const double vx = vb.x() - va.x(), vy = vb.y() - va.y();
+    const double wa = a.twist.omega, wb = b.twist.omega;
+    const double closing = length(vx, vy) + corner * (std::fabs(wa) + std::fabs(wb));
+    s.fastest = std::max(s.fastest, closing);
+    if (closing == 0 || near.separation > closing * left) continue;
+    s.free_time = std::min(s.free_time, 0.9 * std::max(near.separation, 0.0) / closing);
+    // What matters for contact points is motion relative to axes that turn with the pair.
+    double pace = kWallShare * closing;
+    if (near.a != 0) {
+      const double mean = 0.5 * (wa + wb);
+      const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y;
+      const double ux = b.twist.vx - a.twist.vx + mean * dy,
+                   uy = b.twist.vy - a.twist.vy - mean * dx;
+      pace = length(ux, uy) + 0.5 * std::fabs(wa - wb) * (a.reach + b.reach);
+    }
+    if (pace * s.longest > kStride) s.longest = kStride / pace;
+    if (std::fabs(wa) * s.longest > a.turn_limit) s.longest = a.turn_limit / std::fabs(wa);
+    if (std::fabs(wb) * s.longest > b.turn_limit) s.longest = b.turn_limit / std::fabs(wb);
+  }
+  return s;
+}
+
+void Island::move(double h) {
+  for (std::size_t k = 1; k < movers_.size(); ++k) {
+    Mover& m = movers_[k];
+    m.pose.x += h * m.twist.vx;
+    m.pose.y += h * m.twist.vy;
+    if (m.twist.omega != 0) m.pose.r = turned_by(m.pose.r, h * m.twist.omega);
+  }
+}
+
+// Moves two bodies apart at a point by masses and inertias, as an impulse would.
+void Island::push(Mover& a, Mover& b, double nx, double ny, const Touch& touch) {
+  const double ax = touch.x - a.pose.x, ay = touch.y - a.pose.y;
+  const double bx = touch.x - b.pose.x, by = touch.y - b.pose.y;
+  const double arm_a = ax * ny - ay * nx, arm_b = bx * ny - by * nx;
+  const double k =
+      a.inv_mass + b.inv_mass + a.inv_inertia * arm_a * arm_a + b.inv_inertia * arm_b * arm_b;
+  const double j = std::min(-touch.gap - kPushTo, kLongestPush) / k;
+  a.pose.x -= j * a.inv_mass * nx, a.pose.y -= j * a.inv_mass * ny;
+  b.pose.x += j * b.inv_mass * nx, b.pose.y += j * b.inv_mass * ny;
+  if (a.inv_inertia > 0) a.pose.r = turned_by(a.pose.r, -j * a.inv_inertia * arm_a);
+  if (b.inv_inertia > 0) b.pose.r = turned_by(b.pose.r, j * b.inv_inertia * arm_b);
+}
+
+double Island::push_apart(int rounds) {
+  double deepest = 0;
+  for (int round = 0; round < rounds; ++round) {
+    deepest = 0;
+    for (const Near& near : nears_) {
+      const double depth = -separation(near);
+      if (depth <= kPushTo) continue;
+      deepest = std::max(deepest, depth);
+      // The deeper point first; the other is looked at afresh in the next round.
+      double nx = 0, ny = 0;
+      Touch worst;
+      touches(near, 0, [&](double x, double y, const Touch& t) {
+        if (t.gap < worst.gap) nx = x, ny = y, worst = t;
+      });
+      if (-worst.gap > kPushTo) push(movers_[near.a], movers_[near.b], nx, ny, worst);
+    }
+    if (deepest <= kSlop) return deepest;
+  }
+  return deepest;
+}
+
+bool Island::breaks_promise() const {
+  return std::any_of(movers_.begin() + 1, movers_.end(),
+                     [](const Mover& m) { return way(m, m.start) > m.promise; });
+}
+
+void Island::undo(Mover& mover, int& count) {
+  if (mover.slot < 0 || mover.undone) return;
+  mover.pose = mover.good;
+  mover.undone = mover.dull = true;
+  ++count;
+}
+
+int Island::put_back(double limit) {
+  int count = 0;
+  for (Mover& m : movers_) m.undone = false;
+  for (Mover& m : movers_) {
+    if (m.slot >= 0 && way(m, m.start) > m.promise) undo(m, count);
+  }
+  // Ends: a mover is put back once, and good poses overlap no more than they may.
+  for (bool again = true; again;) {
+    again = false;
+    for (const Near& near : nears_) {
+      Mover &a = movers_[near.a], &b = movers_[near.b];
+      if ((a.undone || near.a == 0) && b.undone) continue;
+      if (-separation(near) <= limit) continue;
+      undo(a, count), undo(b, count);
+      again = true;
+    }
+  }
+  return count;
+}
+
+void Island::accept() {
+  for (Mover& m : movers_) m.good = m.pose;
+}
+
+}  // namespace lilytank

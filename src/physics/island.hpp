@@ -1,0 +1,133 @@
+// Assemblies that may touch one another or the wall within a step: their motion while contacts are
+// solved, apart from the State until it is known to be good.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "collide.hpp"
+#include "lilytank/model.hpp"
+
+namespace lilytank {
+
+/// A rigid assembly on its way through a step. Mover 0 of an island is the wall, which nothing
+/// moves.
+struct Mover {
+  int slot = -1;
+  Pose pose;
+  Twist twist;
+  double mass = 0, inertia = 0;          ///< kg, kg m^2
+  double inv_mass = 0, inv_inertia = 0;  ///< 0 for the wall; a ball does not turn
+  double reach = 0;                      ///< m, from the centre to the farthest point
+  double promise = 0;                    ///< m, no point may end farther than this from its start
+  double turn_limit = 0;                 ///< rad, most that a substep may turn it
+  Pose start, good;                      ///< at the start of the step; at the last good substep
+  bool undone = false;                   ///< put back in this substep
+  bool dull = false;                     ///< put back in this step: no more restitution
+};
+
+enum class PairKind : std::uint8_t { squares, square_disc, discs, wall_square, wall_disc };
+
+/// Two bodies of different movers that may touch; `a` is the wall (0) for wall kinds.
+struct Near {
+  int a = 0, b = 0;  ///< movers
+  PairKind kind = PairKind::squares;
+  std::uint8_t inner_a = 0, inner_b = 0;  ///< Assemblies::inner
+  double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, the bodies' centres in their movers' frames
+  int order_a = 0, order_b = 0;           ///< body numbers, -1 for the wall: the order of solving
+  double separation = 0;                  ///< m, as last surveyed
+};
+
+/// What an island looks like at one moment.
+struct Survey {
+  double deepest = 0;    ///< m, greatest overlap
+  double free_time = 0;  ///< s in which nothing can touch as things move now
+  double fastest = 0;    ///< m/s, upper bound on how fast any pair closes
+  double longest = 0;    ///< s, longest substep that keeps contact points accurate
+};
+
+/// The movers of one island and the pairs among them. Poses only; velocities are changed by
+/// ContactSolver.
+class Island {
+ public:
+  explicit Island(const Model& model);
+
+  /// Forgets everything but the wall.
+  void clear();
+  /// Adds an assembly; returns its index.
+  int add(const Mover& mover);
+  void add(const Near& near);
+  /// Puts pairs in order of their bodies, so that results do not depend on how they were found.
+  void sort_pairs();
+
+  std::vector<Mover>& movers() { return movers_; }
+  const std::vector<Mover>& movers() const { return movers_; }
+  const std::vector<Near>& nears() const { return nears_; }
+  void forget_pairs() { nears_.clear(); }
+
+  /// Measures all pairs; `left` (s) is the time still to go in the step.
+  Survey survey(double left);
+  /// Moves everything by its twist for h seconds.
+  void move(double h);
+  /// Pushes overlapping bodies apart, positions only, in at most `rounds` sweeps over the pairs;
+  /// returns what is left of the deepest overlap (m), 0 if nothing overlapped by more than the
+  /// slop.
+  double push_apart(int rounds);
+  /// True if a mover got farther than it promised.
+  bool breaks_promise() const;
+  /// Puts back to their last good pose those that broke their promise or overlap by more than
+  /// `limit` (m), and what then overlaps with those. Returns how many.
+  int put_back(double limit);
+  /// Poses as they are now count as good.
+  void accept();
+
+  /// Points of contact of a pair within `margin` (m): calls use(nx, ny, touch), the normal from a
+  /// to b.
+  template <class Use>
+  void touches(const Near& near, double margin, Use&& use) const;
+
+ private:
+  double separation(const Near& near) const;
+  void push(Mover& a, Mover& b, double nx, double ny, const Touch& touch);
+  void undo(Mover& mover, int& count);
+
+  double half_, radius_, tank_;
+  std::vector<Mover> movers_;
+  std::vector<Near> nears_;
+};
+
+constexpr double kSlop = 5e-5;    ///< m, overlap that is left alone
+constexpr double kPushTo = 2e-5;  ///< m, overlap that pushing apart aims at
+
+inline Square square_of(const Mover& m, double ox, double oy, double half, std::uint8_t inner) {
+  return {m.pose.x + m.pose.r.c * ox - m.pose.r.s * oy,
+          m.pose.y + m.pose.r.s * ox + m.pose.r.c * oy, m.pose.r, half, inner};
+}
+inline Disc disc_of(const Mover& m, double radius) {
+  return {m.pose.x, m.pose.y, radius};
+}
+
+template <class Use>
+void Island::touches(const Near& near, double margin, Use&& use) const {
+  const Mover &a = movers_[near.a], &b = movers_[near.b];
+  const auto use_all = [&](const Manifold& m) {
+    for (int k = 0; k < m.count; ++k) use(m.nx, m.ny, m.touch[k]);
+  };
+  const auto square_b = [&] { return square_of(b, near.bx, near.by, half_, near.inner_b); };
+  const auto square_a = [&] { return square_of(a, near.ax, near.ay, half_, near.inner_a); };
+  switch (near.kind) {
+    case PairKind::squares:
+      return use_all(collide(square_a(), square_b(), margin));
+    case PairKind::square_disc:
+      return use_all(collide(square_a(), disc_of(b, radius_), margin));
+    case PairKind::discs:
+      return use_all(collide(disc_of(a, radius_), disc_of(b, radius_), margin));
+    case PairKind::wall_disc:
+      return use_all(collide_wall(disc_of(b, radius_), tank_, margin));
+    case PairKind::wall_square: {
+      const WallManifold m = collide_wall(square_b(), tank_, margin);
+      for (int k = 0; k < m.count; ++k) use(m.nx[k], m.ny[k], m.touch[k]);
+    }
+  }
+}
+
+}  // namespace lilytank
