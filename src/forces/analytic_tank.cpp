@@ -1,6 +1,7 @@
-// The built-in tank. Its radial profiles follow the published description of the measured flow: a
-// swirl whose peak lies near 13 cm, an inflow of about 0.4 of it, gusts of 0.14 to 0.19 m/s per
-// axis; on top of that the streams of the inlets.
+// The built-in tank. Its radial profiles follow what is known of the paper's tank: a swirl whose
+// peak lies near 13 cm, an inflow beside it that vanishes towards the centre, gusts of 0.14 to 0.19
+// m/s per axis; on top of that the streams of the inlets. The inflow's size is chosen so that balls
+// move at about 0.2 m/s as in the paper.
 #include <cmath>
 
 #include "lilytank/flow_field.hpp"
@@ -10,16 +11,16 @@ namespace {
 
 constexpr double kReference = 0.30;     // m, tank radius of the profiles; other tanks scale them
 constexpr double kSwirl = 0.23;         // m/s, at its peak
-constexpr double kInflow = 0.40;        // of the swirl
-constexpr double kJet = 0.12;           // m/s, at an inlet
+constexpr double kInflow = 0.33;        // of the swirl, both at their peaks
+constexpr double kJet = 0.10;           // m/s, at an inlet
 constexpr double kJetReach = 0.08;      // m, the stream's speed falls by e
 constexpr double kJetWidth = 0.018;     // m, at the inlet; it spreads by an eighth of its length
 constexpr double kGustCentre = 0.14, kGustPeak = 0.05;  // m/s
 
-// Rises as r^2, peaks with 1 at r = peak, and falls as an exponential.
-double profile(double r, double peak) {
-  const double q = r / peak;
-  return q * q * exp_portable(2 * (1 - q));
+// Rises as r^power, peaks with 1 at r = peak, and falls as an exponential.
+double profile(double r, double peak, int power) {
+  const double q = r / peak * exp_portable(1 - r / peak);
+  return power == 2 ? q * q : q * q * q;
 }
 
 Vec2 jets(const AnalyticTank& tank, double x, double y, double scale) {
@@ -56,11 +57,11 @@ FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation) {
       const double x = (ix + 0.5) * h - tank.radius, y = (iy + 0.5) * h - tank.radius;
       const double r = std::sqrt(x * x + y * y);
       const double c = r > 0 ? x / r : 0, s = r > 0 ? y / r : 0;
-      const double around = strength * kSwirl * profile(r / scale, 0.13);
-      const double inward = inflow * around;
+      const double around = strength * kSwirl * profile(r / scale, 0.13, 2);
+      const double inward = inflow * strength * kSwirl * profile(r / scale, 0.13, 3);
       const Vec2 jet = strength * jets(tank, x, y, scale);
       const double sigma =
-          strength * (kGustCentre + kGustPeak * profile(r / scale, 0.18));
+          strength * (kGustCentre + kGustPeak * profile(r / scale, 0.18, 2));
       samples.push_back({-around * s - inward * c + jet.x(), around * c - inward * s + jet.y(),
                          sigma, sigma});
     }

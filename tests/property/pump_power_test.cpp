@@ -26,7 +26,7 @@ Figure measure(double power, double level) {
                   test::force("damping", {0.3483, 0.2476})};
   std::vector<int> lags;
   for (int lag = 4; lag <= 2400; lag += 4) lags.push_back(lag);
-  const int runs = 6;
+  const int runs = 3;
   std::vector<MsdCurve> curves(runs);
   for_each_world(runs, 0, [&](int run) {
     World world(model, derived_seed(9, run));

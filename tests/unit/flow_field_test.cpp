@@ -63,9 +63,9 @@ TEST(FlowField, RefusesWhatIsNotAField) {
   EXPECT_THROW(FlowField(2, 0.3, samples, all, Interpolation::bilinear), InputError);
 }
 
-// The published profile of the measured tank (swirl 0.23 m/s near 13 cm, inflow about 0.1 m/s
-// there, 0.14 to 0.19 m/s deviation), which the analytic tank stands for.
-TEST(AnalyticTank, HasThePublishedProfile) {
+// What is known of the paper's tank: swirl 0.23 m/s near 13 cm and 0.1 at the wall, inflow about 0.1
+// m/s where the swirl peaks, 0.14 to 0.19 m/s deviation.
+TEST(AnalyticTank, HasTheProfileOfThePapersTank) {
   const FlowField field = analytic_tank({}, Interpolation::bilinear);
   const auto ring = [&](double r) {
     double around = 0, out = 0, sigma = 0;
@@ -80,7 +80,8 @@ TEST(AnalyticTank, HasThePublishedProfile) {
   EXPECT_NEAR(ring(0.135)[0], 0.23, 0.03);
   EXPECT_NEAR(ring(0.135)[1], -0.10, 0.03);
   EXPECT_NEAR(ring(0.285)[0], 0.10, 0.04);
-  EXPECT_NEAR(ring(0.285)[1], -0.07, 0.03);
+  EXPECT_LT(ring(0.285)[1], -0.02);
+  EXPECT_NEAR(ring(0.03)[1], 0, 0.02);
   EXPECT_NEAR(ring(0.18)[2], 0.19, 0.01);
   EXPECT_LT(ring(0.03)[0], 0.1);
 }
