@@ -94,7 +94,7 @@ void log_ticks(Axis& axis, int wanted) {
   const int to = static_cast<int>(std::floor(last + 1e-9)) + 1;
   const int every = std::max(1, static_cast<int>(std::ceil((last - first) / wanted)));
   const bool short_numbers = first >= -3.001 && last <= 4.001;
-  const bool between = last - first < 1.7;  // few decades: label 2 and 5 as well
+  const bool between = last - first < 2.0;  // few decades: label 2 and 5 as well
   for (int e = from; e <= to; ++e) {
     const double decade = std::pow(10.0, e);
     for (int k = 1; k <= 9; ++k) {

@@ -140,10 +140,11 @@ void BodyPainter::trails(const Canvas& canvas, const Trajectory& trajectory, con
   cairo_set_tolerance(canvas.get(), 0.3);
   for (int body = 0; body < trajectory.bodies; ++body) {
     collect_trail(trajectory, now, seconds, body);
-    const Colour own = body < now.modules && !now.marks.empty()
-                           ? colour_of_state(now.marks[static_cast<std::size_t>(body)].label)
-                           : palette::isolated;
-    draw_trail(canvas, mixed(own, palette::ink, 0.28), seconds);
+    const bool labelled = body < now.modules && !now.marks.empty();
+    const int label = labelled ? now.marks[static_cast<std::size_t>(body)].label : 0;
+    // Neutral trails are darker, to stand out from the water.
+    draw_trail(canvas, mixed(colour_of_state(label), palette::ink, label > 0 ? 0.28 : 0.48),
+               seconds);
   }
 }
 

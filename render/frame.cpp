@@ -11,8 +11,6 @@
 namespace lilytank {
 namespace {
 
-constexpr double kTankCentreX = 560, kTankCentreY = 540;
-constexpr double kTankRadius = 466;  // units; the rim and the inlets come on top
 constexpr Panel::Box kPanel{1130, 40, 730, 1000};
 
 const FrameStyle& checked(const FrameStyle& style, const StoredRun& run) {
@@ -26,10 +24,6 @@ const FrameStyle& checked(const FrameStyle& style, const StoredRun& run) {
   return style;
 }
 
-View view_of(const Model& model) {
-  return {kTankCentreX, kTankCentreY, kTankRadius / model.tank.radius};
-}
-
 }  // namespace
 
 int width_for(int height) {
@@ -39,7 +33,7 @@ int width_for(int height) {
 FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double speed)
     : run_(run),
       style_(checked(style, run)),
-      view_(view_of(run.scenario.model)),
+      view_(view_of_tank(run.scenario.model.tank.radius)),
       panel_(run, style, kPanel, speed),
       bodies_(run.scenario.model, view_, style.labels) {}
 
@@ -66,7 +60,7 @@ FrameRaster::FrameRaster(const StoredRun& run, const FrameStyle& style, double s
       background_(Canvas::raster(width_, height_)),
       page_(Canvas::raster(width_, height_)) {
   for (const Canvas* canvas : {&background_, &page_}) {
-    cairo_scale(canvas->get(), width_ / FramePainter::kWidth, height_ / FramePainter::kHeight);
+    cairo_scale(canvas->get(), width_ / kPageWidth, height_ / kPageHeight);
   }
   painter_.draw_static(background_);
 }
@@ -90,7 +84,7 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
     return;
   }
   FramePainter painter(run, style, 0);
-  const double scale = style.size / FramePainter::kHeight;
+  const double scale = style.size / kPageHeight;
   Canvas canvas = Canvas::vector(format, width_for(style.size), style.size);
   cairo_scale(canvas.get(), scale, scale);
   painter.draw_static(canvas);

@@ -11,9 +11,6 @@ namespace lilytank {
 /// Draws frames of one run. Everything that does not move can be drawn once and kept.
 class FramePainter {
  public:
-  /// Pages are 1920 x 1080 units, whatever their size in pixels.
-  static constexpr double kWidth = 1920, kHeight = 1080;
-
   /// `run` must outlive the painter. `speed`: simulated seconds per second of film, 0: a still.
   /// Throws InputError for a style out of bounds or a run without frames.
   FramePainter(const StoredRun& run, const FrameStyle& style, double speed);

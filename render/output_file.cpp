@@ -17,6 +17,10 @@ namespace {
   throw InputError("cannot write '" + file + "': " + std::strerror(error));
 }
 
+int open_new(const std::string& file) {
+  return ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+}
+
 // 0 or the error number.
 int write_all(int descriptor, const std::string& bytes) {
   std::size_t done = 0;
@@ -37,6 +41,15 @@ std::string unfinished_name(const std::string& file) {
   return (path.parent_path() / name).string();
 }
 
+void require_writable(const std::string& file) {
+  if (std::filesystem::is_directory(file)) refuse(file, EISDIR);
+  const std::string unfinished = unfinished_name(file);
+  const int descriptor = open_new(unfinished);
+  if (descriptor < 0) refuse(file, errno);
+  ::close(descriptor);
+  ::unlink(unfinished.c_str());
+}
+
 void publish(const std::string& unfinished, const std::string& file) {
   if (std::rename(unfinished.c_str(), file.c_str()) == 0) return;
   const int error = errno;
@@ -46,7 +59,7 @@ void publish(const std::string& unfinished, const std::string& file) {
 
 void write_whole(const std::string& file, const std::string& bytes) {
   const std::string unfinished = unfinished_name(file);
-  const int descriptor = ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor = open_new(unfinished);
   if (descriptor < 0) refuse(file, errno);
   int error = write_all(descriptor, bytes);
   // A file system may report a full disk only now.

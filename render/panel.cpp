@@ -62,9 +62,20 @@ void Panel::caption(const Canvas& canvas, double y, const std::string& text) con
 void Panel::title(const Canvas& canvas) const {
   TextStyle style{36, palette::ink, true, Align::left};
   const std::string name = run_.scenario.title.empty() ? "lilytank" : run_.scenario.title;
-  // A long title is set smaller, then cut.
-  while (style.size > 26 && canvas.width_of(name, style) > box_.width) style.size -= 1;
-  canvas.text(box_.x, box_.y + kTitle, canvas.fitted(name, box_.width, style), style);
+  // A long title is set smaller, then in two lines, then cut.
+  while (style.size > 28 && canvas.width_of(name, style) > box_.width) style.size -= 1;
+  if (canvas.width_of(name, style) <= box_.width) {
+    canvas.text(box_.x, box_.y + kTitle, name, style);
+  } else {
+    std::size_t cut = name.size();
+    while (cut != std::string::npos && canvas.width_of(name.substr(0, cut), style) > box_.width) {
+      cut = cut == 0 ? std::string::npos : name.rfind(' ', cut - 1);
+    }
+    const bool two = cut != std::string::npos && cut > 0;
+    const std::string rest = two ? name.substr(cut + 1) : name;
+    if (two) canvas.text(box_.x, box_.y + kTitle - 32, name.substr(0, cut), style);
+    canvas.text(box_.x, box_.y + kTitle + 4, canvas.fitted(rest, box_.width, style), style);
+  }
   const TextStyle small{22, palette::muted, false, Align::left};
   canvas.text(box_.x, box_.y + kSubtitle, canvas.fitted(subtitle(), box_.width, small), small);
   canvas.line(box_.x, box_.y + kRule, box_.x + box_.width, box_.y + kRule, palette::hairline, 2);
@@ -155,8 +166,9 @@ void Panel::draw_static(const Canvas& canvas) const {
     stairs(canvas, end_);
     canvas.stroke(palette::rim, 3);
   }
-  draw_legend(canvas, run_, style_, box_.x, box_.y + box_.height - legend_height(run_, style_),
-              box_.width);
+  // Without a yield the legend follows the clock.
+  const double below = has_yield() ? box_.height - legend_height(run_, style_) : kYieldCaption - 14;
+  draw_legend(canvas, run_, style_, box_.x, box_.y + below, box_.width);
 }
 
 void Panel::draw_moving(const Canvas& canvas, const Snapshot& now) const {

@@ -1,0 +1,213 @@
+#include "ffmpeg.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "lilytank/error.hpp"
+
+extern char** environ;
+
+namespace lilytank {
+namespace {
+
+constexpr std::size_t kMostWords = 4000;  // bytes of ffmpeg's messages that are kept
+
+void close_and_forget(int& descriptor) {
+  if (descriptor >= 0) ::close(descriptor);
+  descriptor = -1;
+}
+
+std::string decimal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// A child inherits none of our descriptors except those it is given.
+int spawn(const std::vector<std::string>& command, int standard_in, int standard_error,
+          pid_t& child) {
+  std::vector<char*> arguments;
+  for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, standard_in, 0);
+  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, standard_error, 2);
+  // A group of its own: Ctrl-C is for us, and we end ffmpeg ourselves.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int error =
+      ::posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+}  // namespace
+
+std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& output) {
+  std::vector<std::string> c{"ffmpeg",
+                             "-nostdin",
+                             "-hide_banner",
+                             "-loglevel",
+                             "error",
+                             "-xerror",
+                             "-y",
+                             "-f",
+                             "rawvideo",
+                             "-pixel_format",
+                             "bgr0",
+                             "-video_size",
+                             std::to_string(e.width) + "x" + std::to_string(e.height),
+                             "-framerate",
+                             decimal(e.fps),
+                             "-i",
+                             "pipe:0"};
+  const auto add = [&](std::initializer_list<const char*> more) {
+    c.insert(c.end(), more.begin(), more.end());
+  };
+  if (e.gif) {
+    const std::string n = std::to_string(e.palette_frames);
+    add({"-filter_complex"});
+    c.push_back("[0:v]split[a][b];[a]trim=end_frame=" + n +
+                ",palettegen=stats_mode=full[p];[b]trim=start_frame=" + n +
+                ",setpts=PTS-STARTPTS[c];"
+                "[c][p]paletteuse=dither=bayer:bayer_scale=5:diff_mode=rectangle");
+    add({"-loop", "0", "-f", "gif"});
+  } else {
+    add({"-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-vf",
+         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
+         "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f",
+         "mp4"});
+  }
+  c.push_back("file:" + output);
+  return c;
+}
+
+Ffmpeg::Ffmpeg(const Encoding& encoding, const std::string& output) : output_(output) {
+  // A socket instead of a pipe: writing to it can be told not to raise SIGPIPE, without touching
+  // the program's signal handlers.
+  int sockets[2], pipes[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) {
+    throw InputError(std::string("cannot start ffmpeg: ") + std::strerror(errno));
+  }
+  if (::pipe2(pipes, O_CLOEXEC | O_NONBLOCK) != 0) {
+    const int error = errno;
+    ::close(sockets[0]), ::close(sockets[1]);
+    throw InputError(std::string("cannot start ffmpeg: ") + std::strerror(error));
+  }
+  input_ = sockets[0], messages_ = pipes[0];
+  pid_t child = -1;
+  const int error = spawn(ffmpeg_command(encoding, output), sockets[1], pipes[1], child);
+  ::close(sockets[1]), ::close(pipes[1]);
+  if (error != 0) {
+    close_and_forget(input_), close_and_forget(messages_);
+    throw InputError(error == ENOENT ? std::string("films need the program ffmpeg, which is not in "
+                                                   "PATH; install it, or draw stills")
+                                     : std::string("cannot start ffmpeg: ") + std::strerror(error));
+  }
+  child_ = child;
+}
+
+Ffmpeg::~Ffmpeg() {
+  if (child_ > 0) {
+    ::kill(child_, SIGKILL);
+    wait();
+    ::unlink(output_.c_str());
+  }
+  close_and_forget(input_), close_and_forget(messages_);
+}
+
+void Ffmpeg::read_messages() {
+  char buffer[1024];
+  for (;;) {
+    const ssize_t n = ::read(messages_, buffer, sizeof buffer);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    if (words_.size() < kMostWords) words_.append(buffer, static_cast<std::size_t>(n));
+  }
+}
+
+// Sending and listening at once: ffmpeg could otherwise wait for us to read its messages while we
+// wait for it to take a frame.
+void Ffmpeg::send(std::span<const unsigned char> frame) {
+  std::size_t done = 0;
+  while (done < frame.size()) {
+    pollfd waiting[2] = {{input_, POLLOUT, 0}, {messages_, POLLIN, 0}};
+    if (::poll(waiting, 2, -1) < 0) {
+      if (errno == EINTR) continue;
+      fail(end());
+    }
+    if (waiting[1].revents & POLLIN) read_messages();
+    if (waiting[0].revents & (POLLERR | POLLHUP | POLLNVAL)) fail(end());
+    if (!(waiting[0].revents & POLLOUT)) {
+      // Its standard error is closed, its input is not: it is about to end.
+      if (waiting[1].revents & POLLHUP) fail(end());
+      continue;
+    }
+    const ssize_t n =
+        ::send(input_, frame.data() + done, frame.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n > 0)
+      done += static_cast<std::size_t>(n);
+    else if (n < 0 && errno != EINTR && errno != EAGAIN)
+      fail(end());
+  }
+}
+
+int Ffmpeg::wait() {
+  int status = 0;
+  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+  return status;
+}
+
+// Closes ffmpeg's input and reads what it says until it ends; returns its status.
+int Ffmpeg::end() {
+  close_and_forget(input_);
+  for (;;) {  // its standard error closes when it ends
+    pollfd waiting{messages_, POLLIN, 0};
+    if (::poll(&waiting, 1, -1) < 0) {
+      if (errno == EINTR) continue;
+      break;
+    }
+    if (waiting.revents & POLLIN)
+      read_messages();
+    else if (waiting.revents != 0)
+      break;
+  }
+  return wait();
+}
+
+void Ffmpeg::fail(int status) {
+  ::unlink(output_.c_str());
+  std::string reason = words_;
+  while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
+  // Its messages are one a line; the user gets them in one.
+  for (std::size_t i = 0; (i = reason.find('\n', i)) != std::string::npos;) {
+    reason.replace(i, 1, "; ");
+  }
+  if (reason.empty()) {
+    reason = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
+                                 : "exit code " + std::to_string(WEXITSTATUS(status));
+  }
+  throw InputError("ffmpeg failed: " + reason);
+}
+
+void Ffmpeg::finish() {
+  const int status = end();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(status);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,140 @@
+#include "legend_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palette.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kRow = 23, kPad = 9, kSample = 30, kGap = 9, kMargin = 10;
+constexpr double kWidest = 320;  // longer names are cut
+const TextStyle kName{14, palette::ink, false, Align::left};
+
+bool within(const LegendBox& box, const PagePoint& p) {
+  constexpr double kRoom = 4;
+  return p.x > box.x - kRoom && p.x < box.x + box.width + kRoom && p.y > box.y - kRoom &&
+         p.y < box.y + box.height + kRoom;
+}
+
+// Points every few units along the visible parts of all curves; bands count by their edges.
+std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
+  constexpr double kEvery = 5;
+  std::vector<PagePoint> ink;
+  const auto trace = [&](const std::vector<double>& xs, const std::vector<double>& ys, bool steps) {
+    PagePoint before{NAN, NAN};
+    const std::size_t n = std::min(xs.size(), ys.size());
+    const auto line = [&](const PagePoint& a, const PagePoint& b) {
+      const double length = std::hypot(b.x - a.x, b.y - a.y);
+      const int parts = std::clamp(static_cast<int>(length / kEvery), 1, 2000);
+      for (int k = 1; k <= parts; ++k) {
+        const double w = static_cast<double>(k) / parts;
+        ink.push_back({a.x + w * (b.x - a.x), a.y + w * (b.y - a.y)});
+      }
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      const PagePoint p = page_point(area, xs[i], ys[i]);
+      if (p.known() && before.known()) {
+        // Crowded points say no more than a few of them.
+        if (std::hypot(p.x - before.x, p.y - before.y) < kEvery && i + 1 < n) continue;
+        const PagePoint corner{p.x, before.y};
+        if (steps)
+          line(before, corner), line(corner, p);
+        else
+          line(before, p);
+      } else if (p.known()) {
+        ink.push_back(p);
+      }
+      before = p;
+    }
+  };
+  for (const Curve& curve : plot.curves) {
+    trace(curve.x, curve.y, curve.steps);
+    trace(curve.x, curve.low, curve.steps);
+    trace(curve.x, curve.high, curve.steps);
+  }
+  return ink;
+}
+
+// The curves that the legend names, as many as fit the plot's height.
+struct Names {
+  std::vector<std::size_t> shown;
+  std::size_t more = 0;
+};
+
+Names names_of(const Plot& plot) {
+  Names names;
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    if (!plot.curves[i].name.empty()) names.shown.push_back(i);
+  }
+  const auto most = static_cast<std::size_t>(std::max(2.0, (plot.height - 90) / kRow));
+  if (names.shown.size() > most) {
+    names.more = names.shown.size() - (most - 1);
+    names.shown.resize(most - 1);
+  }
+  return names;
+}
+
+}  // namespace
+
+LegendBox legend_size(const Canvas& canvas, const Plot& plot) {
+  LegendBox box;
+  const Names names = names_of(plot);
+  if (names.shown.empty()) return box;
+  for (const std::size_t i : names.shown) {
+    const double width = canvas.width_of(plot.curves[i].name, kName);
+    box.width = std::max(box.width, std::min(kWidest, width));
+  }
+  const auto rows = static_cast<double>(names.shown.size() + (names.more > 0 ? 1 : 0));
+  box.width += 2 * kPad + kSample + kGap;
+  box.height = rows * kRow + 2 * kPad - 6;
+  return box;
+}
+
+LegendBox place_legend(const LegendBox& size, const Plot& plot, const PlotArea& area,
+                       std::size_t& hidden) {
+  const std::vector<PagePoint> ink = ink_of(plot, area);
+  const double x0 = area.left + kMargin, x1 = area.right() - kMargin - size.width;
+  const double y0 = area.top + kMargin, y1 = area.bottom() - kMargin - size.height;
+  LegendBox best = size;
+  bool first = true;
+  // Corners before edges, the top right before all, where equally free.
+  for (const auto& [u, v] : {std::pair{1.0, 0.0},
+                             {0.0, 0.0},
+                             {1.0, 1.0},
+                             {0.0, 1.0},
+                             {1.0, 0.5},
+                             {0.5, 0.0},
+                             {0.5, 1.0},
+                             {0.0, 0.5},
+                             {0.5, 0.5}}) {
+    LegendBox box = size;
+    box.x = x0 + u * (x1 - x0), box.y = y0 + v * (y1 - y0);
+    std::size_t count = 0;
+    for (const PagePoint& p : ink) count += within(box, p);
+    if (first || count < hidden) best = box, hidden = count;
+    first = false;
+  }
+  return best;
+}
+
+void draw_legend_box(const Canvas& canvas, const LegendBox& box, const Plot& plot) {
+  if (box.height <= 0) return;
+  if (box.inside) {
+    canvas.rounded(box.x, box.y, box.width, box.height, 4);
+    canvas.fill_keep(faded(palette::paper, 0.86));
+    canvas.stroke(palette::hairline, 1);
+  }
+  double y = box.y + kPad - 3 + kRow / 2;
+  const double x = box.x + kPad + kSample + kGap;
+  const Names names = names_of(plot);
+  for (const std::size_t i : names.shown) {
+    draw_sample(canvas, plot.curves[i], static_cast<int>(i), box.x + kPad, y, kSample);
+    canvas.text(x, y + 5, canvas.fitted(plot.curves[i].name, kWidest + 1, kName), kName);
+    y += kRow;
+  }
+  if (names.more > 0) canvas.text(x, y + 5, "… " + std::to_string(names.more) + " more", kName);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "legend_box.hpp"
+#include "output_file.hpp"
+#include "palette.hpp"
+#include "plot_area.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kPixels = 2;               // of a PNG, per unit
+constexpr double kMajor = 6, kMinor = 3.5;  // tick lengths
+const TextStyle kTickText{14, palette::ink, false, Align::left};
+const TextStyle kLabelText{16, palette::ink, false, Align::centre};
+const TextStyle kTitleText{17, palette::ink, true, Align::centre};
+
+struct DataRange {
+  Range x, y;
+};
+
+DataRange range_of(const Plot& plot) {
+  DataRange r;
+  for (const Curve& curve : plot.curves) {
+    for (std::size_t i = 0; i < points_of(curve); ++i) {
+      // A point counts only if both of its numbers can be shown.
+      const bool shown = std::isfinite(curve.x[i]) && std::isfinite(curve.y[i]) &&
+                         (!plot.log_x || curve.x[i] > 0) && (!plot.log_y || curve.y[i] > 0);
+      if (!shown) continue;
+      r.x.add(curve.x[i], plot.log_x);
+      r.y.add(curve.y[i], plot.log_y);
+      if (i < curve.low.size() && i < curve.high.size()) {
+        r.y.add(curve.low[i], plot.log_y);
+        r.y.add(curve.high[i], plot.log_y);
+      }
+    }
+  }
+  return r;
+}
+
+// Room at the ends of the vertical axis; an axis whose data begin near zero begins at zero.
+void widen(double& low, double& high, bool log) {
+  if (log) {
+    const double k = std::pow(high / low, 0.05);
+    if (std::isfinite(k) && k > 1) low /= k, high *= k;
+    return;
+  }
+  const double span = high - low;
+  if (!std::isfinite(span)) return;
+  const bool from_zero = low >= 0 && low < 0.35 * high;
+  low = from_zero ? 0 : low - 0.05 * span;
+  high += 0.05 * span;
+}
+
+void choose_axes(const Plot& plot, PlotArea& area) {
+  const DataRange data = range_of(plot);
+  double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
+  double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();
+  area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110), data.x.whole());
+  low = data.y.empty() ? (plot.log_y ? 0.1 : 0) : data.y.low();
+  high = data.y.empty() ? (plot.log_y ? 10 : 1) : data.y.high();
+  const bool given =
+      plot.y_low < plot.y_high && std::isfinite(plot.y_low) && std::isfinite(plot.y_high);
+  if (given)
+    low = plot.y_low, high = plot.y_high;
+  else if (high > low)
+    widen(low, high, plot.log_y);
+  area.y = make_axis(low, high, plot.log_y, static_cast<int>(area.height / 70), data.y.whole());
+}
+
+double widest_label(const Canvas& canvas, const Axis& axis) {
+  double widest = 0;
+  for (const Tick& t : axis.ticks) widest = std::max(widest, canvas.width_of(t.label, kTickText));
+  return widest;
+}
+
+// The area depends on the labels' widths, which depend on the area's size: two rounds settle it.
+PlotArea layout(const Canvas& canvas, const Plot& plot, double right_margin) {
+  PlotArea area;
+  area.left = 80;
+  for (int round = 0; round < 2; ++round) {
+    area.top = plot.title.empty() ? 22 : 50;
+    area.width = std::max(40.0, plot.width - area.left - right_margin);
+    area.height = std::max(40.0, plot.height - area.top - (plot.x_label.empty() ? 40 : 66));
+    choose_axes(plot, area);
+    if (!area.y.note.empty()) area.top += 14, area.height = std::max(40.0, area.height - 14);
+    area.left = widest_label(canvas, area.y) + 18 + (plot.y_label.empty() ? 8 : 32);
+  }
+  area.width = std::max(40.0, plot.width - area.left - right_margin);
+  return area;
+}
+
+void draw_grid(const Canvas& canvas, const PlotArea& area) {
+  const Colour faint = mixed(palette::hairline, palette::paper, 0.45);
+  for (const Tick& t : area.x.ticks) {
+    const double x = area.at_x(t.value);
+    if (t.major) canvas.line(x, area.top, x, area.bottom(), faint, 1);
+  }
+  for (const Tick& t : area.y.ticks) {
+    const double y = area.at_y(t.value);
+    if (t.major) canvas.line(area.left, y, area.right(), y, faint, 1);
+  }
+}
+
+void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
+  constexpr double kWidth = 1.1;
+  cairo_rectangle(canvas.get(), area.left, area.top, area.width, area.height);
+  canvas.stroke(palette::ink, kWidth);
+  TextStyle text = kTickText;
+  text.align = Align::centre;
+  double free_from = -1e9;  // labels that would touch the one before are left out
+  for (const Tick& t : area.x.ticks) {
+    const double x = area.at_x(t.value), y = area.bottom();
+    canvas.line(x, y, x, y - (t.major ? kMajor : kMinor), palette::ink, kWidth);
+    const double half = canvas.width_of(t.label, text) / 2;
+    if (t.label.empty() || x - half < free_from) continue;
+    canvas.text(x, y + 20, t.label, text);
+    free_from = x + half + 8;
+  }
+  text.align = Align::right;
+  double free_below = 1e9;
+  for (const Tick& t : area.y.ticks) {
+    const double x = area.left, y = area.at_y(t.value);
+    canvas.line(x, y, x + (t.major ? kMajor : kMinor), y, palette::ink, kWidth);
+    if (t.label.empty() || y > free_below) continue;
+    canvas.text(x - 8, y + 5, t.label, text);
+    free_below = y - 18;
+  }
+  const TextStyle note{13, palette::muted, false, Align::right};
+  if (!area.x.note.empty()) canvas.text(area.right(), area.bottom() + 38, area.x.note, note);
+  if (!area.y.note.empty()) {
+    canvas.text(area.left, area.top - 8, area.y.note, {13, palette::muted, false, Align::left});
+  }
+}
+
+void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
+  const double middle = area.left + area.width / 2;
+  canvas.text(middle, 30, canvas.fitted(plot.title, plot.width - 20, kTitleText), kTitleText);
+  canvas.text(middle, area.bottom() + 46, canvas.fitted(plot.x_label, area.width, kLabelText),
+              kLabelText);
+  const Saved saved(canvas);
+  cairo_translate(canvas.get(), 24, area.top + area.height / 2);
+  cairo_rotate(canvas.get(), -kPi / 2);
+  canvas.text(0, 0, canvas.fitted(plot.y_label, area.height + 40, kLabelText), kLabelText);
+}
+
+void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
+  for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+    draw_band(canvas, area, plot.curves[i], static_cast<int>(i));
+  }
+  // The first curve is the one that matters: it comes last, on top.
+  for (std::size_t i = plot.curves.size(); i-- > 0;) {
+    draw_curve(canvas, area, plot.curves[i], static_cast<int>(i));
+  }
+}
+
+void draw_points(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
+  for (std::size_t i = plot.curves.size(); i-- > 0;) {
+    draw_markers(canvas, area, plot.curves[i], static_cast<int>(i));
+  }
+}
+
+void draw_all(const Canvas& canvas, const Plot& plot) {
+  constexpr double kMargin = 26;
+  PlotArea area = layout(canvas, plot, kMargin);
+  LegendBox legend = legend_size(canvas, plot);
+  if (legend.height > 0) {
+    std::size_t hidden = 0;
+    const LegendBox size = legend;
+    legend = place_legend(size, plot, area, hidden);
+    const bool fits = size.height < area.height - 20 && size.width < 0.6 * area.width;
+    // A legend that would hide much goes beside the plot, where that leaves room for the plot.
+    if ((hidden > 6 || !fits) && size.width < 0.45 * plot.width) {
+      area = layout(canvas, plot, size.width + 24);
+      legend = size;
+      legend.x = area.right() + 12, legend.y = area.top - 4;
+      legend.inside = false;
+    }
+  }
+  canvas.colour(palette::paper);
+  cairo_paint(canvas.get());
+  draw_grid(canvas, area);
+  draw_curves(canvas, plot, area);
+  draw_frame_and_ticks(canvas, area);
+  draw_points(canvas, plot, area);  // whole, also on the frame
+  draw_titles(canvas, plot, area);
+  draw_legend_box(canvas, legend, plot);
+}
+
+}  // namespace
+
+void draw_plot(const Plot& plot, const std::string& file) {
+  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
+  const PictureFormat format = format_of(file, kFormats);
+  if (plot.width < 100 || plot.height < 100 || plot.width > 10000 || plot.height > 10000) {
+    throw InputError("a plot must be 100 .. 10000 wide and high, not " +
+                     std::to_string(plot.width) + " x " + std::to_string(plot.height));
+  }
+  Canvas canvas = Canvas::page(format, plot.width, plot.height, kPixels);
+  draw_all(canvas, plot);
+  write_whole(file, canvas.encoded());
+}
+
+}  // namespace lilytank

@@ -1,0 +1,50 @@
+// The rectangle that curves are drawn in, and what curves look like.
+#pragma once
+#include <cmath>
+
+#include "axes.hpp"
+#include "canvas.hpp"
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+
+/// A place on the page; NaN where a curve has a gap.
+struct PagePoint {
+  double x = 0, y = 0;
+  bool known() const { return std::isfinite(x) && std::isfinite(y); }
+};
+
+/// From numbers to units on the page.
+struct PlotArea {
+  double left = 0, top = 0, width = 1, height = 1;  ///< units
+  Axis x, y;
+  double right() const { return left + width; }
+  double bottom() const { return top + height; }
+  /// Place of a value, NaN where the axis cannot show it; far values are held near the area, as
+  /// Cairo's numbers overflow beyond some ten thousand units.
+  double at_x(double value) const { return left + width * held(x.share(value)); }
+  double at_y(double value) const { return bottom() - height * held(y.share(value)); }
+  /// Whether a place is within it, or as good as.
+  bool holds(const PagePoint& p) const {
+    return p.x > left - 1 && p.x < right() + 1 && p.y > top - 1 && p.y < bottom() + 1;
+  }
+
+ private:
+  static double held(double share) {
+    return std::isnan(share) ? share : share < -8 ? -8 : share > 8 ? 8 : share;
+  }
+};
+
+/// The number of points of a curve: the shorter of x and y.
+std::size_t points_of(const Curve& curve);
+PagePoint page_point(const PlotArea& area, double x, double y);
+
+/// To be drawn in this order: band, line, markers. `index` chooses colour, dashes and marker.
+void draw_band(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
+void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
+void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
+/// A short piece of a curve's line with its marker, for legends.
+void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, double y,
+                 double width);
+
+}  // namespace lilytank
