@@ -1,0 +1,75 @@
+// lilytank: floating modules that assemble themselves in a stirred tank.
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "cli/verbs.hpp"
+#include "lilytank/error.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> all{
+      {"run", "simulate one tank", run_verb},
+      {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
+      {"forces", "document the force terms", forces_verb},
+      {"render", "draw a run: film, stills or one frame", render_verb},
+  };
+  return all;
+}
+
+void print_help() {
+  std::cout << "lilytank " LILYTANK_VERSION
+               ": floating modules that assemble themselves in a stirred tank\n\n"
+               "usage: lilytank VERB ...\n\n";
+  for (const Verb& verb : verbs()) {
+    std::string name = verb.name;
+    name.resize(10, ' ');
+    std::cout << "  " << name << verb.summary << "\n";
+  }
+  std::cout
+      << "  help      lilytank help VERB: the options of a verb\n\n"
+         "exit codes: 0 done, 1 a world diverged, 2 bad input, 3 stopped (run again to go on)\n";
+}
+
+const Verb& find_verb(const std::string& name) {
+  const auto found = std::find_if(verbs().begin(), verbs().end(),
+                                  [&](const Verb& verb) { return verb.name == name; });
+  if (found != verbs().end()) return *found;
+  std::vector<std::string> names{"help", "--help", "--version"};
+  for (const Verb& verb : verbs()) names.push_back(verb.name);
+  std::string help = did_you_mean(name, names);
+  if (help.empty()) help = " - 'lilytank help' lists what there is";
+  throw InputError("unknown verb '" + name + "'" + help);
+}
+
+int act(const Arguments& words) {
+  if (words.empty()) throw InputError("which verb? 'lilytank help' lists what there is");
+  const Arguments rest(words.begin() + 1, words.end());
+  if (words[0] == "--version" || words[0] == "version") {
+    std::cout << "lilytank " LILYTANK_VERSION "\n";
+    return Exit::done;
+  }
+  const bool help = words[0] == "help" || words[0] == "--help" || words[0] == "-h";
+  if (help && !rest.empty()) return find_verb(rest[0]).act({"--help"});
+  if (!help) return find_verb(words[0]).act(rest);
+  print_help();
+  return Exit::done;
+}
+
+}  // namespace
+}  // namespace lilytank::cli
+
+int main(int argc, char** argv) {
+  using namespace lilytank;
+  std::ios::sync_with_stdio(false);
+  try {
+    return cli::act({argv + std::min(1, argc), argv + argc});
+  } catch (const InputError& e) {
+    std::cerr << e.what() << "\n";
+  } catch (const std::exception& e) {
+    std::cerr << "lilytank: unexpected: " << e.what() << "\n";
+  }
+  return cli::Exit::bad_input;
+}

@@ -1,0 +1,94 @@
+#include "cli/options.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "io/units.hpp"
+#include "lilytank/error.hpp"
+#include "text/number.hpp"
+
+namespace lilytank::cli {
+
+VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
+                         const std::string& summary)
+    : verb_(verb), options_("lilytank " + verb, summary) {
+  options_.positional_help(usage).show_positional_help();
+  options_.add_options()("h,help", "print this");
+}
+
+bool VerbOptions::parse(const Arguments& arguments) {
+  check_names(arguments);
+  options_.allow_unrecognised_options();  // positional arguments are the unrecognised ones
+  const std::string program = "lilytank " + verb_;
+  std::vector<const char*> words{program.c_str()};
+  for (const std::string& argument : arguments) words.push_back(argument.c_str());
+  try {
+    result_ = options_.parse(static_cast<int>(words.size()), words.data());
+  } catch (const cxxopts::exceptions::exception& e) {
+    refuse(e.what());
+  }
+  positional_ = result_.unmatched();
+  for (const std::string& word : positional_) {
+    if (word.size() > 1 && word[0] == '-') refuse("unknown option '" + word + "'");
+  }
+  if (!has("help")) return true;
+  std::cout << options_.help();
+  return false;
+}
+
+void VerbOptions::check_names(const Arguments& arguments) const {
+  std::vector<std::string> known;
+  for (const cxxopts::HelpOptionDetails& option : options_.group_help("").options) {
+    for (const std::string& name : option.l) known.push_back("--" + name);
+  }
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (!argument.starts_with("--")) continue;
+    const std::string name = argument.substr(0, argument.find('='));
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    refuse("unknown option '" + name + "'" + did_you_mean(name, known));
+  }
+}
+
+std::string VerbOptions::text(const std::string& name, const std::string& otherwise) const {
+  return has(name) ? result_[name].as<std::string>() : otherwise;
+}
+
+std::vector<std::string> VerbOptions::list(const std::string& name) const {
+  return has(name) ? result_[name].as<std::vector<std::string>>() : std::vector<std::string>{};
+}
+
+double VerbOptions::number(const std::string& name, double otherwise, double low, double high,
+                           const std::string& unit) const {
+  if (!has(name)) return otherwise;
+  const std::string word = text(name);
+  auto value = parse_number(word);
+  if (!value && !unit.empty()) {
+    value = read_quantity(word, unit, "--" + name, SourcePlace{"lilytank " + verb_, 0, 0});
+  }
+  if (!value) refuse("--" + name + " " + word + " is not a number");
+  if (*value < low || *value > high) {
+    refuse("--" + name + " " + word + " is outside " + shortest(low) + " .. " + shortest(high) +
+           (unit.empty() ? "" : " " + unit));
+  }
+  return *value;
+}
+
+std::int64_t VerbOptions::whole(const std::string& name, std::int64_t otherwise, std::int64_t low,
+                                std::int64_t high) const {
+  if (!has(name)) return otherwise;
+  const std::string word = text(name);
+  const auto value = parse_whole(word);
+  if (!value) refuse("--" + name + " " + word + " is not a whole number");
+  if (*value < low || *value > high) {
+    refuse("--" + name + " " + word + " is outside " + std::to_string(low) + " .. " +
+           std::to_string(high));
+  }
+  return *value;
+}
+
+void VerbOptions::refuse(const std::string& message) const {
+  throw InputError("lilytank " + verb_ + ": " + message);
+}
+
+}  // namespace lilytank::cli

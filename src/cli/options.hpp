@@ -1,0 +1,49 @@
+// Command lines of verbs: cxxopts with messages that name the nearest right option.
+#pragma once
+#include <optional>
+#include <string>
+
+// The library would split --set title="a,b" at the comma.
+#define CXXOPTS_VECTOR_DELIMITER '\0'
+#include <cxxopts.hpp>
+
+#include "cli/verbs.hpp"
+
+namespace lilytank::cli {
+
+/// Options and positional arguments of one verb.
+class VerbOptions {
+ public:
+  /// `usage`: the positional arguments as shown by help, "SCENARIO...".
+  VerbOptions(const std::string& verb, const std::string& usage, const std::string& summary);
+
+  /// To add options with, as in cxxopts.
+  cxxopts::OptionAdder add() { return options_.add_options(); }
+  /// Reads the arguments; false if only the help was asked for, which is then printed. Throws
+  /// InputError on an unknown option or a missing value.
+  bool parse(const Arguments& arguments);
+
+  bool has(const std::string& name) const { return result_.count(name) > 0; }
+  /// The value of a text option, or `otherwise`.
+  std::string text(const std::string& name, const std::string& otherwise = "") const;
+  std::vector<std::string> list(const std::string& name) const;
+  /// A number within bounds, or `otherwise` if the option is not given; with `unit` the user may
+  /// write "2 h". Throws InputError.
+  double number(const std::string& name, double otherwise, double low, double high,
+                const std::string& unit = "") const;
+  std::int64_t whole(const std::string& name, std::int64_t otherwise, std::int64_t low,
+                     std::int64_t high) const;
+  const std::vector<std::string>& positional() const { return positional_; }
+
+  /// An InputError that begins with the verb.
+  [[noreturn]] void refuse(const std::string& message) const;
+
+ private:
+  void check_names(const Arguments& arguments) const;
+  std::string verb_;
+  cxxopts::Options options_;
+  cxxopts::ParseResult result_;
+  std::vector<std::string> positional_;
+};
+
+}  // namespace lilytank::cli

@@ -1,0 +1,72 @@
+#include "cli/progress.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+
+namespace lilytank::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kBetweenLines = std::chrono::seconds(60);
+
+double seconds(Clock::duration d) {
+  return std::chrono::duration<double>(d).count();
+}
+
+std::string duration_text(double s) {
+  char text[40];
+  if (s < 90) {
+    std::snprintf(text, sizeof text, "%.0f s", s);
+  } else if (s < 5400) {
+    std::snprintf(text, sizeof text, "%.0f min", s / 60);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f h", s / 3600);
+  }
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      last_line_(start_) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::tell(double done, const std::string& note) {
+  if (quiet_) return;
+  if (first_done_ < 0) first_done_ = done;  // a resumed job begins in the middle
+  const auto now = Clock::now();
+  if (!terminal_ && now - last_line_ < kBetweenLines) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%5.1f %%  ", 100 * done);
+  const std::string line = share + note + "  " + time_left(done);
+  last_line_ = now;
+  if (!terminal_) {
+    std::cerr << line << std::endl;
+    return;
+  }
+  const std::size_t before = shown_;
+  shown_ = line.size();
+  std::cerr << '\r' << line << std::string(before > shown_ ? before - shown_ : 0, ' ')
+            << std::flush;
+}
+
+std::string Progress::time_left(double done) const {
+  const double here = done - first_done_;
+  if (here <= 0) return "";
+  return duration_text(seconds(Clock::now() - start_) * (1 - done) / here) + " left";
+}
+
+void Progress::clear() {
+  if (shown_ > 0) std::cerr << '\r' << std::string(shown_, ' ') << '\r' << std::flush;
+  shown_ = 0;
+}
+
+}  // namespace lilytank::cli

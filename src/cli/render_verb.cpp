@@ -1,0 +1,118 @@
+#include "cli/options.hpp"
+
+#ifdef LILYTANK_HAS_RENDER
+#include <filesystem>
+#include <iostream>
+#include <limits>
+
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "io/units.hpp"
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+#ifdef LILYTANK_HAS_RENDER
+namespace {
+
+constexpr double kLongest = 1e9;  // s
+
+FlowStyle flow_style(const VerbOptions& options) {
+  const std::vector<std::string> words{"none", "arrows", "streamlines"};
+  const std::string word = options.text("flow", "streamlines");
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (word == words[i]) return static_cast<FlowStyle>(i);
+  }
+  options.refuse("--flow " + word + " is none of none, arrows, streamlines" +
+                 did_you_mean(word, words));
+}
+
+FilmOptions film_options(const VerbOptions& options) {
+  FilmOptions film;
+  film.from = options.number("from", 0, 0, kLongest, "s");
+  film.to = options.number("to", -1, 0, kLongest, "s");
+  film.fps = options.number("fps", film.fps, 1, 240);
+  film.speed = options.number("speed", film.speed, 1e-3, 1e6);
+  film.style.size = static_cast<int>(options.whole("size", film.style.size, 120, 4320));
+  film.style.flow = flow_style(options);
+  film.style.trail = options.number("trail", film.style.trail, 0, 3600, "s");
+  film.style.labels = !options.has("no-labels");
+  if (film.to >= 0 && film.to <= film.from) options.refuse("--to is not after --from");
+  return film;
+}
+
+void check_ending(const VerbOptions& options, const std::string& name) {
+  const std::string file = options.text(name);
+  if (options.has(name) && !file.ends_with("." + name)) {
+    options.refuse("--" + name + " " + file + " does not end with ." + name);
+  }
+}
+
+/// Draws all that was asked for; false if it was stopped.
+bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
+  const StoredRun run = load_run(dir);
+  Progress progress(options.has("quiet"));
+  film.stop = &stop_signal();
+  film.progress = [&](double done) { progress.tell(done, "of the film"); };
+  const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
+  std::vector<std::string> made;
+  const auto films = [&](const std::string& file) {
+    if (film.stop->load()) return;
+    draw_film(run, film, file);
+    made.push_back(file);
+  };
+  for (const char* name : {"png", "svg"}) {
+    if (!options.has(name)) continue;
+    draw_frame(run, at, film.style, options.text(name));
+    made.push_back(options.text(name));
+  }
+  for (const char* name : {"mp4", "gif"}) {
+    if (options.has(name)) films(options.text(name));
+  }
+  if (options.has("stills") && !film.stop->load()) {
+    draw_stills(run, film, options.text("stills"));
+    made.push_back(options.text("stills"));
+  }
+  const bool asked = options.has("png") || options.has("svg") || options.has("mp4") ||
+                     options.has("gif") || options.has("stills");
+  if (!asked) films((std::filesystem::path(dir) / "video.mp4").string());
+  progress.clear();
+  if (film.stop->load()) return false;
+  for (const std::string& file : made) std::cout << file << "\n";
+  return true;
+}
+
+}  // namespace
+#endif
+
+int render_verb(const Arguments& arguments) {
+  VerbOptions options("render", "RUN", "Draws a run's directory: a film, stills or one frame.");
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("from", "begin of the film", text(), "TIME")("to", "its end", text(), "TIME")(
+      "fps", "frames per second of the film (30)", text(), "N")(
+      "speed", "simulated seconds per second of film (default: the film takes a minute)", text(),
+      "X")("size", "height in pixels (1080)", text(), "N")("mp4", "a film", text(), "FILE")(
+      "gif", "a film", text(), "FILE")("stills", "the film's frames as PNG files", text(), "DIR")(
+      "png", "one frame", text(), "FILE")("svg", "one frame", text(), "FILE")(
+      "at", "the frame's time (default: the end)", text(), "TIME")(
+      "flow", "none, arrows or streamlines", text(), "WORD")("no-labels", "no states on modules")(
+      "trail", "time of path drawn behind each body (4 s)", text(), "TIME")("quiet", "no progress");
+  if (!options.parse(arguments)) return Exit::done;
+#ifdef LILYTANK_HAS_RENDER
+  if (options.positional().size() != 1) {
+    options.refuse("which run? write lilytank render RUN, as out/chain5-seed1");
+  }
+  for (const char* name : {"png", "svg", "mp4", "gif"}) check_ending(options, name);
+  if (options.has("at") && !options.has("png") && !options.has("svg")) {
+    options.refuse("--at goes with --png or --svg");
+  }
+  const FilmOptions film = film_options(options);
+  if (draw_all(options, options.positional().front(), film)) return Exit::done;
+  std::cerr << "stopped while drawing\n";
+  return Exit::stopped;
+#else
+  options.refuse("this program was built without the renderer (Cairo was not found)");
+#endif
+}
+
+}  // namespace lilytank::cli

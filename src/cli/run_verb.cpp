@@ -1,0 +1,155 @@
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "io/atomic_file.hpp"
+#include "jobs/report.hpp"
+#include "jobs/run_directory.hpp"
+#include "lilytank/run.hpp"
+#include "text/number.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Text as a part of a file name: letters, digits and a few signs, the rest as '-'.
+std::string file_name_of(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '.';
+    if (plain && !(out.empty() && c == '.')) {
+      out += c;
+    } else if (!out.empty() && out.back() != '-') {
+      out += '-';
+    }
+  }
+  while (out.ends_with('-')) out.pop_back();
+  return out.empty() ? "run" : out;
+}
+
+std::string default_out(const Scenario& scenario, const std::string& last_file) {
+  const std::string name =
+      scenario.title.empty() ? fs::path(last_file).stem().string() : scenario.title;
+  return (fs::path("out") / (file_name_of(name) + "-seed" + std::to_string(scenario.seed)))
+      .string();
+}
+
+void check_video(const VerbOptions& options, const Scenario& scenario) {
+#ifdef LILYTANK_HAS_RENDER
+  if (scenario.output.trajectory == TrajectoryFormat::none) {
+    options.refuse("--video needs stored poses, but output.trajectory is \"none\"");
+  }
+#else
+  static_cast<void>(scenario);
+  options.refuse("--video: this program was built without the renderer (Cairo was not found)");
+#endif
+}
+
+/// Draws video.mp4 and yield.png; false if it was stopped.
+bool draw(const std::string& out, bool quiet) {
+#ifdef LILYTANK_HAS_RENDER
+  const StoredRun stored = load_run(out);
+  Progress progress(quiet);
+  FilmOptions film;
+  film.stop = &stop_signal();
+  film.progress = [&](double done) { progress.tell(done, "of the film"); };
+  draw_film(stored, film, (fs::path(out) / "video.mp4").string());
+  if (film.stop->load()) return false;
+  draw_plot(yield_plot(stored), (fs::path(out) / "yield.png").string());
+#else
+  static_cast<void>(out), static_cast<void>(quiet);
+#endif
+  return true;
+}
+
+int dry_run(const Scenario& scenario, const std::string& out) {
+  initial_state(scenario.model, scenario.seed);  // do the bodies fit?
+  std::cout << "would simulate " << shortest(scenario.duration) << " s of "
+            << scenario.model.module.count << " modules and " << scenario.model.ball.count
+            << " balls with seed " << scenario.seed << "\nwould write to " << out << "\nscenario "
+            << hex(scenario.identity) << "\n";
+  return Exit::done;
+}
+
+RunResult run_with_progress(const Scenario& scenario, const RunOptions& base, bool quiet) {
+  Progress progress(quiet);
+  RunOptions options = base;
+  options.progress = [&](double done, double rate) {
+    char note[48];
+    std::snprintf(note, sizeof note, "%.0f times real time", rate);
+    progress.tell(done, note);
+  };
+  return run(scenario, options);
+}
+
+void say_time(const RunResult& result, const std::string& out) {
+  if (result.already_complete) {
+    std::cerr << "this run was complete already\n";
+  } else {
+    char text[80];
+    std::snprintf(text, sizeof text, "took %.1f s%s", result.wall,
+                  result.resumed ? ", going on from a checkpoint" : "");
+    std::cerr << text << "\n";
+  }
+  std::cerr << "results in " << out << "\n";
+}
+
+int finish(const Scenario& scenario, const RunResult& result, const std::string& out, bool video,
+           bool quiet) {
+  if (result.status == RunStatus::stopped) {
+    std::cerr << "stopped at " << shortest(result.time) << " s of " << shortest(scenario.duration)
+              << " s; the same command goes on from there\n";
+    return Exit::stopped;
+  }
+  if (!quiet) say_time(result, out);
+  if (result.status == RunStatus::diverged) {
+    std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
+  } else if (video && !draw(out, quiet)) {
+    std::cerr << "stopped while drawing; the same command goes on from there\n";
+    return Exit::stopped;
+  }
+  std::cout << read_whole((fs::path(out) / run_file::summary_text).string()) << std::flush;
+  return result.status == RunStatus::diverged ? Exit::diverged : Exit::done;
+}
+
+}  // namespace
+
+int run_verb(const Arguments& arguments) {
+  VerbOptions options("run", "SCENARIO...",
+                      "Simulates one tank; later scenarios overlay earlier ones.");
+  options.add()("set", "a value, as tank.radius=0.3 or run.dt='5 ms'",
+                cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
+      "seed", "where all random numbers come from", cxxopts::value<std::string>(), "N")(
+      "out", "directory of the results (default: out/<title>-seed<N>)",
+      cxxopts::value<std::string>(), "DIR")("video", "draw video.mp4 and yield.png afterwards")(
+      "dry-run", "check everything, write nothing")("force", "replace another run's files")(
+      "quiet", "no progress");
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().empty()) {
+    options.refuse("which scenario? write lilytank run SCENARIO, as scenarios/chain5.toml");
+  }
+  std::vector<std::string> sets = options.list("set");
+  if (options.has("seed")) {
+    sets.push_back("run.seed=" + std::to_string(options.whole("seed", 1, 0, INT64_MAX)));
+  }
+  const Scenario scenario = load_scenario(options.positional(), sets);
+  const bool video = options.has("video"), quiet = options.has("quiet");
+  if (video) check_video(options, scenario);
+  RunOptions job;
+  job.out = options.text("out", default_out(scenario, options.positional().back()));
+  if (job.out.empty()) options.refuse("--out is empty");
+  if (options.has("dry-run")) return dry_run(scenario, job.out);
+  job.force = options.has("force");
+  job.stop = &stop_signal();
+  return finish(scenario, run_with_progress(scenario, job, quiet), job.out, video, quiet);
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,31 @@
+// What the program can be told to do. A verb is one file beside this one and one line in main.cpp.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace lilytank::cli {
+
+using Arguments = std::vector<std::string>;
+
+/// Exit codes of the program.
+enum Exit : int {
+  done = 0,
+  diverged = 1,   ///< a world was given up; its files are there
+  bad_input = 2,  ///< one line on stderr says what is wrong
+  stopped = 3,    ///< by a signal; the same command goes on
+};
+
+struct Verb {
+  std::string name;
+  std::string summary;
+  /// Does it; the arguments are those after the verb. "--help" among them prints the verb's help.
+  /// Throws InputError.
+  int (*act)(const Arguments& arguments);
+};
+
+int run_verb(const Arguments& arguments);
+int info_verb(const Arguments& arguments);
+int forces_verb(const Arguments& arguments);
+int render_verb(const Arguments& arguments);
+
+}  // namespace lilytank::cli

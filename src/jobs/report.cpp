@@ -1,0 +1,169 @@
+#include "jobs/report.hpp"
+
+#include <cmath>
+
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string word_of(RuleKind kind) {
+  constexpr const char* words[] = {"link", "unlink", "update"};
+  return words[static_cast<int>(kind)];
+}
+
+std::string joined(const std::vector<double>& values) {
+  std::string out;
+  for (const double v : values) out += (out.empty() ? "" : ", ") + shortest(v);
+  return out;
+}
+
+/// "5 singles, 1 of 2, 2 of 5 modules".
+std::string sizes_text(const std::vector<int>& by_size) {
+  std::string out;
+  for (std::size_t n = 1; n < by_size.size(); ++n) {
+    if (by_size[n] == 0) continue;
+    out += (out.empty() ? "" : ", ") + std::to_string(by_size[n]);
+    out += n == 1 ? " single" : " of " + std::to_string(n);
+  }
+  return out.empty() ? "none" : out;
+}
+
+std::string json_quoted(const std::string& text) {
+  constexpr char digits[] = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\', out += c;
+    } else if (code < 0x20) {
+      out += "\\u00", out += digits[code >> 4], out += digits[code & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+/// Collects the members of a JSON object, one a line.
+class JsonObject {
+ public:
+  void raw(const std::string& name, const std::string& value) {
+    text_ += (text_.empty() ? "" : ",\n") + ("  \"" + name + "\": " + value);
+  }
+  void number(const std::string& name, double value) {
+    raw(name, std::isfinite(value) ? shortest(value) : "null");  // JSON has no infinity
+  }
+  void whole(const std::string& name, std::int64_t value) { raw(name, std::to_string(value)); }
+  void text(const std::string& name, const std::string& value) { raw(name, json_quoted(value)); }
+  std::string whole_object() const { return "{\n" + text_ + "\n}\n"; }
+
+ private:
+  std::string text_;
+};
+
+std::string line(std::string name, const std::string& value) {
+  name.resize(16, ' ');
+  return name + value + "\n";
+}
+
+std::string bodies_text(const Model& model) {
+  std::string out = std::to_string(model.module.count) + " modules";
+  if (model.ball.count > 0) out += ", " + std::to_string(model.ball.count) + " balls";
+  return out;
+}
+
+}  // namespace
+
+std::string rules_table(const Model& model, const AssemblyRecord& record) {
+  std::string out = "ruleset,rule,kind,p,firings\n";
+  for (std::size_t r = 0; r < model.rulesets.size(); ++r) {
+    const Ruleset& rules = model.rulesets[r];
+    for (std::size_t k = 0; k < rules.rules.size(); ++k) {
+      const Rule& rule = rules.rules[k];
+      out += rules.name + "," + rule.name + "," + word_of(rule.kind) + "," + shortest(rule.p) +
+             "," + std::to_string(record.firings()[r][k]) + "\n";
+    }
+  }
+  return out;
+}
+
+std::string species_table(const AssemblyRecord& record) {
+  std::string out = "drawing,size,legal,target,standing,species\n";
+  for (const auto& [key, species] : record.seen()) {
+    const auto found = record.standing().find(key);
+    const int standing = found == record.standing().end() ? 0 : found->second;
+    out += species.drawing + "," + std::to_string(species.size) + "," +
+           (species.legal ? "1," : "0,") + (species.target ? "1," : "0,") +
+           std::to_string(standing) + ",\"" + key + "\"\n";
+  }
+  return out;
+}
+
+std::string divergence_text(const Divergence& d, const Model& model) {
+  const bool module = d.body < model.module.count;
+  return "diverged at " + shortest(static_cast<double>(d.step) * model.dt) + " s (step " +
+         std::to_string(d.step) + "): " + (module ? "module " : "ball ") +
+         std::to_string(module ? d.body : d.body - model.module.count) + ", largest force " +
+         std::string(d.force) + ", " + shortest(d.size) + " N";
+}
+
+std::string summary_text(const Scenario& scenario, const World& world, const AssemblyRecord& record,
+                         const Outcome& outcome) {
+  const Model& model = scenario.model;
+  const bool diverged = outcome.status == RunStatus::diverged;
+  std::string out = line("scenario", scenario.title.empty() ? "(no title)" : scenario.title);
+  out += line("seed", std::to_string(scenario.seed));
+  out += line("status", diverged ? divergence_text(outcome.divergence, model) : "complete");
+  out += line("simulated", shortest(world.time()) + " s of " + bodies_text(model));
+  if (record.possible_copies() > 0) {
+    out += line("copies", std::to_string(record.copies()) + " of " +
+                              std::to_string(record.possible_copies()) + " possible, most " +
+                              std::to_string(record.most_copies()));
+    if (!record.completion_times().empty()) {
+      out += line("completed at", joined(record.completion_times()) + " s");
+    }
+  }
+  if (model.module.count > 0) out += line("assemblies", sizes_text(record.by_size()));
+  if (!model.rulesets.empty()) out += line("illegal", std::to_string(record.illegal()));
+  return out + line("fingerprint", hex(fingerprint(world.state())));
+}
+
+std::string summary_json(const Scenario& scenario, const World& world, const AssemblyRecord& record,
+                         const Outcome& outcome) {
+  const bool diverged = outcome.status == RunStatus::diverged;
+  JsonObject json;
+  json.text("program", "lilytank " LILYTANK_VERSION);
+  json.text("title", scenario.title);
+  json.text("scenario", hex(scenario.identity));
+  json.whole("seed", static_cast<std::int64_t>(scenario.seed));
+  json.text("status", diverged ? "diverged" : "complete");
+  json.number("time_s", world.time());
+  json.whole("steps", world.state().step);
+  json.whole("modules", scenario.model.module.count);
+  json.whole("balls", scenario.model.ball.count);
+  json.whole("copies", record.copies());
+  json.whole("most_copies", record.most_copies());
+  json.whole("possible_copies", record.possible_copies());
+  json.raw("completion_times_s", "[" + joined(record.completion_times()) + "]");
+  std::string sizes;
+  for (std::size_t n = 1; n < record.by_size().size(); ++n) {
+    sizes += (n == 1 ? "" : ", ") + std::to_string(record.by_size()[n]);
+  }
+  json.raw("assemblies_by_size", "[" + sizes + "]");
+  json.whole("illegal", record.illegal());
+  json.whole("evaluations", outcome.tallies.evaluations);
+  json.whole("snaps_refused", outcome.tallies.snaps_refused);
+  json.whole("moves_undone", outcome.tallies.moves_undone);
+  json.number("deepest_overlap_m", outcome.tallies.deepest_overlap);
+  if (diverged) {
+    json.whole("diverged_step", outcome.divergence.step);
+    json.whole("diverged_body", outcome.divergence.body);
+    json.text("diverged_force", std::string(outcome.divergence.force));
+    json.number("diverged_force_N", outcome.divergence.size);
+  }
+  json.text("fingerprint", hex(fingerprint(world.state())));
+  return json.whole_object();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,168 @@
+// From a scenario to a directory of results, through any number of interruptions.
+#include "lilytank/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "jobs/report.hpp"
+#include "jobs/run_directory.hpp"
+#include "jobs/run_files.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr std::int64_t kStepsPerLook = 64;  // steps between looks at the clock
+
+/// Wall time; decides when to save and what progress to tell, never what a file holds.
+class StopWatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Tallies sum(const Tallies& a, const Tallies& b) {
+  return {a.evaluations + b.evaluations, a.snaps_refused + b.snaps_refused,
+          a.moves_undone + b.moves_undone, std::max(a.deepest_overlap, b.deepest_overlap)};
+}
+
+class Job {
+ public:
+  Job(const Scenario& scenario, const RunOptions& options)
+      : scenario_(&scenario),
+        options_(&options),
+        directory_(options.out.empty()
+                       ? nullptr
+                       : std::make_unique<RunDirectory>(options.out, scenario, options.force)),
+        world_(begin()),
+        record_(scenario.model) {
+    const auto parts = scenario.duration / scenario.model.dt;
+    steps_ = static_cast<std::int64_t>(std::floor(parts + 0.5));
+  }
+
+  RunResult run() {
+    if (directory_) directory_->open();
+    const Checkpoint* before = checkpoint();
+    if (before != nullptr) {
+      record_.restore(before->record, world_);
+      earlier_ = before->tallies;
+      outcome_ = {before->status, before->divergence, before->tallies};
+    }
+    result_.resumed = before != nullptr && !before->finished;
+    result_.already_complete = before != nullptr && before->finished;
+    if (!result_.already_complete) go_on();
+    if (result_.status != RunStatus::stopped) report();
+    return finished_result();
+  }
+
+ private:
+  const Checkpoint* checkpoint() const {
+    return directory_ && directory_->checkpoint() ? &*directory_->checkpoint() : nullptr;
+  }
+
+  World begin() const {
+    if (const Checkpoint* before = checkpoint()) return {scenario_->model, before->state};
+    return {scenario_->model, scenario_->seed};
+  }
+
+  // Steps to the end, to a divergence or to a stop.
+  void go_on() {
+    if (directory_) files_ = std::make_unique<RunFiles>(*scenario_, *directory_, record_.copies());
+    if (!result_.resumed) {
+      record_.observe(world_);
+      if (files_) files_->observe(world_, record_);
+    }
+    first_step_ = world_.state().step;
+    while (world_.state().step < steps_ && result_.status == RunStatus::ok) {
+      if (options_->stop != nullptr && options_->stop->load(std::memory_order_relaxed)) {
+        result_.status = RunStatus::stopped;
+        break;
+      }
+      result_.status = world_.step();
+      record_.observe(world_);
+      if (files_) files_->observe(world_, record_);
+      if (world_.state().step % kStepsPerLook == 0) look_at_clock();
+    }
+    outcome_ = {result_.status, world_.divergence(), sum(earlier_, world_.tallies())};
+    const bool over = result_.status != RunStatus::stopped;
+    if (over && files_) files_->finish(world_, record_);
+    save(over);
+  }
+
+  void look_at_clock() {
+    const double now = watch_.seconds();
+    const auto done = static_cast<double>(world_.state().step);
+    const auto total = static_cast<double>(std::max<std::int64_t>(1, steps_));
+    if (options_->progress && now - told_ >= 0.2) {
+      told_ = now;
+      const double simulated = (done - static_cast<double>(first_step_)) * scenario_->model.dt;
+      options_->progress(done / total, simulated / now);
+    }
+    // Not at the last step: what comes after it belongs to the checkpoint of the finished run.
+    const bool more = world_.state().step < steps_;
+    if (more && now - saved_ >= options_->checkpoint_seconds) {
+      save(false);
+      saved_ = watch_.seconds();
+    }
+  }
+
+  void save(bool finished) {
+    if (!files_) return;
+    Checkpoint c;
+    c.finished = finished;
+    c.status = outcome_.status == RunStatus::diverged ? outcome_.status : RunStatus::ok;
+    c.divergence = outcome_.divergence;
+    c.lengths = files_->flush();
+    c.tallies = sum(earlier_, world_.tallies());
+    c.record = record_.to_text();
+    c.state = world_.state();
+    directory_->save(c);
+  }
+
+  void report() const {
+    if (!directory_) return;
+    directory_->put(run_file::rules, rules_table(scenario_->model, record_));
+    directory_->put(run_file::species, species_table(record_));
+    directory_->put(run_file::summary_json, summary_json(*scenario_, world_, record_, outcome_));
+    directory_->put(run_file::summary_text, summary_text(*scenario_, world_, record_, outcome_));
+  }
+
+  RunResult finished_result() {
+    if (result_.status != RunStatus::stopped) result_.status = outcome_.status;
+    result_.time = world_.time();
+    result_.wall = watch_.seconds();
+    result_.fingerprint = fingerprint(world_.state());
+    result_.copies = record_.copies();
+    result_.possible = record_.possible_copies();
+    result_.completion_times = record_.completion_times();
+    result_.illegal = record_.illegal();
+    result_.divergence = outcome_.divergence;
+    return std::move(result_);
+  }
+
+  const Scenario* scenario_;
+  const RunOptions* options_;
+  std::unique_ptr<RunDirectory> directory_;
+  World world_;
+  AssemblyRecord record_;
+  std::unique_ptr<RunFiles> files_;
+  std::int64_t steps_ = 0, first_step_ = 0;
+  Tallies earlier_;  // of the calls before this one
+  Outcome outcome_;
+  RunResult result_;
+  StopWatch watch_;
+  double told_ = 0, saved_ = 0;
+};
+
+}  // namespace
+
+RunResult run(const Scenario& scenario, const RunOptions& options) {
+  return Job(scenario, options).run();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,161 @@
+#include "jobs/run_directory.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool exists(const std::string& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+bool holds(const std::string& file, const std::string& content) {
+  return exists(file) && read_whole(file) == content;
+}
+
+constexpr const char* kResults[] = {
+    run_file::trajectory_binary, run_file::trajectory_csv, run_file::events,
+    run_file::metrics,           run_file::rules,          run_file::species,
+    run_file::summary_text,      run_file::summary_json,   run_file::checkpoint};
+
+/// Pictures that `run --video` adds; they belong to the run that made them.
+constexpr const char* kPictures[] = {"video.mp4", "yield.png"};
+
+/// Names in a run's directory that load_scenario gives to attachments.
+std::vector<std::string> attached_names(const std::string& dir) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(dir, ignored)) {
+    std::string name = entry.path().filename().string();
+    const bool rules = name.starts_with("ruleset") && name.ends_with(".rules");
+    if (rules || name == "flow.csv" || name == "poses.csv") names.push_back(std::move(name));
+  }
+  return names;
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force)
+    : dir_(std::move(dir)), scenario_(&scenario), force_(force) {
+  std::error_code ignored;
+  if (exists(dir_) && !fs::is_directory(dir_, ignored)) {
+    throw InputError("'" + dir_ + "' is a file; the results need a directory");
+  }
+  ours_ = same_run();
+  if (ours_ && exists(path(run_file::checkpoint))) {
+    const std::string file = path(run_file::checkpoint);
+    checkpoint_ = checkpoint_from(read_whole(file), scenario.identity, file);
+  }
+  if (ours_ || force) return;
+  const std::string advice = "; choose another --out, or --force to replace it";
+  if (exists(path(run_file::resolved))) {
+    throw InputError("'" + dir_ + "' holds another run (" + first_difference() + ")" + advice);
+  }
+  if (const std::string name = clash(); !name.empty()) {
+    throw InputError("'" + dir_ + "' holds a file '" + name + "' that is not of a run" + advice);
+  }
+}
+
+RunDirectory::~RunDirectory() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+std::string RunDirectory::path(const std::string& name) const {
+  return (fs::path(dir_) / name).string();
+}
+
+std::string RunDirectory::trajectory_path() const {
+  switch (scenario_->output.trajectory) {
+    case TrajectoryFormat::binary:
+      return path(run_file::trajectory_binary);
+    case TrajectoryFormat::csv:
+      return path(run_file::trajectory_csv);
+    case TrajectoryFormat::none:
+      break;
+  }
+  return "";
+}
+
+bool RunDirectory::same_run() const {
+  if (!holds(path(run_file::resolved), scenario_->resolved)) return false;
+  for (const Scenario::Attachment& file : scenario_->files) {
+    if (!holds(path(file.name), file.content)) return false;
+  }
+  return true;
+}
+
+// The resolved texts differ line by line, or an attached file does.
+std::string RunDirectory::first_difference() const {
+  std::istringstream theirs(read_whole(path(run_file::resolved))), ours(scenario_->resolved);
+  std::string there, here;
+  for (;;) {
+    const bool more_there = static_cast<bool>(std::getline(theirs, there));
+    const bool more_here = static_cast<bool>(std::getline(ours, here));
+    if (!more_there && !more_here) return "with another ruleset, flow or start file";
+    if (!more_there || !more_here || there != here) break;
+  }
+  const auto value = [](const std::string& line) { return line.substr(0, line.find("  #")); };
+  return "there '" + value(there) + "', here '" + value(here) + "'";
+}
+
+// Without resolved.toml: attachments may lie there from a run killed while it began.
+std::string RunDirectory::clash() const {
+  for (const char* name : kResults) {
+    if (exists(path(name))) return name;
+  }
+  for (const Scenario::Attachment& file : scenario_->files) {
+    if (exists(path(file.name)) && !holds(path(file.name), file.content)) return file.name;
+  }
+  return "";
+}
+
+void RunDirectory::remove_old() const {
+  std::error_code ignored;
+  // Only beside a resolved.toml are these names sure to be a run's copies and not a user's files.
+  const bool run = fs::remove(path(run_file::resolved), ignored);
+  for (const char* name : kResults) fs::remove(path(name), ignored);
+  for (const char* name : kPictures) fs::remove(path(name), ignored);
+  for (const std::string& name : run ? attached_names(dir_) : std::vector<std::string>{}) {
+    fs::remove(path(name), ignored);
+  }
+}
+
+void RunDirectory::open() {
+  std::error_code problem;
+  fs::create_directories(dir_, problem);
+  if (problem) throw InputError("cannot make directory '" + dir_ + "': " + problem.message());
+  // Held until the process ends, however it ends; leaves no file behind.
+  lock_ = ::open(dir_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw InputError("another process is at work in '" + dir_ + "'");
+  }
+  if (ours_) return;
+  if (force_) remove_old();
+  // The resolved scenario comes last: it says that the run was begun.
+  for (const Scenario::Attachment& file : scenario_->files) {
+    write_atomically(path(file.name), file.content);
+  }
+  write_atomically(path(run_file::resolved), scenario_->resolved);
+}
+
+void RunDirectory::save(const Checkpoint& checkpoint) const {
+  write_atomically(path(run_file::checkpoint), to_bytes(checkpoint, scenario_->identity));
+}
+
+void RunDirectory::put(const std::string& name, const std::string& content) const {
+  if (!holds(path(name), content)) write_atomically(path(name), content);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,61 @@
+// The directory of one run: what is in it, whose it is, and that nobody else works there.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "jobs/checkpoint.hpp"
+#include "lilytank/scenario.hpp"
+
+namespace lilytank {
+
+/// Names of a run's files.
+namespace run_file {
+inline constexpr const char* resolved = "resolved.toml";
+inline constexpr const char* trajectory_binary = "trajectory.bin";
+inline constexpr const char* trajectory_csv = "trajectory.csv";
+inline constexpr const char* events = "events.csv";
+inline constexpr const char* metrics = "metrics.csv";
+inline constexpr const char* rules = "rules.csv";
+inline constexpr const char* species = "species.csv";
+inline constexpr const char* summary_text = "summary.txt";
+inline constexpr const char* summary_json = "summary.json";
+inline constexpr const char* checkpoint = "checkpoint.bin";
+}  // namespace run_file
+
+class RunDirectory {
+ public:
+  /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run or
+  /// files that a run would overwrite, unless `force`.
+  RunDirectory(std::string dir, const Scenario& scenario, bool force);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  /// Where this scenario's run stopped, if it was begun here.
+  const std::optional<Checkpoint>& checkpoint() const { return checkpoint_; }
+  /// Makes the directory, takes it for this process, and, where the run was not begun here, removes
+  /// what another one left and writes the resolved scenario. Throws InputError.
+  void open();
+
+  std::string path(const std::string& name) const;
+  /// "" where the scenario stores no poses.
+  std::string trajectory_path() const;
+  void save(const Checkpoint& checkpoint) const;
+  /// Writes a file unless it holds just that already.
+  void put(const std::string& name, const std::string& content) const;
+
+ private:
+  bool same_run() const;
+  std::string first_difference() const;
+  std::string clash() const;
+  void remove_old() const;
+
+  std::string dir_;
+  const Scenario* scenario_;
+  bool force_;
+  bool ours_ = false;  ///< this scenario's run was begun here
+  std::optional<Checkpoint> checkpoint_;
+  int lock_ = -1;
+};
+
+}  // namespace lilytank
