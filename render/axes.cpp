@@ -100,7 +100,9 @@ void log_ticks(Axis& axis, int wanted) {
     for (int k = 1; k <= 9; ++k) {
       const double value = k * decade, at = std::log10(value);
       if (at < first - 1e-9 || at > last + 1e-9) continue;
+      // Many decades leave no room for what lies between the labels.
       if (every > 1 && k > 1) continue;
+      if (every > 10 && e % every != 0) continue;
       const bool major =
           k == 1 ? ((e % every) + every) % every == 0 : between && (k == 2 || k == 5);
       std::string label;
@@ -145,7 +147,8 @@ void Range::add(double value, bool log) {
 double Axis::share(double value) const {
   if (!log) return (value - low) / (high - low);
   if (!(value > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return std::log(value / low) / std::log(high / low);
+  // Differences of logarithms: the ratio itself may overflow.
+  return (std::log(value) - std::log(low)) / (std::log(high) - std::log(low));
 }
 
 std::string number(double value, int decimals) {
@@ -172,11 +175,12 @@ Axis make_axis(double low, double high, bool log, int wanted, bool whole) {
   else
     repair_linear(low, high);
   Axis axis{low, high, log, {}, {}};
-  // A log axis over less than a fifth of a decade reads better with evenly spaced numbers.
-  if (log && high / low > 1.6)
+  // 1, 2 and 5 times powers of ten give two labels or more only from a ratio of 5 on; shorter log
+  // axes get evenly spaced numbers.
+  if (log && high / low > 5)
     log_ticks(axis, wanted);
   else
-    linear_ticks(axis, wanted, whole);
+    linear_ticks(axis, wanted, whole && high - low >= 1);
   return axis;
 }
 

@@ -8,6 +8,7 @@
 
 #include "ffmpeg.hpp"
 #include "frame.hpp"
+#include "io/atomic_file.hpp"
 #include "output_file.hpp"
 
 namespace lilytank {
@@ -105,7 +106,8 @@ void draw_stills(const StoredRun& run, const FilmOptions& options, const std::st
   for (int k = 0; k < when.frames && !stopped(options); ++k) {
     char name[40];
     std::snprintf(name, sizeof name, "frame_%06d.png", k);
-    write_whole((std::filesystem::path(dir) / name).string(), raster.draw(when.time(k)).encoded());
+    write_atomically((std::filesystem::path(dir) / name).string(),
+                     raster.draw(when.time(k)).encoded());
     report(options, k + 1, when.frames);
   }
 }

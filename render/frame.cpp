@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "output_file.hpp"
+#include "io/atomic_file.hpp"
 #include "palette.hpp"
 
 namespace lilytank {
@@ -80,7 +80,7 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
   check_time(run.trajectory, time);
   if (format == PictureFormat::png) {
     FrameRaster raster(run, style, 0, style.size);
-    write_whole(file, raster.draw(time).encoded());
+    write_atomically(file, raster.draw(time).encoded());
     return;
   }
   FramePainter painter(run, style, 0);
@@ -89,7 +89,7 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
   cairo_scale(canvas.get(), scale, scale);
   painter.draw_static(canvas);
   painter.draw_moving(canvas, time);
-  write_whole(file, canvas.encoded());
+  write_atomically(file, canvas.encoded());
 }
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// A file that another program writes: it has another name until it is complete.
 #pragma once
 #include <string>
 
@@ -11,7 +11,5 @@ std::string unfinished_name(const std::string& file);
 void require_writable(const std::string& file);
 /// Gives a finished file its name. Throws InputError, and removes it, where that fails.
 void publish(const std::string& unfinished, const std::string& file);
-/// Writes `bytes` as `file`. Throws InputError with the system's reason where that fails.
-void write_whole(const std::string& file, const std::string& bytes);
 
 }  // namespace lilytank

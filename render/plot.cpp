@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "io/atomic_file.hpp"
 #include "legend_box.hpp"
-#include "output_file.hpp"
 #include "palette.hpp"
 #include "plot_area.hpp"
 
@@ -199,7 +199,7 @@ void draw_plot(const Plot& plot, const std::string& file) {
   }
   Canvas canvas = Canvas::page(format, plot.width, plot.height, kPixels);
   draw_all(canvas, plot);
-  write_whole(file, canvas.encoded());
+  write_atomically(file, canvas.encoded());
 }
 
 }  // namespace lilytank

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "render/picture.hpp"
+#include "render/sample_run.hpp"
+
+namespace lilytank {
+namespace {
+
+using sample::Folder;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kMost = std::numeric_limits<double>::max();
+
+Plot plot_of(std::vector<double> x, std::vector<double> y) {
+  Plot plot;
+  plot.title = "title";
+  plot.x_label = "x (m)";
+  plot.y_label = "y (m)";
+  plot.curves.push_back({"a curve", std::move(x), std::move(y), {}, {}, false, true});
+  return plot;
+}
+
+TEST(Plot, WritesAllThreeFormats) {
+  const Folder folder;
+  const Plot plot = plot_of({0, 1, 2}, {1, 3, 2});
+  draw_plot(plot, folder.file("a.png"));
+  EXPECT_EQ(sample::png_size(folder.file("a.png")), (sample::Size{1800, 1200})) << "twice the size";
+  draw_plot(plot, folder.file("a.SVG"));
+  EXPECT_NE(sample::bytes_of(folder.file("a.SVG")).find("width=\"900"), std::string::npos);
+  draw_plot(plot, folder.file("a.pdf"));
+  EXPECT_EQ(sample::bytes_of(folder.file("a.pdf")).substr(0, 5), "%PDF-");
+  EXPECT_EQ(folder.names().size(), 3u);
+}
+
+TEST(Plot, TakesOddNumbers) {
+  const Folder folder;
+  const std::vector<Plot> plots = {
+      Plot{},
+      plot_of({}, {}),
+      plot_of({1}, {2}),
+      plot_of({0}, {0}),
+      plot_of({1, 2, 3}, {5, 5, 5}),
+      plot_of({1, 1, 1}, {1, 2, 3}),
+      plot_of({kNan, kNan}, {1, kNan}),
+      plot_of({0, 1, 2, 3, 4}, {1, kNan, 2, kInf, -kInf}),
+      plot_of({0, 1}, {kMost, -kMost}),
+      plot_of({0, 1}, {1e-320, 2e-320}),
+      plot_of({1e-9, 2e-9}, {1e12, 1e13}),
+      plot_of({1e15, 1e15 + 1}, {1, 1 + 1e-15}),
+      plot_of({-3, -2, -1, 0, 1}, {-1, 0, 1, 2, 1e9}),
+      plot_of({0, 1, 2, 3}, {1, 2}),  // lengths that differ
+  };
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    for (int kind = 0; kind < 8; ++kind) {
+      Plot plot = plots[i];
+      plot.width = plot.height = 200;
+      plot.log_x = kind & 1, plot.log_y = kind & 2;
+      for (Curve& c : plot.curves) {
+        c.steps = kind & 4;
+        c.low = c.y, c.high = c.y;
+        if (kind & 4) c.high.resize(c.high.size() / 2);
+      }
+      EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png"))) << "plot " << i << " kind " << kind;
+      EXPECT_NO_THROW(draw_plot(plot, folder.file("a.svg"))) << "plot " << i << " kind " << kind;
+    }
+  }
+}
+
+TEST(Plot, GivenLimitsHold) {
+  const Folder folder;
+  Plot plot = plot_of({0, 1}, {0, 100});
+  plot.y_low = 0, plot.y_high = 1;
+  EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
+  plot.log_y = true;
+  EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
+}
+
+TEST(Plot, ManyAndLongNamesFit) {
+  const Folder folder;
+  Plot plot;
+  for (int k = 0; k < 60; ++k) {
+    plot.curves.push_back({std::string(200, 'w'), {0, 1}, {0.0, double(k)}, {}, {}, false, true});
+  }
+  plot.title = plot.x_label = plot.y_label = std::string(500, 'm');
+  EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
+  plot.width = plot.height = 100;
+  EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
+}
+
+TEST(Plot, AMillionPointsStaySmall) {
+  const Folder folder;
+  std::vector<double> x, y;
+  for (int i = 0; i < 1000000; ++i) x.push_back(i), y.push_back(i * 1e-6);
+  Plot plot = plot_of(x, y);
+  draw_plot(plot, folder.file("a.pdf"));
+  EXPECT_LT(std::filesystem::file_size(folder.file("a.pdf")), 1000000u);
+}
+
+TEST(Plot, ShowsItsCurve) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  const Folder folder;
+  // A gap between two equal halves: ink left and right of it, none inside.
+  Plot plot = plot_of({0, 4, 5, 6, 10}, {0, 0, kNan, 0, 0});
+  plot.curves[0].name.clear(), plot.curves[0].markers = false;
+  plot.y_low = -1.5, plot.y_high = 1.7;
+  draw_plot(plot, folder.file("a.png"));
+  const sample::Pixels pixels(folder.file("a.png"));
+  ASSERT_TRUE(pixels.read());
+  const auto blue_rows = [&](double share) {
+    int rows = 0;
+    for (int y = 150; y < 1050; ++y) {
+      const sample::Pixel p = pixels.at(100 + share * 1648, y);
+      rows += p.b > p.r + 90;
+    }
+    return rows;
+  };
+  EXPECT_GE(blue_rows(0.25), 3);
+  EXPECT_EQ(blue_rows(0.51), 0);
+  EXPECT_GE(blue_rows(0.75), 3);
+}
+
+TEST(Plot, RefusesUnknownEndingsAndUnwritableFiles) {
+  const Folder folder;
+  const Plot plot = plot_of({0, 1}, {0, 1});
+  EXPECT_THROW(draw_plot(plot, folder.file("a.jpg")), InputError);
+  EXPECT_THROW(draw_plot(plot, folder.file("a")), InputError);
+  EXPECT_THROW(draw_plot(plot, ""), InputError);
+  EXPECT_THROW(draw_plot(plot, folder.file("no/such/a.png")), InputError);
+  EXPECT_THROW(draw_plot(plot, "/dev/null/a.pdf"), InputError);
+  Plot flat = plot;
+  flat.height = 0;
+  EXPECT_THROW(draw_plot(flat, folder.file("a.png")), InputError);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(YieldPlot, IsAStaircaseUpToThePossibleCopies) {
+  const Folder folder;
+  const StoredRun run = sample::run(300);
+  const Plot plot = yield_plot(run);
+  ASSERT_EQ(plot.curves.size(), 2u);
+  EXPECT_TRUE(plot.curves[0].steps);
+  ASSERT_EQ(plot.curves[0].x.size(), run.metrics_time.size());
+  EXPECT_DOUBLE_EQ(plot.curves[0].x.back(), 5) << "minutes";
+  EXPECT_EQ(plot.curves[0].y.front(), 0);
+  EXPECT_EQ(plot.curves[0].y.back(), 1) << "one chain is complete by then";
+  EXPECT_EQ(plot.curves[1].y.back(), 3);
+  EXPECT_EQ(plot.x_label, "time (min)");
+  EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
+}
+
+TEST(YieldPlot, NeedsNeitherMetricsNorTarget) {
+  const Folder folder;
+  StoredRun run = sample::run(300);
+  run.metrics_time.clear(), run.metrics_copies.clear();
+  EXPECT_EQ(yield_plot(run).curves[0].y.back(), 1) << "then from the trajectory";
+  EXPECT_NO_THROW(draw_plot(yield_plot(StoredRun{}), folder.file("a.png")));
+}
+
+}  // namespace
+}  // namespace lilytank
