@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr int kSweeps = 40;
-constexpr double kConverged = 1e-9;  // m/s, change of velocity in a sweep
+constexpr double kConverged = 1e-8;  // m/s, change of velocity in a sweep
 constexpr double kUnchanged = 1e-7;  // m/s, targets nearer than this need no second solution
 
 double energy(const std::vector<Mover>& movers) {
@@ -19,22 +19,35 @@ double energy(const std::vector<Mover>& movers) {
   return 0.5 * sum;
 }
 
-// Velocity of b against a at the contact.
+// Velocity of b against a at the contact, along the normal and the tangent.
 struct Slip {
   double n, t;
 };
 
 Slip slip(const Contact& c, const Mover& a, const Mover& b) {
-  const double vx = b.twist.vx - b.twist.omega * c.by - a.twist.vx + a.twist.omega * c.ay;
-  const double vy = b.twist.vy + b.twist.omega * c.bx - a.twist.vy - a.twist.omega * c.ax;
-  return {c.nx * vx + c.ny * vy, c.nx * vy - c.ny * vx};
+  const double vx = b.twist.vx - a.twist.vx, vy = b.twist.vy - a.twist.vy;
+  return {c.nx * vx + c.ny * vy + c.bn * b.twist.omega - c.an * a.twist.omega,
+          c.nx * vy - c.ny * vx + c.bt * b.twist.omega - c.at * a.twist.omega};
 }
 
-void kick(const Contact& c, Mover& a, Mover& b, double jx, double jy) {
+void kick(const Contact& c, Mover& a, Mover& b, double n, double t) {
+  const double jx = n * c.nx - t * c.ny, jy = n * c.ny + t * c.nx;
   a.twist.vx -= a.inv_mass * jx, a.twist.vy -= a.inv_mass * jy;
   b.twist.vx += b.inv_mass * jx, b.twist.vy += b.inv_mass * jy;
-  a.twist.omega -= a.inv_inertia * (c.ax * jy - c.ay * jx);
-  b.twist.omega += b.inv_inertia * (c.bx * jy - c.by * jx);
+  a.twist.omega -= a.inv_inertia * (c.an * n + c.at * t);
+  b.twist.omega += b.inv_inertia * (c.bn * n + c.bt * t);
+}
+
+// Arms and effective masses for the point at which the contact lies.
+void prepare(Contact& c, const Mover& a, const Mover& b) {
+  const double ax = c.x - a.pose.x, ay = c.y - a.pose.y;
+  const double bx = c.x - b.pose.x, by = c.y - b.pose.y;
+  c.an = ax * c.ny - ay * c.nx, c.at = ax * c.nx + ay * c.ny;
+  c.bn = bx * c.ny - by * c.nx, c.bt = bx * c.nx + by * c.ny;
+  const double k = a.inv_mass + b.inv_mass;
+  c.nn = k + a.inv_inertia * c.an * c.an + b.inv_inertia * c.bn * c.bn;
+  c.nt = a.inv_inertia * c.an * c.at + b.inv_inertia * c.bn * c.bt;
+  c.tt = k + a.inv_inertia * c.at * c.at + b.inv_inertia * c.bt * c.bt;
 }
 
 // The rigid motion with an island's momenta, which no contact among its members can change; with
@@ -98,13 +111,26 @@ ContactSolver::ContactSolver(const Model& model)
   contacts_.reserve(8 * static_cast<std::size_t>(model.bodies()) + 16);
 }
 
-void ContactSolver::prepare(Contact& c, const std::vector<Mover>& movers) const {
-  const Mover &a = movers[c.a], &b = movers[c.b];
-  const double an = c.ax * c.ny - c.ay * c.nx, bn = c.bx * c.ny - c.by * c.nx;
-  const double at = c.ax * c.nx + c.ay * c.ny, bt = c.bx * c.nx + c.by * c.ny;
-  const double k = a.inv_mass + b.inv_mass;
-  c.mass_n = 1 / (k + a.inv_inertia * an * an + b.inv_inertia * bn * bn);
-  c.mass_t = 1 / (k + a.inv_inertia * at * at + b.inv_inertia * bt * bt);
+// The impulses that one contact needs in the end if nothing else changes, by Coulomb's law: none,
+// sticking, or sliding. (vn, vt) is the velocity with the impulses so far.
+void ContactSolver::resolve(Contact& c, double vn, double vt) const {
+  const double bare_n = vn - c.nn * c.impulse_n - c.nt * c.impulse_t;
+  const double bare_t = vt - c.nt * c.impulse_n - c.tt * c.impulse_t;
+  const double need = c.target - bare_n;
+  c.impulse_n = c.impulse_t = 0;
+  if (need <= 0) return;
+  const double determinant = c.nn * c.tt - c.nt * c.nt;
+  const double n = (c.tt * need + c.nt * bare_t) / determinant;
+  const double t = (-c.nn * bare_t - c.nt * need) / determinant;
+  if (n > 0 && std::fabs(t) <= friction_ * n) {
+    c.impulse_n = n, c.impulse_t = t;
+    return;
+  }
+  // Sliding: friction at its bound, on the side of what sticking would take.
+  const double share = t > 0 ? friction_ : -friction_;
+  const double effective = c.nn + share * c.nt;
+  c.impulse_n = need / (effective > 0.1 * c.nn ? effective : c.nn);
+  c.impulse_t = effective > 0.1 * c.nn ? share * c.impulse_n : 0;
 }
 
 // One pass over all contacts; returns the largest change of velocity (m/s).
@@ -112,82 +138,83 @@ double ContactSolver::sweep(std::vector<Mover>& movers) {
   double change = 0;
   for (Contact& c : contacts_) {
     Mover &a = movers[c.a], &b = movers[c.b];
-    Slip v = slip(c, a, b);
-    const double normal = std::max(c.impulse_n + c.mass_n * (c.target - v.n), 0.0);
-    const double dn = normal - c.impulse_n;
-    if (normal == 0 && dn == 0 && c.impulse_t == 0) continue;
-    c.impulse_n = normal;
-    kick(c, a, b, dn * c.nx, dn * c.ny);
-    v = slip(c, a, b);
-    const double most = friction_ * normal;
-    const double along = std::clamp(c.impulse_t - c.mass_t * v.t, -most, most);
-    const double dt = along - c.impulse_t;
-    c.impulse_t = along;
-    kick(c, a, b, -dt * c.ny, dt * c.nx);
-    change = std::max(change, std::max(std::fabs(dn), std::fabs(dt)) * (a.inv_mass + b.inv_mass));
+    const Slip v = slip(c, a, b);
+    if (c.impulse_n == 0 && v.n >= c.target) continue;
+    const double old_n = c.impulse_n, old_t = c.impulse_t;
+    resolve(c, v.n, v.t);
+    const double n = c.impulse_n - old_n, t = c.impulse_t - old_t;
+    kick(c, a, b, n, t);
+    change = std::max(change, std::max(std::fabs(n) * c.nn, std::fabs(t) * c.tt));
   }
   return change;
 }
 
 void ContactSolver::iterate(std::vector<Mover>& movers) {
-  for (int k = 0; k < kSweeps; ++k) {
+  const int sweeps = contacts_.size() == 1 ? 1 : kSweeps;
+  for (int k = 0; k < sweeps; ++k) {
     if (sweep(movers) < kConverged) return;
   }
 }
 
-void ContactSolver::approach(Island& island, double margin, double h) {
+bool ContactSolver::approach(Island& island, double margin, double h) {
   contacts_.clear();
+  bool needed = false;
   std::vector<Mover>& movers = island.movers();
   for (const Near& near : island.nears()) {
     if (near.separation > margin) continue;
+    const Mover &a = movers[near.a], &b = movers[near.b];
     island.touches(near, margin, [&](double nx, double ny, const Touch& touch) {
-      Contact c;
+      Contact& c = contacts_.emplace_back();
       c.a = near.a, c.b = near.b;
       c.nx = nx, c.ny = ny;
       c.x = touch.x, c.y = touch.y, c.gap = touch.gap;
-      const Mover &a = movers[c.a], &b = movers[c.b];
-      c.ax = c.x - a.pose.x, c.ay = c.y - a.pose.y;
-      c.bx = c.x - b.pose.x, c.by = c.y - b.pose.y;
-      prepare(c, movers);
+      prepare(c, a, b);
       c.approach = slip(c, a, b).n;
       c.target = c.gap > 0 ? -c.gap / h : 0;
-      contacts_.push_back(c);
+      needed = needed || c.approach < c.target;
     });
   }
+  if (!needed) return false;
   energy_ = energy(movers);
-  if (!contacts_.empty()) iterate(movers);
+  iterate(movers);
+  return true;
 }
 
-void ContactSolver::rebound(Island& island, double h) {
-  // A contact that did not act and is not closed stays out: it is for a later substep.
+// Which contacts go on after the motion, and the velocities that they ask for. A contact that did
+// not act and is not closed is left for a later substep. True if they ask for something new.
+bool ContactSolver::retarget(const std::vector<Mover>& movers) {
   std::erase_if(contacts_, [](const Contact& c) { return c.impulse_n == 0 && c.gap > 0; });
-  if (contacts_.empty()) return;
-  std::vector<Mover>& movers = island.movers();
-  bool again = false, wall = false;
+  bool again = false;
   for (Contact& c : contacts_) {
     const bool bounces =
         c.impulse_n > 0 && c.approach < -threshold_ && !movers[c.a].dull && !movers[c.b].dull;
     const double target = bounces ? -restitution_ * c.approach : 0;
     again = again || std::fabs(target - c.target) > kUnchanged;
-    wall = wall || c.a == 0;
     c.target = target;
   }
-  if (again) {
-    for (Contact& c : contacts_) {
-      // The point moved with both bodies; where it lies now, the impulses have no net torque.
-      const Mover &a = movers[c.a], &b = movers[c.b];
-      const double va_x = a.twist.vx - a.twist.omega * c.ay,
-                   va_y = a.twist.vy + a.twist.omega * c.ax;
-      const double vb_x = b.twist.vx - b.twist.omega * c.by,
-                   vb_y = b.twist.vy + b.twist.omega * c.bx;
-      const double share = c.a == 0 ? h : 0.5 * h;  // a point on the wall goes with the corner
-      c.x += share * (va_x + vb_x), c.y += share * (va_y + vb_y);
-      c.ax = c.x - a.pose.x, c.ay = c.y - a.pose.y;
-      c.bx = c.x - b.pose.x, c.by = c.y - b.pose.y;
-      prepare(c, movers);
-    }
-    iterate(movers);
+  return again;
+}
+
+void ContactSolver::rebound(Island& island, double h) {
+  std::vector<Mover>& movers = island.movers();
+  bool wall = false;
+  const bool again = retarget(movers);
+  for (Contact& c : contacts_) {
+    wall = wall || c.a == 0;
+    if (!again) continue;
+    // The point moved with both bodies (on the wall: with the corner). Where it lies now, the
+    // impulses have no net torque.
+    const Twist &p = movers[c.a].twist, &q = movers[c.b].twist;
+    const double share = c.a == 0 ? h : 0.5 * h;
+    const double along_n =
+        c.nx * (p.vx + q.vx) + c.ny * (p.vy + q.vy) + c.an * p.omega + c.bn * q.omega;
+    const double along_t =
+        c.nx * (p.vy + q.vy) - c.ny * (p.vx + q.vx) + c.at * p.omega + c.bt * q.omega;
+    c.x += share * (c.nx * along_n - c.ny * along_t),
+        c.y += share * (c.ny * along_n + c.nx * along_t);
+    prepare(c, movers[c.a], movers[c.b]);
   }
+  if (again) iterate(movers);
   const double now = energy(movers);
   if (now > energy_) calm(movers, wall ? Drift{} : drift_of(movers), now, energy_);
 }

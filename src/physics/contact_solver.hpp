@@ -9,10 +9,10 @@ namespace lilytank {
 /// A point where two movers touch or may within the substep.
 struct Contact {
   int a = 0, b = 0;                       ///< movers; a = 0: the wall
-  double nx = 0, ny = 0;                  ///< unit normal from a to b
+  double nx = 0, ny = 0;                  ///< unit normal from a to b; the tangent is (-ny, nx)
   double x = 0, y = 0, gap = 0;           ///< m
-  double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, arms from the centres of mass
-  double mass_n = 0, mass_t = 0;          ///< kg, effective masses
+  double an = 0, at = 0, bn = 0, bt = 0;  ///< m, arms of the normal and tangential impulses
+  double nn = 0, nt = 0, tt = 0;          ///< 1/kg, velocity gained by a unit of impulse
   double impulse_n = 0, impulse_t = 0;    ///< kg m/s
   double approach = 0;                    ///< m/s, normal velocity before; negative: nearing
   double target = 0;                      ///< m/s, least normal velocity after
@@ -27,14 +27,16 @@ class ContactSolver {
   explicit ContactSolver(const Model& model);
 
   /// Finds the contacts within `margin` (m) from the island's last survey and changes twists so
-  /// that no gap closes by more than itself in h seconds.
-  void approach(Island& island, double margin, double h);
+  /// that no gap closes by more than itself in h seconds. False if nothing had to be changed; then
+  /// there is nothing to rebound.
+  bool approach(Island& island, double margin, double h);
   /// After the island moved by h: removes what is left of the approach, adds restitution, and
   /// makes sure that no energy was gained.
   void rebound(Island& island, double h);
 
  private:
-  void prepare(Contact& contact, const std::vector<Mover>& movers) const;
+  void resolve(Contact& contact, double vn, double vt) const;
+  bool retarget(const std::vector<Mover>& movers);
   void iterate(std::vector<Mover>& movers);
   double sweep(std::vector<Mover>& movers);
 

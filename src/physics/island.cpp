@@ -17,11 +17,12 @@ double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
-// Longest way of any point of a mover from one pose to another.
-double way(const Mover& m, const Pose& from) {
-  const Pose& to = m.pose;
-  return length(to.x - from.x, to.y - from.y) +
-         m.reach * length(to.r.c - from.r.c, to.r.s - from.r.s);
+// Did any point of a mover get farther from its start than promised?
+bool broke_promise(const Mover& m) {
+  const double dx = m.pose.x - m.start.x, dy = m.pose.y - m.start.y;
+  const double dc = m.pose.r.c - m.start.r.c, ds = m.pose.r.s - m.start.r.s;
+  const double longer = std::fabs(dx) + std::fabs(dy) + m.reach * (std::fabs(dc) + std::fabs(ds));
+  return longer > m.promise && length(dx, dy) + m.reach * length(dc, ds) > m.promise;
 }
 
 // Velocity of a point (ox, oy in the mover's frame).
@@ -30,10 +31,28 @@ Vec2 velocity_at(const Mover& m, double ox, double oy) {
   return {m.twist.vx - m.twist.omega * ry, m.twist.vy + m.twist.omega * rx};
 }
 
+// How fast two movers move relative to axes that turn with the pair: what changes where they touch.
+double relative_pace(const Mover& a, const Mover& b) {
+  const double mean = 0.5 * (a.twist.omega + b.twist.omega);
+  const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y;
+  return length(b.twist.vx - a.twist.vx + mean * dy, b.twist.vy - a.twist.vy - mean * dx) +
+         0.5 * std::fabs(b.twist.omega - a.twist.omega) * (a.reach + b.reach);
+}
+
+// Shortens a substep so that the arc of no point strays far from its tangent.
+void limit_turn(const Mover& m, double& longest) {
+  const double turn2 = m.twist.omega * m.twist.omega * longest * longest;
+  if (turn2 * m.reach > 2 * kTurnError)
+    longest = std::sqrt(2 * kTurnError / m.reach) / std::fabs(m.twist.omega);
+}
+
 }  // namespace
 
 Island::Island(const Model& model)
-    : half_(0.5 * model.module.side), radius_(model.ball.radius), tank_(model.tank.radius) {
+    : half_(0.5 * model.module.side),
+      corner_(model.module.side * std::sqrt(0.5)),
+      radius_(model.ball.radius),
+      tank_(model.tank.radius) {
   const auto n = static_cast<std::size_t>(model.bodies());
   movers_.reserve(n + 1);
   nears_.reserve(std::min(n * (n + 1) / 2, 24 * n));
@@ -43,15 +62,11 @@ Island::Island(const Model& model)
 void Island::clear() {
   movers_.clear();
   movers_.emplace_back();
-  movers_[0].turn_limit = 1;
   nears_.clear();
 }
 
 int Island::add(const Mover& mover) {
   movers_.push_back(mover);
-  Mover& m = movers_.back();
-  m.start = m.good = m.pose;
-  m.turn_limit = std::sqrt(2 * kTurnError / m.reach);
   return static_cast<int>(movers_.size()) - 1;
 }
 
@@ -60,9 +75,11 @@ void Island::add(const Near& near) {
 }
 
 void Island::sort_pairs() {
-  std::sort(nears_.begin(), nears_.end(), [](const Near& p, const Near& q) {
+  const auto before = [](const Near& p, const Near& q) {
     return p.order_a != q.order_a ? p.order_a < q.order_a : p.order_b < q.order_b;
-  });
+  };
+  if (!std::is_sorted(nears_.begin(), nears_.end(), before))
+    std::sort(nears_.begin(), nears_.end(), before);
 }
 
 double Island::separation(const Near& near) const {
@@ -82,34 +99,33 @@ double Island::separation(const Near& near) const {
   }
 }
 
-Survey Island::survey(double left) {
-  Survey s{0, left, 0, left};
-  const double corner = half_ * std::sqrt(2.0);
+double Island::survey() {
+  double deepest = 0;
   for (Near& near : nears_) {
-    const Mover &a = movers_[near.a], &b = movers_[near.b];
     near.separation = separation(near);
-    s.deepest = std::max(s.deepest, -near.separation);
-    const Vec2 va = velocity_at(a, near.ax, near.ay), vb = velocity_at(b, near.bx, near.by);
-    const double vx = vb.x() - va.x(), vy = vb.y() - va.y();
-    const double wa = a.twist.omega, wb = b.twist.omega;
-    const double closing = length(vx, vy) + corner * (std::fabs(wa) + std::fabs(wb));
-    s.fastest = std::max(s.fastest, closing);
-    if (closing == 0 || near.separation > closing * left) continue;
-    s.free_time = std::min(s.free_time, 0.9 * std::max(near.separation, 0.0) / closing);
-    // What matters for contact points is motion relative to axes that turn with the pair.
-    double pace = kWallShare * closing;
-    if (near.a != 0) {
-      const double mean = 0.5 * (wa + wb);
-      const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y;
-      const double ux = b.twist.vx - a.twist.vx + mean * dy,
-                   uy = b.twist.vy - a.twist.vy - mean * dx;
-      pace = length(ux, uy) + 0.5 * std::fabs(wa - wb) * (a.reach + b.reach);
-    }
-    if (pace * s.longest > kStride) s.longest = kStride / pace;
-    if (std::fabs(wa) * s.longest > a.turn_limit) s.longest = a.turn_limit / std::fabs(wa);
-    if (std::fabs(wb) * s.longest > b.turn_limit) s.longest = b.turn_limit / std::fabs(wb);
+    deepest = std::max(deepest, -near.separation);
   }
-  return s;
+  return deepest;
+}
+
+Pace Island::pace(double left) const {
+  Pace p{left, 0, left};
+  for (const Near& near : nears_) {
+    const Mover &a = movers_[near.a], &b = movers_[near.b];
+    const Vec2 v = velocity_at(b, near.bx, near.by) - velocity_at(a, near.ax, near.ay);
+    const double wa = std::fabs(a.twist.omega), wb = std::fabs(b.twist.omega);
+    // Corners turn about the bodies' centres, and those on arcs about the centres of mass.
+    const double closing = length(v.x(), v.y()) + corner_ * (wa + wb) +
+                           0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
+    p.fastest = std::max(p.fastest, closing);
+    if (closing == 0 || near.separation > closing * left) continue;
+    p.free_time = std::min(p.free_time, std::max(near.separation, 0.0) / closing);
+    const double pace = near.a == 0 ? kWallShare * closing : relative_pace(a, b);
+    if (pace * p.longest > kStride) p.longest = kStride / pace;
+    limit_turn(a, p.longest);
+    limit_turn(b, p.longest);
+  }
+  return p;
 }
 
 void Island::move(double h) {
@@ -158,7 +174,7 @@ double Island::push_apart(int rounds) {
 
 bool Island::breaks_promise() const {
   return std::any_of(movers_.begin() + 1, movers_.end(),
-                     [](const Mover& m) { return way(m, m.start) > m.promise; });
+                     [](const Mover& m) { return broke_promise(m); });
 }
 
 void Island::undo(Mover& mover, int& count) {
@@ -172,7 +188,7 @@ int Island::put_back(double limit) {
   int count = 0;
   for (Mover& m : movers_) m.undone = false;
   for (Mover& m : movers_) {
-    if (m.slot >= 0 && way(m, m.start) > m.promise) undo(m, count);
+    if (m.slot >= 0 && broke_promise(m)) undo(m, count);
   }
   // Ends: a mover is put back once, and good poses overlap no more than they may.
   for (bool again = true; again;) {

@@ -19,7 +19,6 @@ struct Mover {
   double inv_mass = 0, inv_inertia = 0;  ///< 0 for the wall; a ball does not turn
   double reach = 0;                      ///< m, from the centre to the farthest point
   double promise = 0;                    ///< m, no point may end farther than this from its start
-  double turn_limit = 0;                 ///< rad, most that a substep may turn it
   Pose start, good;                      ///< at the start of the step; at the last good substep
   bool undone = false;                   ///< put back in this substep
   bool dull = false;                     ///< put back in this step: no more restitution
@@ -34,14 +33,14 @@ struct Near {
   std::uint8_t inner_a = 0, inner_b = 0;  ///< Assemblies::inner
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, the bodies' centres in their movers' frames
   int order_a = 0, order_b = 0;           ///< body numbers, -1 for the wall: the order of solving
+  double arm_a = 0, arm_b = 0;            ///< m, lengths of (ax, ay) and (bx, by)
   double separation = 0;                  ///< m, as last surveyed
 };
 
-/// What an island looks like at one moment.
-struct Survey {
-  double deepest = 0;    ///< m, greatest overlap
-  double free_time = 0;  ///< s in which nothing can touch as things move now
-  double fastest = 0;    ///< m/s, upper bound on how fast any pair closes
+/// How fast the pairs of an island move.
+struct Pace {
+  double free_time = 0;  ///< s in which nothing can touch if twists stay
+  double fastest = 0;    ///< m/s, no two bodies close faster
   double longest = 0;    ///< s, longest substep that keeps contact points accurate
 };
 
@@ -64,8 +63,10 @@ class Island {
   const std::vector<Near>& nears() const { return nears_; }
   void forget_pairs() { nears_.clear(); }
 
-  /// Measures all pairs; `left` (s) is the time still to go in the step.
-  Survey survey(double left);
+  /// Measures the separations of all pairs; returns the deepest overlap (m, 0 if there is none).
+  double survey();
+  /// For the separations of the last survey; `left` (s) is the time still to go in the step.
+  Pace pace(double left) const;
   /// Moves everything by its twist for h seconds.
   void move(double h);
   /// Pushes overlapping bodies apart, positions only, in at most `rounds` sweeps over the pairs;
@@ -90,7 +91,7 @@ class Island {
   void push(Mover& a, Mover& b, double nx, double ny, const Touch& touch);
   void undo(Mover& mover, int& count);
 
-  double half_, radius_, tank_;
+  double half_, corner_, radius_, tank_;
   std::vector<Mover> movers_;
   std::vector<Near> nears_;
 };

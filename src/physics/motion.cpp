@@ -27,6 +27,9 @@ constexpr int kSettleSweeps = 20;
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
+bool within(double x, double y, double radius) {
+  return radius > 0 && x * x + y * y < radius * radius;
+}
 
 }  // namespace
 
@@ -67,11 +70,11 @@ struct Motion::Impl {
   void leave(bool twists);
   Near pair_of(int i, int j) const;
   Near wall_of(int i) const;
-  void place(int body, double& x, double& y) const;
+  double place(int body, double& x, double& y) const;
   void gather(int slot);
   void gather_around(int body);
   void run(double h, Tallies& tallies);
-  Survey keep_good(double left, double limit, Tallies& tallies);
+  double keep_good(double deepest, double before, Tallies& tallies);
 
   Vec2 centre_of(int body) const;
   void pair_up();
@@ -155,9 +158,9 @@ void Motion::Impl::find_seeds(double h) {
   });
   const double tank = model->tank.radius;
   for (const int slot : a.live) {
-    if (length(state->x[slot], state->y[slot]) + a.reach[slot] + own[slot] < tank) continue;
+    if (within(state->x[slot], state->y[slot], tank - a.reach[slot] - own[slot])) continue;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
-      if (length(a.x[i], a.y[i]) + reach[i] < tank) continue;
+      if (within(a.x[i], a.y[i], tank - reach[i])) continue;
       seed[slot] = 1;
       extra = std::max(extra, kPushShare * own[slot]);
     }
@@ -182,6 +185,7 @@ void Motion::Impl::enter(int slot, double promise) {
   m.inv_mass = 1 / m.mass, m.inv_inertia = m.inertia > 0 ? 1 / m.inertia : 0;
   m.reach = assemblies->reach[slot];
   m.promise = promise;
+  m.start = m.good = m.pose;
   local[slot] = island.add(m);
   queue.push_back(slot);
 }
@@ -198,11 +202,12 @@ void Motion::Impl::leave(bool twists) {
   }
 }
 
-// A body's centre in its assembly's frame.
-void Motion::Impl::place(int body, double& x, double& y) const {
+// A body's centre in its assembly's frame; returns how far that is from the centre of mass.
+double Motion::Impl::place(int body, double& x, double& y) const {
   const int slot = state->assembly[body];
   x = state->cell_x[body] * model->module.side - assemblies->centre_x[slot];
   y = state->cell_y[body] * model->module.side - assemblies->centre_y[slot];
+  return x == 0 && y == 0 ? 0 : length(x, y);
 }
 
 Near Motion::Impl::pair_of(int i, int j) const {
@@ -214,7 +219,7 @@ Near Motion::Impl::pair_of(int i, int j) const {
                              : PairKind::discs;
   near.order_a = i, near.order_b = j;
   near.inner_a = assemblies->inner[i], near.inner_b = assemblies->inner[j];
-  place(i, near.ax, near.ay), place(j, near.bx, near.by);
+  near.arm_a = place(i, near.ax, near.ay), near.arm_b = place(j, near.bx, near.by);
   return near;
 }
 
@@ -223,7 +228,7 @@ Near Motion::Impl::wall_of(int i) const {
   near.b = local[state->assembly[i]];
   near.kind = is_module(i) ? PairKind::wall_square : PairKind::wall_disc;
   near.order_a = -1, near.order_b = i;
-  place(i, near.bx, near.by);
+  near.arm_b = place(i, near.bx, near.by);
   return near;
 }
 
@@ -232,7 +237,7 @@ void Motion::Impl::gather_around(int i) {
   const Assemblies& a = *assemblies;
   const int slot = state->assembly[i];
   const double promise = own[slot] + extra;
-  if (length(a.x[i], a.y[i]) + size_of(i) + promise > model->tank.radius) island.add(wall_of(i));
+  if (!within(a.x[i], a.y[i], model->tank.radius - size_of(i) - promise)) island.add(wall_of(i));
   broadphase.around(i, size_of(i) + promise + extra, [&](int j) {
     const int other = state->assembly[j];
     if (other == slot || done[other]) return;
@@ -257,37 +262,38 @@ void Motion::Impl::gather(int slot) {
 }
 
 // Pushes overlaps apart; what that cannot help is put back to where it was good. A start that was
-// worse than the limit (poses given by a user) may only get better.
-Survey Motion::Impl::keep_good(double left, double limit, Tallies& tallies) {
-  Survey survey = island.survey(left);
-  if (survey.deepest > kSlop) {
+// worse than the limit (poses given by a user) may only get better. Returns the deepest overlap.
+double Motion::Impl::keep_good(double deepest, double before, Tallies& tallies) {
+  if (deepest > kSlop) {
     island.push_apart(kPushRounds);
-    survey = island.survey(left);
+    deepest = island.survey();
   }
-  if (survey.deepest > limit || island.breaks_promise()) {
+  const double limit = std::max(kUndoLimit, before);
+  if (deepest > limit || island.breaks_promise()) {
     tallies.moves_undone += island.put_back(limit);
-    survey = island.survey(left);
+    deepest = island.survey();
   }
   island.accept();
-  return survey;
+  return deepest;
 }
 
 // Moves the island by h seconds.
 void Motion::Impl::run(double h, Tallies& tallies) {
-  double left = h;
-  Survey survey = keep_good(left, std::max(kUndoLimit, island.survey(left).deepest), tallies);
-  while (left > 0) {
-    const double parts = std::floor(left / survey.longest) + 1;
-    const double part = survey.longest < left ? left / parts : left;
-    const bool free = survey.free_time >= part;
-    const double step = free ? std::min(survey.free_time, left) : part;
-    if (!free) solver.approach(island, kReach * survey.fastest * step + kReachSpare, step);
+  double deepest = island.survey();
+  if (deepest > kSlop) deepest = keep_good(deepest, deepest, tallies);
+  for (double left = h; left > 0;) {
+    const Pace pace = island.pace(left);
+    const double part = pace.longest < left ? left / (std::floor(left / pace.longest) + 1) : left;
+    const bool free = pace.free_time >= part;
+    const double step = free ? std::min(pace.free_time, left) : part;
+    const bool met =
+        !free && solver.approach(island, kReach * pace.fastest * step + kReachSpare, step);
     island.move(step);
-    if (!free) solver.rebound(island, step);
+    if (met) solver.rebound(island, step);
     left = step < left ? left - step : 0;
-    survey = keep_good(left, std::max(kUndoLimit, survey.deepest), tallies);
+    deepest = keep_good(island.survey(), deepest, tallies);
   }
-  tallies.deepest_overlap = std::max(tallies.deepest_overlap, survey.deepest);
+  tallies.deepest_overlap = std::max(tallies.deepest_overlap, deepest);
 }
 
 void Motion::Impl::slice(double h, Tallies& tallies) {
@@ -324,8 +330,8 @@ void Motion::Impl::pair_up() {
     const int slot = queue[k];
     for (int i = assemblies->first[slot]; i >= 0; i = assemblies->next[i]) {
       const Vec2 at = centre_of(i);
-      const double rim = model->tank.radius - size_of(i) - kSettleMargin;
-      if (at.squaredNorm() > rim * rim) island.add(wall_of(i));
+      if (!within(at.x(), at.y(), model->tank.radius - size_of(i) - kSettleMargin))
+        island.add(wall_of(i));
       for (int j = 0; j < model->bodies(); ++j) {
         const int other = state->assembly[j], index = local[other];
         if (other == slot || (index > 0 && index <= static_cast<int>(k))) continue;
@@ -347,7 +353,7 @@ bool Motion::Impl::settle(int slot) {
   for (int round = 0; round < kSettleRounds && !settled; ++round) {
     if (round > 0) island.push_apart(kSettleSweeps);
     pair_up();
-    settled = island.survey(0).deepest <= kSettled;
+    settled = island.survey() <= kSettled;
   }
   for (const int each : queue) local[each] = 0;
   if (!settled) return false;
