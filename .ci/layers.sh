@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Checks that each layer uses only what docs/structure.md lets it use: other layers, packages, and
+# for everything that reaches a State no function whose bits depend on the machine.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+faults=0
+
+# code <path...>: file:line:text of all sources there, without // comments and quoted text.
+code() {
+  find "$@" -name '*.[ch]pp' -print0 | sort -z | xargs -0 awk '
+    !/^#include/ { gsub(/"([^"\\]|\\.)*"/, "\"\"") }
+    { sub(/\/\/.*/, "") }
+    NF { print FILENAME ":" FNR ":" $0 }'
+}
+
+# forbid <pattern> <why> <path...>
+forbid() {
+  local found
+  if found=$(code "${@:3}" | grep -E -- "^[^:]*:[0-9]+:.*$1"); then
+    printf '%s:\n%s\n' "$2" "$found"
+    faults=1
+  fi
+}
+
+# only_in <where, a pattern of paths> <pattern> <why>
+only_in() {
+  local found
+  if found=$(code include src render | grep -vE "^($1)" | grep -E -- "^[^:]*:[0-9]+:.*$2"); then
+    printf '%s:\n%s\n' "$3" "$found"
+    faults=1
+  fi
+}
+
+# layer <folder> <layers it may include...>, its own included
+layer() {
+  local allowed
+  allowed=$(IFS='|' && echo "${*}")
+  local found
+  if found=$(code "src/$1" | grep -E '#include "[a-z]+/' |
+             grep -vE "#include \"(lilytank|$allowed)/"); then
+    printf '%s may include only itself and: %s\n%s\n' "src/$1" "${*:2}" "$found"
+    faults=1
+  fi
+}
+
+only_in 'src/study/' '#include <(tbb|oneapi)/' 'TBB belongs to src/study'
+only_in 'src/study/' '#include <(thread|future|mutex|condition_variable|execution)>' \
+  'threads belong to src/study'
+only_in 'render/' '#include <cairo' 'Cairo belongs to render'
+only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
+only_in 'src/io/' '#include <toml' 'TOML belongs to src/io'
+only_in 'src/math/|src/forces/bulk_normals' '#include <Random123' 'Random123 belongs to src/math'
+only_in 'nowhere' '#include <random>|[^_[:alnum:]]s?rand\(' \
+  'random numbers come from lilytank/random.hpp only'
+
+core=(src/math src/physics src/forces src/control src/world)
+functions='(a?(sin|cos|tan)h?|atan2|exp(2|m1)?|log(2|10|1p)?|pow|hypot|cbrt|fma|erfc?|[lt]gamma)f?l?'
+forbid "(std::|::|[^_.>:[:alnum:]])$functions\(" \
+  'bits of libm differ between machines: use lilytank/math.hpp' "${core[@]}" include/lilytank/math.hpp
+forbid '#include <(chrono|ctime|time\.h|unordered_map|unordered_set|iostream)>' \
+  'no clock, no hashed order and no console in what steps a world' "${core[@]}"
+forbid '#include [<"](jobs|io|study|cli|analysis)/' 'the public headers know no layer' include
+
+layer text text
+layer math math
+layer physics physics
+layer forces forces math
+layer control control physics text
+layer world world control forces physics text
+layer analysis analysis text
+layer io io analysis text
+layer jobs jobs io analysis text
+layer study study jobs io analysis text
+layer cli cli study jobs io analysis text
+
+((faults == 0)) && echo "layers: every include and function is where it may be"
+exit "$faults"

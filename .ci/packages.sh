@@ -1,0 +1,44 @@
+# What demo.sh and test.sh need from Debian 12, and how they get it. Sourced by both.
+
+build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtomlplusplus-dev
+                libcxxopts-dev libhwy-dev librandom123-dev libcairo2-dev)
+film_packages=(ffmpeg fonts-dejavu-core)
+test_packages=(libgtest-dev)
+# Other engines are only measured against, never linked into the simulator.
+bench_packages=(libbenchmark-dev libode-dev libbox2d-dev libchipmunk-dev)
+
+# Installs those of the named packages that are not there yet. Needs no rights if none is missing.
+need_packages() {
+  if ! command -v dpkg-query > /dev/null; then
+    echo "Not a Debian system: expecting to find here what Debian calls: $*"
+    return 0
+  fi
+  local missing=() package
+  for package in "$@"; do
+    [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null) == installed ]] ||
+      missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  local as_root=()
+  if ((EUID != 0)); then
+    if ! command -v sudo > /dev/null; then
+      echo "Please install as root: apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" apt-get -qq update
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o=Dpkg::Use-Pty=0 install \
+    --no-install-recommends "${missing[@]}" > /dev/null
+}
+
+# configure <tree> [option...]: prepares a build tree; options are CMake's.
+configure() {
+  local tree=$1
+  shift
+  local options=(-S . -B "$tree" "$@")
+  [[ -f $tree/CMakeCache.txt ]] || options+=(-G Ninja)
+  ! command -v ccache > /dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cmake "${options[@]}" --log-level=NOTICE
+}

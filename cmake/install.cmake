@@ -1,0 +1,23 @@
+# Installs the program, headers, scenarios, and the package that find_package(lilytank) finds.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lilytank)
+
+install(TARGETS lilytank RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(without_render)
+if(NOT LILYTANK_HAS_RENDER)
+  set(without_render PATTERN render.hpp EXCLUDE)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lilytank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.hpp" ${without_render})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank)
+
+install(EXPORT lilytankTargets NAMESPACE lilytank:: DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lilytankConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/lilytankConfig.cmake INSTALL_DESTINATION ${package_dir}
+  PATH_VARS CMAKE_INSTALL_DATADIR)
+# Before 1.0, a minor version may change what a program sees.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/lilytankConfig.cmake
+              ${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake DESTINATION ${package_dir})

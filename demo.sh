@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian 12), builds, lets 15 Lilies build chains of five, and leaves a
+# film, a plot of the yield and a summary in out/demo.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+source .ci/packages.sh
+
+duration="30 min"  # simulated; all three chains are usually complete well before
+out=out/demo
+
+need_packages "${build_packages[@]}" "${film_packages[@]}"
+
+# A tree that test.sh has configured is used as it is.
+options=()
+[[ -f build/CMakeCache.txt ]] || options=(-DLILYTANK_TESTS=OFF -DLILYTANK_BENCH=OFF)
+configure build -DCMAKE_BUILD_TYPE=Release "${options[@]}"
+cmake --build build --target lilytank
+
+build/lilytank run scenarios/chain5.toml --set "run.duration='$duration'" --out "$out" \
+               --force --video

@@ -1,0 +1,33 @@
+# Installs the build into a folder of its own, builds the outside project against it, and runs that.
+set(prefix ${BUILD}/package/prefix)
+set(tree ${BUILD}/package/build)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(code)
+    message(FATAL_ERROR "${ARGN}\n${out}\nended with ${code}")
+  endif()
+  string(STRIP "${out}" out)
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${BUILD}/package)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${tree} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DCMAKE_PREFIX_PATH=${prefix} -DRENDER=${RENDER})
+run(${CMAKE_COMMAND} --build ${tree})
+
+run(${tree}/outside)
+set(outside ${out})
+run(${INSIDE})
+if(NOT outside MATCHES "^[0-9a-f]+$" OR NOT outside STREQUAL out)
+  message(FATAL_ERROR "outside the tree the world ended as '${outside}', inside as '${out}'")
+endif()
+if(RENDER)
+  run(${tree}/outside_render ${tree}/plot.png)
+  if(NOT EXISTS ${tree}/plot.png)
+    message(FATAL_ERROR "the installed renderer drew nothing")
+  endif()
+endif()
+run(${prefix}/bin/lilytank --version)
+message(STATUS "fingerprint ${outside}")
