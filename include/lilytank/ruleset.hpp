@@ -73,7 +73,7 @@ struct Match {
 /// `standing`: the connection is a bond already (unlink and update rules), else a new latch (link).
 Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u);
 
-/// Reads the text format described in scenarios/README.md. Throws InputError with file, line,
+/// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file, line,
 /// column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
 Ruleset read_ruleset(const std::string& file);

@@ -36,7 +36,7 @@ struct Firmware {
   std::int32_t label = 0;      ///< l_a
   std::int8_t last = -1;       ///< l_n, -1: isolated
   std::uint8_t next_face = 0;  ///< where the round of its faces goes on
-  std::uint8_t waiting = 0;    ///< ticks left to wait for an answer, 0: idle
+  std::uint8_t waiting = 0;    ///< ticks until it is idle again (src/control/exchange.hpp)
   Power power = Power::on;
 };
 

@@ -8,6 +8,16 @@
 
 namespace lilytank {
 
+namespace {
+
+bool hold_each_other(const State& state, int i, int j) {
+  const Face* faces = &state.faces[4 * i];
+  return faces[0].partner == j || faces[1].partner == j || faces[2].partner == j ||
+         faces[3].partner == j;
+}
+
+}  // namespace
+
 Docking::Docking(const Model& model)
     : model_(&model),
       half_side_(model.module.side / 2),
@@ -56,6 +66,7 @@ void Docking::look_around(Tick& tick) {
   candidates_.clear();
   const double near = 2 * half_side_ + reach_;
   for (const auto& [i, j] : tick.motion.near_pairs(tick.assemblies, near)) {
+    if (hold_each_other(tick.state, i, j)) continue;  // their other faces cannot meet
     Candidate pair;
     if (!meet(tick.assemblies, i, j, pair)) continue;
     const Face& a = face_of(tick.state, pair.a);

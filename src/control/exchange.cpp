@@ -1,7 +1,7 @@
 #include "control/exchange.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cassert>
 #include <limits>
 
 #include "lilytank/math.hpp"
@@ -19,8 +19,9 @@ double unit(std::uint32_t bits) {
 Exchange::Exchange(const Model& model)
     : model_(&model),
       begins_below_(static_cast<std::uint64_t>(model.control.initiative * 0x1p32)),
-      log_quiet_(0) {
-  assert(model.control.reply_ticks >= 0 && model.control.reply_ticks <= 250);
+      log_quiet_(0),
+      // Firmware::waiting is a byte; six seconds of waiting are as good as for ever.
+      begins_at_(std::min(model.control.reply_ticks, 253) + 2) {
   const double rate = model.control.evaluation_rate * kTick;
   if (rate > 0 && rate < 1) log_quiet_ = log_portable(1 - rate);
   answers_.reserve(static_cast<std::size_t>(model.module.count));
@@ -63,14 +64,13 @@ void Exchange::act(Tick& tick, int module, bool initiative) {
   const int messages = heard(tick, module, heard_at);
   if (!tick.on(module)) return;
   Firmware& firmware = tick.state.firmware[module];
-  const int to_send = model_->control.reply_ticks + 2;
   if (firmware.waiting > 0) {
-    if (firmware.waiting == to_send) senders_.push_back(module);
+    if (firmware.waiting == begins_at_) senders_.push_back(module);
     --firmware.waiting;
     return;
   }
   if (initiative) {
-    firmware.waiting = static_cast<std::uint8_t>(to_send);
+    firmware.waiting = static_cast<std::uint8_t>(begins_at_);
     return;
   }
   if (messages == 0) return;

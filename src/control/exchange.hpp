@@ -20,8 +20,9 @@ namespace lilytank {
 ///  - The answer is the decision: the rule is drawn with the initiator's random number, and both
 ///    modules change in the same tick (ideal channel). During the next tick the answer travels;
 ///    after it both are idle.
-/// With the standard numbers a bond is evaluated 0.658 times a second in a dimer, 0.671 in a
-/// trimer and 0.702 in a cross of five (authors' machine: 0.66, 0.67, 0.70).
+/// With the standard numbers a bond is evaluated 0.656 times a second in a dimer, 0.670 in a
+/// trimer and 0.700 in a cross of five (over 10^7 ticks and more; authors' machine: 0.66, 0.67,
+/// 0.70). A machine that hears messages while it waits, or keeps them, is half as fast again.
 ///
 /// Clock::events. Every connection of two modules that are on is evaluated after whole numbers of
 /// ticks that are geometric with mean 1 / evaluation_rate exactly; a fair coin says who initiates.
@@ -45,6 +46,7 @@ class Exchange {
   const Model* model_;
   std::uint64_t begins_below_;         // of 2^32: initiative
   double log_quiet_;                   // log of the probability that a connection rests for a tick
+  int begins_at_;                      // Firmware::waiting of a module that is about to send
   std::vector<Connector> answers_;     // responders and the faces they answer at
   std::vector<std::int32_t> senders_;  // initiators that speak in this tick
 };

@@ -75,12 +75,13 @@ int RulesetScanner::whole_number(std::string_view what, int high) {
   const char* end = line_.data() + line_.size();
   int value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  const std::string range = std::string(what) + ", a whole number 0 .. " + std::to_string(high);
+  const std::string range =
+      "a " + std::string(what) + ", a whole number 0 .. " + std::to_string(high);
   if (error == std::errc::result_out_of_range)
-    fail(next_text() + " is out of range: expected a " + range);
-  if (error != std::errc()) fail("expected a " + range + ", found " + next_text());
+    fail(next_text() + " is out of range: expected " + range);
+  if (error != std::errc()) fail("expected " + range + ", found " + next_text());
   if (value < 0 || value > high)
-    fail(std::to_string(value) + " is out of range: expected a " + range);
+    fail(std::to_string(value) + " is out of range: expected " + range);
   at_ += static_cast<std::size_t>(stop - begin);
   return value;
 }

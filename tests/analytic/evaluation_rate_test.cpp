@@ -2,7 +2,7 @@
 // meaning in seconds hangs on this rate.
 #include <gtest/gtest.h>
 
-#include "control_rig.hpp"
+#include "support/control_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::quiet_model;
@@ -101,7 +101,7 @@ TEST(EvaluationRate, LifeOfADimerFollowsFromItsReverseProbability) {
     ASSERT_TRUE(rig.until(EventKind::unlink));
     total += static_cast<double>(rig.state.step - linked) * kTick;
   }
-  const double expected = 1 / (p * 0.658);
+  const double expected = 1 / (p * 0.656);
   EXPECT_NEAR(total / runs, expected, 3 * expected / std::sqrt(runs) + 0.02 * expected);
 }
 

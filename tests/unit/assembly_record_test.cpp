@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control_rig.hpp"
+#include "support/control_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::quiet_model;

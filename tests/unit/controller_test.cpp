@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "control_rig.hpp"
 #include "lilytank/random.hpp"
+#include "support/control_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::quiet_model;

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "control_rig.hpp"
+#include "support/control_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::rules_of;

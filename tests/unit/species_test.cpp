@@ -3,8 +3,8 @@
 #include <map>
 
 #include "analysis/pattern.hpp"
-#include "control_rig.hpp"
 #include "lilytank/assembly_record.hpp"
+#include "support/control_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::rules_of;
