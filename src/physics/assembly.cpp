@@ -28,6 +28,13 @@ bool holds(const Face& face) {
 
 void derive_body_pose(const Model& model, const State& state, int slot, int body, Assemblies& out) {
   const Rot r{state.c[slot], state.s[slot]};
+  if (body == slot && out.next[slot] < 0 && state.turn[slot] == 0) {  // alone: nothing to turn
+    out.x[slot] = state.x[slot], out.y[slot] = state.y[slot];
+    out.c[slot] = r.c, out.s[slot] = r.s;
+    out.vx[slot] = state.vx[slot], out.vy[slot] = state.vy[slot],
+    out.omega[slot] = state.omega[slot];
+    return;
+  }
   const double ox = state.cell_x[body] * model.module.side - out.centre_x[slot];
   const double oy = state.cell_y[body] * model.module.side - out.centre_y[slot];
   const double rx = r.c * ox - r.s * oy, ry = r.s * ox + r.c * oy;

@@ -19,9 +19,9 @@ class Broadphase {
   /// Takes the circles of a moment; the spans must live as long as they are asked about.
   void build(std::span<const double> x, std::span<const double> y, std::span<const double> radius);
 
-  /// Calls use(i, j) for every overlapping pair i < j.
+  /// Calls use(i, j) for every pair i < j that overlaps or is nearer than `margin` (m).
   template <class Use>
-  void pairs(Use&& use);
+  void pairs(double margin, Use&& use);
   /// Calls use(j) for every body j that overlaps the circle of radius `radius` about body i,
   /// without i itself.
   template <class Use>
@@ -40,18 +40,19 @@ class Broadphase {
 };
 
 template <class Use>
-void Broadphase::pairs(Use&& use) {
+void Broadphase::pairs(double margin, Use&& use) {
   const int n = static_cast<int>(x_.size());
   const double *x = x_.data(), *y = y_.data(), *radius = radius_.data();
   for (int i = 0; i < n; ++i) {
+    const double own = radius[i] + margin;
     const auto test = [&](int j) {
-      const double dx = x[j] - x[i], dy = y[j] - y[i], reach = radius[i] + radius[j];
+      const double dx = x[j] - x[i], dy = y[j] - y[i], reach = own + radius[j];
       if (dx * dx + dy * dy < reach * reach) use(i, j);
     };
     if (cells_ == 0) {
       for (int j = i + 1; j < n; ++j) test(j);
     } else {
-      gather(x[i], y[i], radius[i], i);
+      gather(x[i], y[i], own, i);
       for (const int j : found_) test(j);
     }
   }

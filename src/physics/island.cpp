@@ -31,6 +31,14 @@ Vec2 velocity_at(const Mover& m, double ox, double oy) {
   return {m.twist.vx - m.twist.omega * ry, m.twist.vy + m.twist.omega * rx};
 }
 
+// How far any point is from where it would be without contacts, m.
+double off_course(const Mover& m, double time) {
+  const Rot r = turned_by(m.start.r, time * m.course.omega);
+  return length(m.pose.x - m.start.x - time * m.course.vx,
+                m.pose.y - m.start.y - time * m.course.vy) +
+         m.reach * length(m.pose.r.c - r.c, m.pose.r.s - r.s);
+}
+
 // How fast two movers move relative to axes that turn with the pair: what changes where they touch.
 double relative_pace(const Mover& a, const Mover& b) {
   const double mean = 0.5 * (a.twist.omega + b.twist.omega);
@@ -67,6 +75,9 @@ void Island::clear() {
 
 int Island::add(const Mover& mover) {
   movers_.push_back(mover);
+  Mover& m = movers_.back();
+  m.good = m.start = m.pose;
+  m.course = m.twist;
   return static_cast<int>(movers_.size()) - 1;
 }
 
@@ -144,6 +155,7 @@ void Island::push(Mover& a, Mover& b, double nx, double ny, const Touch& touch) 
   const double arm_a = ax * ny - ay * nx, arm_b = bx * ny - by * nx;
   const double k =
       a.inv_mass + b.inv_mass + a.inv_inertia * arm_a * arm_a + b.inv_inertia * arm_b * arm_b;
+  a.touched = b.touched = true;
   const double j = std::min(-touch.gap - kPushTo, kLongestPush) / k;
   a.pose.x -= j * a.inv_mass * nx, a.pose.y -= j * a.inv_mass * ny;
   b.pose.x += j * b.inv_mass * nx, b.pose.y += j * b.inv_mass * ny;
@@ -180,7 +192,7 @@ bool Island::breaks_promise() const {
 void Island::undo(Mover& mover, int& count) {
   if (mover.slot < 0 || mover.undone) return;
   mover.pose = mover.good;
-  mover.undone = mover.dull = true;
+  mover.undone = mover.dull = mover.touched = true;
   ++count;
 }
 
@@ -204,8 +216,14 @@ int Island::put_back(double limit) {
   return count;
 }
 
-void Island::accept() {
-  for (Mover& m : movers_) m.good = m.pose;
+void Island::accept(double time) {
+  for (std::size_t k = 1; k < movers_.size(); ++k) {
+    Mover& m = movers_[k];
+    m.good = m.pose;
+    m.touched = m.touched || m.twist.vx != m.course.vx || m.twist.vy != m.course.vy ||
+                m.twist.omega != m.course.omega;
+    if (m.touched) m.strayed = std::max(m.strayed, off_course(m, time));
+  }
 }
 
 }  // namespace lilytank

@@ -19,7 +19,11 @@ struct Mover {
   double inv_mass = 0, inv_inertia = 0;  ///< 0 for the wall; a ball does not turn
   double reach = 0;                      ///< m, from the centre to the farthest point
   double promise = 0;                    ///< m, no point may end farther than this from its start
-  Pose start, good;                      ///< at the start of the step; at the last good substep
+  Pose good;                             ///< at the last good substep
+  Pose start;                            ///< at the start of the step
+  Twist course;                          ///< at the start of the step
+  double strayed = 0;                    ///< m, no point was farther from its course
+  bool touched = false;                  ///< left its course
   bool undone = false;                   ///< put back in this substep
   bool dull = false;                     ///< put back in this step: no more restitution
 };
@@ -78,8 +82,8 @@ class Island {
   /// Puts back to their last good pose those that broke their promise or overlap by more than
   /// `limit` (m), and what then overlaps with those. Returns how many.
   int put_back(double limit);
-  /// Poses as they are now count as good.
-  void accept();
+  /// Poses as they are now, `time` (s) after the start, count as good.
+  void accept(double time);
 
   /// Points of contact of a pair within `margin` (m): calls use(nx, ny, touch), the normal from a
   /// to b.

@@ -5,24 +5,24 @@
 
 #include "broadphase.hpp"
 #include "contact_solver.hpp"
-#include "island.hpp"
+#include "island_builder.hpp"
+#include "settle.hpp"
 #include "small_turn.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kSliceMotion = 0.016;  // m, most that a point moves between two searches
-constexpr double kTooFast = 100;        // m/s, not worth solving
-constexpr double kPushShare = 1.2;      // how much of a closing speed a push may pass on
-constexpr double kPushSpare = 3e-4;     // m
-constexpr double kReach = 1.25;         // contacts are looked for in so many times the closing way
-constexpr double kReachSpare = 1e-4;    // m
-constexpr double kUndoLimit = 4.5e-4;   // m, below kOverlapLimit by more than rounding
-constexpr double kSettled = 2.5e-4;     // m, overlap that settle() accepts
-constexpr double kSettleMargin = 1e-3;  // m, what is nearer than this may be pushed
-constexpr int kPushRounds = 12;         // sweeps that push overlaps apart after a substep
-constexpr int kSettleRounds = 30;
-constexpr int kSettleSweeps = 20;
+constexpr double kSliceMotion = 0.02;  // m, most that a point moves between two searches
+constexpr double kTooFast = 100;       // m/s, not worth solving
+constexpr double kLinkSpare = 1e-3;    // m, pairs that miss by less are watched too
+constexpr double kPushShare = 1.2;     // how much of a closing speed a push may pass on
+constexpr double kPushSpare = 3e-4;    // m
+constexpr int kCrowd = 12;             // links of an island in which a push surely reaches others
+constexpr double kReach = 1.25;        // contacts are looked for in so many times the closing way
+constexpr double kReachSpare = 1e-4;   // m
+constexpr double kUndoLimit = 4.5e-4;  // m, below kOverlapLimit by more than rounding
+constexpr int kPushRounds = 12;        // sweeps that push overlaps apart after a substep
+constexpr double kNoPromise = 1e9;     // m
 
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
@@ -31,239 +31,229 @@ bool within(double x, double y, double radius) {
   return radius > 0 && x * x + y * y < radius * radius;
 }
 
+// How an assembly gets through a slice.
+enum class Way : std::uint8_t {
+  free,    // by its twist; meets nothing
+  course,  // in an island of those that would meet on their courses; strayed by a known amount
+  wide,    // in an island of all that could be reached, within its promise
+};
+
 }  // namespace
 
-// A step is cut into slices, short enough that a search for neighbours stays good for a slice; one
-// is enough unless something is very fast. In a slice, assemblies that meet nothing fly freely. The
-// others are gathered, with all they could be pushed into, to islands that cannot reach one
-// another; each island is moved in substeps of its own length.
+// A step is cut into slices, short enough that one search for neighbours serves a slice; one slice
+// is enough unless something is very fast. In a slice
+// 1. pairs that would meet if everything kept its twist are linked, linked assemblies form islands,
+//    and all else flies freely;
+// 2. each island is moved apart from the others, in substeps of its own length, and notes how far
+//    pushes made its members stray from their courses;
+// 3. if one strayed so far that it could have met something outside, its island is taken back and
+//    gathered anew with all that any push could reach; what is in it keeps within a promised
+//    distance.
+// Results are written to the state when all is done, so every island starts from the same moment.
 struct Motion::Impl {
   const Model* model;
   Broadphase broadphase, latch_range;
-  Island island;
+  IslandBuilder builder;
   ContactSolver solver;
-  double corner;  // m, half a module's diagonal
-  // Of the call in progress.
-  State* state = nullptr;
+  State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
-  double extra = 0;                      // m, a push moves a body by so much more at most
-  std::vector<double> own;               // [slot] m, farthest that a point moves by itself
-  std::vector<double> arc;               // [body] m, how far its path leaves a straight line
-  std::vector<double> reach;             // [body] m, radius of the circle that it stays in
-  std::vector<std::uint8_t> seed, done;  // [slot]
-  std::vector<int> local;                // [slot] index into the island, 0: not in it
-  std::vector<int> queue;                // slots of the island
+  double extra = 0;       // m, a push moves a body by so much more at most
+  double turn_slack = 0;  // m, no body's own + size is more than its reach by more
+  struct Link {
+    int i, j;  // bodies; j = -1: the wall
+    int next;  // of the same island
+  };
+  std::vector<Link> links;
+  std::vector<double> reach;  // [body] m, radius of the circle that it stays in
+  std::vector<double> arc;    // [body] m, how far its path leaves a straight line
+  struct Slot {
+    Way way = Way::free;
+    bool gathered = false;                // by the search in progress
+    int root = 0;                         // the island's lowest slot, or on the way there
+    int head = -1, tail = -1, count = 0;  // links of the island with this root
+    double own = 0;                       // m, farthest that a point moves by itself
+    double strayed = 0;                   // m
+    Pose pose;                            // at the end of the slice
+    Twist twist;
+  };
+  std::vector<Slot> slots;
   std::vector<std::pair<int, int>> found;
 
   explicit Impl(const Model& m);
-  bool is_module(int body) const { return body < model->module.count; }
-  double size_of(int body) const { return is_module(body) ? corner : model->ball.radius; }
-
-  double fastest() const;
+  double fastest_way() const;
   void slice(double h, Tallies& tallies);
   void measure(double h);
-  void find_seeds(double h);
-  double gap(int i, int j) const;
-  void fly(int slot, double h);
-
-  void enter(int slot, double promise);
-  void leave(bool twists);
-  Near pair_of(int i, int j) const;
-  Near wall_of(int i) const;
-  double place(int body, double& x, double& y) const;
-  void gather(int slot);
-  void gather_around(int body);
-  void run(double h, Tallies& tallies);
+  double closing(int i, int j, double h) const;
+  void find_links(double h);
+  void add_link(int i, int j);
+  int root_of(int slot);
+  void join(int p, int q);
+  void gather_course(int root);
+  void gather_wide(int slot, double h);
+  void gather_around(int body, double h);
+  void run(double h, Way way, Tallies& tallies);
   double keep_good(double deepest, double before, Tallies& tallies);
-
-  Vec2 centre_of(int body) const;
-  void pair_up();
-  bool settle(int slot);
+  bool meets_wall(int body, double spare) const;
+  bool kept_clear(double h);
+  void finish(double h);
 };
 
 Motion::Impl::Impl(const Model& m)
     : model(&m),
       broadphase(m.bodies(), m.tank.radius, 0.01 + m.module.side),
       latch_range(m.bodies(), m.tank.radius, 0.01 + m.module.side),
-      island(m),
-      solver(m),
-      corner(m.module.side * std::sqrt(0.5)) {
+      builder(m),
+      solver(m) {
   const auto n = static_cast<std::size_t>(m.bodies());
-  for (auto* a : {&own, &arc, &reach}) a->assign(n, 0);
-  for (auto* a : {&seed, &done}) a->assign(n, 0);
-  local.assign(n, 0);
-  queue.reserve(n);
+  reach.assign(n, 0), arc.assign(n, 0);
+  slots.assign(n, {});
+  links.reserve(std::min(n * (n + 1) / 2, 10 * n));
   found.reserve(std::min(n * n / 2, 8 * n));
 }
 
-// Greatest speed of any point, m/s; NaN if there is one.
-double Motion::Impl::fastest() const {
+// Upper bound on how far any point moves in a step, m; more than kTooFast allows, or NaN, if
+// anything is too fast.
+double Motion::Impl::fastest_way() const {
   double most = 0;
   for (const int slot : assemblies->live) {
-    const double speed = length(state->vx[slot], state->vy[slot]) +
+    const double speed = std::fabs(state->vx[slot]) + std::fabs(state->vy[slot]) +
                          assemblies->reach[slot] * std::fabs(state->omega[slot]);
-    if (!(speed < kTooFast)) return speed;
+    if (!(speed < kTooFast)) return speed * model->dt;
     most = std::max(most, speed);
   }
-  return most;
+  return most * model->dt;
 }
 
 // Twists of the bodies, and how far they may get within h seconds.
 void Motion::Impl::measure(double h) {
   Assemblies& a = *assemblies;
+  turn_slack = 0;
   for (const int slot : a.live) {
     const double vx = state->vx[slot], vy = state->vy[slot], omega = state->omega[slot];
     const double turn = h * std::fabs(omega), way = h * length(vx, vy);
-    own[slot] = way + turn * a.reach[slot];
-    seed[slot] = done[slot] = 0;
+    Slot& s = slots[slot];
+    s.way = Way::free, s.gathered = false;
+    s.root = slot, s.head = -1, s.count = 0;
+    s.own = way + turn * a.reach[slot];
+    turn_slack = std::max(turn_slack, turn * a.reach[slot]);
+    s.strayed = 0;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
+      a.vx[i] = vx, a.vy[i] = vy, a.omega[i] = omega;
+      arc[i] = 0, reach[i] = builder.size_of(i) + way;
+      if (i == slot && a.next[i] < 0) break;
       const double rx = a.x[i] - state->x[slot], ry = a.y[i] - state->y[slot];
-      a.vx[i] = vx - omega * ry;
-      a.vy[i] = vy + omega * rx;
-      a.omega[i] = omega;
-      const bool alone = a.next[i] < 0 && i == slot;
-      arc[i] = alone ? 0 : 0.5 * turn * turn * length(rx, ry);
-      reach[i] = size_of(i) + arc[i] + (alone ? way : h * length(a.vx[i], a.vy[i]));
+      a.vx[i] -= omega * ry, a.vy[i] += omega * rx;
+      arc[i] = 0.5 * turn * turn * length(rx, ry);
+      reach[i] = builder.size_of(i) + arc[i] + h * length(a.vx[i], a.vy[i]);
     }
   }
 }
 
-// A lower bound of the distance of bodies i < j, m.
-double Motion::Impl::gap(int i, int j) const {
+// No two points of bodies i and j come nearer to one another by more than this on their courses, m.
+double Motion::Impl::closing(int i, int j, double h) const {
   const Assemblies& a = *assemblies;
-  const double half = 0.5 * model->module.side;
-  const auto square = [&](int k) { return Square{a.x[k], a.y[k], {a.c[k], a.s[k]}, half, 0}; };
-  const auto disc = [&](int k) { return Disc{a.x[k], a.y[k], model->ball.radius}; };
-  if (is_module(j)) return separation(square(i), square(j));
-  if (is_module(i)) return separation(square(i), disc(j));
-  return separation(disc(i), disc(j));
+  const double spin = (builder.is_module(i) ? builder.size_of(i) * std::fabs(a.omega[i]) : 0) +
+                      (builder.is_module(j) ? builder.size_of(j) * std::fabs(a.omega[j]) : 0);
+  return h * (length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + spin) + arc[i] + arc[j];
 }
 
-// Marks the assemblies that could meet something if all moved freely, and bounds how much a push
-// can add to a body's motion.
-void Motion::Impl::find_seeds(double h) {
+// Does body i come nearer to the wall than `spare` (m) on its course?
+bool Motion::Impl::meets_wall(int i, double spare) const {
+  return !within(assemblies->x[i], assemblies->y[i], model->tank.radius - reach[i] - spare);
+}
+
+int Motion::Impl::root_of(int slot) {
+  while (slots[slot].root != slot) slot = slots[slot].root = slots[slots[slot].root].root;
+  return slot;
+}
+
+// Links what would meet, or nearly, on its course, and bounds how much a push can add to a motion.
+void Motion::Impl::find_links(double h) {
   const Assemblies& a = *assemblies;
   extra = 0;
-  const auto spin = [&](int i) { return is_module(i) ? corner * h * std::fabs(a.omega[i]) : 0; };
-  broadphase.build(a.x, a.y, reach);
-  broadphase.pairs([&](int i, int j) {
-    const int p = state->assembly[i], q = state->assembly[j];
-    if (p == q) return;
-    const double closing =
-        h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + arc[i] + arc[j] + spin(i) + spin(j);
-    const double between = gap(i, j);
-    if (between > closing) return;
-    seed[p] = seed[q] = 1;
-    extra = std::max(extra, kPushShare * closing + std::max(-2 * between, 0.0));
-  });
-  const double tank = model->tank.radius;
+  links.clear();
   for (const int slot : a.live) {
-    if (within(state->x[slot], state->y[slot], tank - a.reach[slot] - own[slot])) continue;
+    const double rim = model->tank.radius - kLinkSpare - a.reach[slot] - slots[slot].own;
+    if (within(state->x[slot], state->y[slot], rim)) continue;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
-      if (within(a.x[i], a.y[i], tank - reach[i])) continue;
-      seed[slot] = 1;
-      extra = std::max(extra, kPushShare * own[slot]);
+      if (!meets_wall(i, kLinkSpare)) continue;
+      links.push_back({i, -1, -1});
+      extra = std::max(extra, kPushShare * slots[slot].own);
     }
   }
+  broadphase.build(a.x, a.y, reach);
+  broadphase.pairs(kLinkSpare, [&](int i, int j) {
+    const int p = builder.slot_of(i), q = builder.slot_of(j);
+    if (p == q) return;
+    const double most = closing(i, j, h), gap = builder.gap(i, j);
+    if (gap > most + kLinkSpare) return;
+    links.push_back({i, j, -1});
+    extra = std::max(extra, kPushShare * most + std::max(-2 * gap, 0.0));
+    const int root_p = root_of(p), root_q = root_of(q);
+    slots[std::max(root_p, root_q)].root = std::min(root_p, root_q);
+  });
   extra += kPushSpare;
-}
-
-void Motion::Impl::fly(int slot, double h) {
-  state->x[slot] += h * state->vx[slot];
-  state->y[slot] += h * state->vy[slot];
-  if (state->omega[slot] == 0) return;
-  const Rot r = turned_by({state->c[slot], state->s[slot]}, h * state->omega[slot]);
-  state->c[slot] = r.c, state->s[slot] = r.s;
-}
-
-void Motion::Impl::enter(int slot, double promise) {
-  Mover m;
-  m.slot = slot;
-  m.pose = {state->x[slot], state->y[slot], {state->c[slot], state->s[slot]}};
-  m.twist = {state->vx[slot], state->vy[slot], state->omega[slot]};
-  m.mass = assemblies->mass[slot], m.inertia = assemblies->inertia[slot];
-  m.inv_mass = 1 / m.mass, m.inv_inertia = m.inertia > 0 ? 1 / m.inertia : 0;
-  m.reach = assemblies->reach[slot];
-  m.promise = promise;
-  m.start = m.good = m.pose;
-  local[slot] = island.add(m);
-  queue.push_back(slot);
-}
-
-// Writes the island's movers back to the state.
-void Motion::Impl::leave(bool twists) {
-  for (const Mover& m : island.movers()) {
-    if (m.slot < 0) continue;
-    state->x[m.slot] = m.pose.x, state->y[m.slot] = m.pose.y;
-    state->c[m.slot] = m.pose.r.c, state->s[m.slot] = m.pose.r.s;
-    if (!twists) continue;
-    state->vx[m.slot] = m.twist.vx, state->vy[m.slot] = m.twist.vy;
-    state->omega[m.slot] = m.twist.omega;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    Slot& root = slots[root_of(builder.slot_of(links[k].i))];
+    if (root.head < 0)
+      root.head = static_cast<int>(k);
+    else
+      links[root.tail].next = static_cast<int>(k);
+    root.tail = static_cast<int>(k);
+    ++root.count;
   }
 }
 
-// A body's centre in its assembly's frame; returns how far that is from the centre of mass.
-double Motion::Impl::place(int body, double& x, double& y) const {
-  const int slot = state->assembly[body];
-  x = state->cell_x[body] * model->module.side - assemblies->centre_x[slot];
-  y = state->cell_y[body] * model->module.side - assemblies->centre_y[slot];
-  return x == 0 && y == 0 ? 0 : length(x, y);
+// The island of what is linked with an assembly.
+void Motion::Impl::gather_course(int root) {
+  builder.clear();
+  for (int k = slots[root].head; k >= 0; k = links[k].next) {
+    const Link& link = links[k];
+    const int p = builder.slot_of(link.i);
+    if (!builder.has(p)) builder.enter(p, kNoPromise);
+    if (link.j < 0) {
+      builder.link_wall(link.i);
+      continue;
+    }
+    const int q = builder.slot_of(link.j);
+    if (!builder.has(q)) builder.enter(q, kNoPromise);
+    builder.link(link.i, link.j);
+  }
 }
 
-Near Motion::Impl::pair_of(int i, int j) const {
-  if (i > j) std::swap(i, j);
-  Near near;
-  near.a = local[state->assembly[i]], near.b = local[state->assembly[j]];
-  near.kind = is_module(j)   ? PairKind::squares
-              : is_module(i) ? PairKind::square_disc
-                             : PairKind::discs;
-  near.order_a = i, near.order_b = j;
-  near.inner_a = assemblies->inner[i], near.inner_b = assemblies->inner[j];
-  near.arm_a = place(i, near.ax, near.ay), near.arm_b = place(j, near.bx, near.by);
-  return near;
-}
-
-Near Motion::Impl::wall_of(int i) const {
-  Near near;
-  near.b = local[state->assembly[i]];
-  near.kind = is_module(i) ? PairKind::wall_square : PairKind::wall_disc;
-  near.order_a = -1, near.order_b = i;
-  near.arm_b = place(i, near.bx, near.by);
-  return near;
-}
-
-// Adds what body i may meet in this slice, pushes included.
-void Motion::Impl::gather_around(int i) {
+// Adds what body i could meet in this slice, pushes included.
+void Motion::Impl::gather_around(int i, double h) {
   const Assemblies& a = *assemblies;
-  const int slot = state->assembly[i];
-  const double promise = own[slot] + extra;
-  if (!within(a.x[i], a.y[i], model->tank.radius - size_of(i) - promise)) island.add(wall_of(i));
-  broadphase.around(i, size_of(i) + promise + extra, [&](int j) {
-    const int other = state->assembly[j];
-    if (other == slot || done[other]) return;
-    if (gap(std::min(i, j), std::max(i, j)) > promise + own[other] + extra) return;
-    if (local[other] == 0) enter(other, own[other] + extra);
-    island.add(pair_of(i, j));
+  const int slot = builder.slot_of(i);
+  const double promise = slots[slot].own + extra, size = builder.size_of(i);
+  const double room = std::max(size + promise, reach[i] + kLinkSpare);
+  if (!within(a.x[i], a.y[i], model->tank.radius - room)) builder.link_wall(i);
+  broadphase.around(i, room + extra + turn_slack, [&](int j) {
+    const int other = builder.slot_of(j);
+    if (other == slot || slots[other].gathered) return;
+    const double most = std::max(promise + slots[other].own + extra, closing(i, j, h) + kLinkSpare);
+    if (builder.gap(i, j) > most) return;
+    if (!builder.has(other)) builder.enter(other, slots[other].own + extra);
+    builder.link(i, j);
   });
 }
 
-// The island of an assembly.
-void Motion::Impl::gather(int slot) {
-  island.clear();
-  queue.clear();
-  enter(slot, own[slot] + extra);
-  for (std::size_t k = 0; k < queue.size(); ++k) {
-    const int from = queue[k];
-    for (int i = assemblies->first[from]; i >= 0; i = assemblies->next[i]) gather_around(i);
-    done[from] = 1;
+// The island of all that an assembly, and in turn what it meets, could reach.
+void Motion::Impl::gather_wide(int slot, double h) {
+  builder.clear();
+  builder.enter(slot, slots[slot].own + extra);
+  for (std::size_t k = 0; k < builder.slots().size(); ++k) {
+    const int from = builder.slots()[k];
+    for (int i = assemblies->first[from]; i >= 0; i = assemblies->next[i]) gather_around(i, h);
+    slots[from].gathered = true;
   }
-  for (const int each : queue) local[each] = 0;
-  island.sort_pairs();
+  builder.island().sort_pairs();
 }
 
 // Pushes overlaps apart; what that cannot help is put back to where it was good. A start that was
 // worse than the limit (poses given by a user) may only get better. Returns the deepest overlap.
 double Motion::Impl::keep_good(double deepest, double before, Tallies& tallies) {
+  Island& island = builder.island();
   if (deepest > kSlop) {
     island.push_apart(kPushRounds);
     deepest = island.survey();
@@ -273,14 +263,15 @@ double Motion::Impl::keep_good(double deepest, double before, Tallies& tallies) 
     tallies.moves_undone += island.put_back(limit);
     deepest = island.survey();
   }
-  island.accept();
   return deepest;
 }
 
 // Moves the island by h seconds.
-void Motion::Impl::run(double h, Tallies& tallies) {
+void Motion::Impl::run(double h, Way way, Tallies& tallies) {
+  Island& island = builder.island();
   double deepest = island.survey();
   if (deepest > kSlop) deepest = keep_good(deepest, deepest, tallies);
+  island.accept(0);
   for (double left = h; left > 0;) {
     const Pace pace = island.pace(left);
     const double part = pace.longest < left ? left / (std::floor(left / pace.longest) + 1) : left;
@@ -292,74 +283,76 @@ void Motion::Impl::run(double h, Tallies& tallies) {
     if (met) solver.rebound(island, step);
     left = step < left ? left - step : 0;
     deepest = keep_good(island.survey(), deepest, tallies);
+    island.accept(h - left);
   }
   tallies.deepest_overlap = std::max(tallies.deepest_overlap, deepest);
+  for (const Mover& m : island.movers()) {
+    if (m.slot < 0) continue;
+    Slot& s = slots[m.slot];
+    s.way = way, s.pose = m.pose, s.twist = m.twist, s.strayed = m.strayed;
+  }
+}
+
+// True if no member of the island that was run last strayed so far that it could have met something
+// that it is not linked with. (What is in a wide island keeps away by itself.)
+bool Motion::Impl::kept_clear(double h) {
+  const Assemblies& a = *assemblies;
+  for (const int slot : builder.slots()) {
+    const double strayed = slots[slot].strayed;
+    if (strayed == 0) continue;
+    if (strayed > extra) return false;
+    bool clear = true;
+    for (int i = a.first[slot]; i >= 0 && clear; i = a.next[i]) {
+      clear = meets_wall(i, kLinkSpare) || !meets_wall(i, strayed);
+      broadphase.around(i, reach[i] + strayed + extra, [&](int j) {
+        const int other = builder.slot_of(j);
+        if (other == slot || slots[other].way == Way::wide) return;
+        const double spare = builder.gap(i, j) - closing(i, j, h);
+        if (spare > kLinkSpare && spare <= strayed + slots[other].strayed) clear = false;
+      });
+    }
+    if (!clear) return false;
+  }
+  return true;
+}
+
+// Writes the end of the slice to the state.
+void Motion::Impl::finish(double h) {
+  for (const int slot : assemblies->live) {
+    const Slot& s = slots[slot];
+    if (s.way == Way::free) {
+      state->x[slot] += h * state->vx[slot], state->y[slot] += h * state->vy[slot];
+      if (state->omega[slot] == 0) continue;
+      const Rot r = turned_by({state->c[slot], state->s[slot]}, h * state->omega[slot]);
+      state->c[slot] = r.c, state->s[slot] = r.s;
+    } else {
+      state->x[slot] = s.pose.x, state->y[slot] = s.pose.y;
+      state->c[slot] = s.pose.r.c, state->s[slot] = s.pose.r.s;
+      state->vx[slot] = s.twist.vx, state->vy[slot] = s.twist.vy,
+      state->omega[slot] = s.twist.omega;
+    }
+  }
+  derive_poses(*model, *state, *assemblies);
 }
 
 void Motion::Impl::slice(double h, Tallies& tallies) {
   measure(h);
-  find_seeds(h);
-  for (const int slot : assemblies->live) {
-    if (!seed[slot] || done[slot]) continue;
-    gather(slot);
-    run(h, tallies);
-    leave(true);
-  }
-  for (const int slot : assemblies->live) {
-    if (!done[slot]) fly(slot, h);
-  }
-  derive_poses(*model, *state, *assemblies);
-}
-
-// The centre of a body: on its way with the island, or where it lies.
-Vec2 Motion::Impl::centre_of(int body) const {
-  const int index = local[state->assembly[body]];
-  if (index == 0) return {assemblies->x[body], assemblies->y[body]};
-  double x = 0, y = 0;
-  place(body, x, y);
-  const Pose& pose = island.movers()[index].pose;
-  return Vec2(pose.x, pose.y) + rotate(pose.r, Vec2(x, y));
-}
-
-// All pairs of the island's movers with one another and with what is near them now, which joins the
-// island.
-void Motion::Impl::pair_up() {
-  island.forget_pairs();
-  const std::size_t count = queue.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const int slot = queue[k];
-    for (int i = assemblies->first[slot]; i >= 0; i = assemblies->next[i]) {
-      const Vec2 at = centre_of(i);
-      if (!within(at.x(), at.y(), model->tank.radius - size_of(i) - kSettleMargin))
-        island.add(wall_of(i));
-      for (int j = 0; j < model->bodies(); ++j) {
-        const int other = state->assembly[j], index = local[other];
-        if (other == slot || (index > 0 && index <= static_cast<int>(k))) continue;
-        const double near = size_of(i) + size_of(j) + kSettleMargin;
-        if ((centre_of(j) - at).squaredNorm() > near * near) continue;
-        if (index == 0) enter(other, 0);
-        island.add(pair_of(i, j));
+  find_links(h);
+  for (const int root : assemblies->live) {
+    if (slots[root].head < 0 || slots[root].gathered) continue;
+    if (slots[root].count <= kCrowd) {
+      Tallies trial = tallies;
+      gather_course(root);
+      run(h, Way::course, trial);
+      if (kept_clear(h)) {
+        tallies = trial;
+        continue;
       }
     }
+    gather_wide(root, h);
+    run(h, Way::wide, tallies);
   }
-  island.sort_pairs();
-}
-
-bool Motion::Impl::settle(int slot) {
-  island.clear();
-  queue.clear();
-  enter(slot, 0);
-  bool settled = false;
-  for (int round = 0; round < kSettleRounds && !settled; ++round) {
-    if (round > 0) island.push_apart(kSettleSweeps);
-    pair_up();
-    settled = island.survey() <= kSettled;
-  }
-  for (const int each : queue) local[each] = 0;
-  if (!settled) return false;
-  leave(false);
-  derive_poses(*model, *state, *assemblies);
-  return true;
+  finish(h);
 }
 
 Motion::Motion(const Model& model) : impl_(std::make_unique<Impl>(model)) {}
@@ -369,19 +362,25 @@ Motion::Motion(Motion&&) noexcept = default;
 void Motion::advance(State& state, Assemblies& assemblies, Tallies& tallies) {
   Impl& m = *impl_;
   m.state = &state, m.assemblies = &assemblies;
-  for (const int slot : assemblies.live) {
-    if (!m.is_module(slot)) state.omega[slot] = 0;
-  }
-  const double fastest = m.fastest(), dt = m.model->dt;
-  if (!(fastest < kTooFast)) return;
-  const int slices = 1 + static_cast<int>(fastest * dt / kSliceMotion);
+  m.builder.begin(state, assemblies);
+  for (int ball = m.model->module.count; ball < m.model->bodies(); ++ball) state.omega[ball] = 0;
+  const double way = m.fastest_way(), dt = m.model->dt;
+  if (!(way < kTooFast * dt)) return;
+  const int slices = 1 + static_cast<int>(way / kSliceMotion);
   for (int k = 0; k < slices; ++k) m.slice(dt / slices, tallies);
 }
 
 bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
-  Impl& m = *impl_;
-  m.state = &state, m.assemblies = &assemblies;
-  return m.settle(slot);
+  IslandBuilder& builder = impl_->builder;
+  builder.begin(state, assemblies);
+  if (!make_room(*impl_->model, assemblies, slot, builder)) return false;
+  for (const Mover& m : builder.island().movers()) {
+    if (m.slot < 0) continue;
+    state.x[m.slot] = m.pose.x, state.y[m.slot] = m.pose.y;
+    state.c[m.slot] = m.pose.r.c, state.s[m.slot] = m.pose.r.s;
+  }
+  derive_poses(*impl_->model, state, assemblies);
+  return true;
 }
 
 std::span<const std::pair<int, int>> Motion::near_pairs(const Assemblies& assemblies,
@@ -392,7 +391,7 @@ std::span<const std::pair<int, int>> Motion::near_pairs(const Assemblies& assemb
   m.found.clear();
   const std::span<const double> x = assemblies.x, y = assemblies.y, radius = m.reach;
   m.latch_range.build(x.first(n), y.first(n), radius.first(n));
-  m.latch_range.pairs([&](int i, int j) { m.found.emplace_back(i, j); });
+  m.latch_range.pairs(0, [&](int i, int j) { m.found.emplace_back(i, j); });
   return m.found;
 }
 

@@ -1,0 +1,91 @@
+#include "island_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lilytank {
+
+IslandBuilder::IslandBuilder(const Model& model)
+    : model_(&model),
+      corner_(model.module.side * std::sqrt(0.5)),
+      half_(0.5 * model.module.side),
+      island_(model),
+      local_(static_cast<std::size_t>(model.bodies()), 0) {
+  slots_.reserve(local_.size());
+}
+
+void IslandBuilder::begin(const State& state, const Assemblies& assemblies) {
+  clear();
+  state_ = &state;
+  assemblies_ = &assemblies;
+}
+
+double IslandBuilder::gap(int i, int j) const {
+  const Assemblies& a = *assemblies_;
+  const auto square = [&](int k) { return Square{a.x[k], a.y[k], {a.c[k], a.s[k]}, half_, 0}; };
+  const auto disc = [&](int k) { return Disc{a.x[k], a.y[k], model_->ball.radius}; };
+  if (is_module(i) && is_module(j)) return separation(square(i), square(j));
+  if (is_module(i)) return separation(square(i), disc(j));
+  if (is_module(j)) return separation(square(j), disc(i));
+  return separation(disc(i), disc(j));
+}
+
+void IslandBuilder::clear() {
+  for (const int slot : slots_) local_[slot] = 0;
+  slots_.clear();
+  island_.clear();
+}
+
+void IslandBuilder::enter(int slot, double promise) {
+  Mover m;
+  m.slot = slot;
+  m.pose = {state_->x[slot], state_->y[slot], {state_->c[slot], state_->s[slot]}};
+  m.twist = {state_->vx[slot], state_->vy[slot], state_->omega[slot]};
+  m.mass = assemblies_->mass[slot], m.inertia = assemblies_->inertia[slot];
+  m.inv_mass = 1 / m.mass, m.inv_inertia = m.inertia > 0 ? 1 / m.inertia : 0;
+  m.reach = assemblies_->reach[slot];
+  m.promise = promise;
+  local_[slot] = island_.add(m);
+  slots_.push_back(slot);
+}
+
+// A body's centre in its assembly's frame; returns how far that is from the centre of mass.
+double IslandBuilder::place(int body, double& x, double& y) const {
+  const int slot = state_->assembly[body];
+  x = state_->cell_x[body] * model_->module.side - assemblies_->centre_x[slot];
+  y = state_->cell_y[body] * model_->module.side - assemblies_->centre_y[slot];
+  return x == 0 && y == 0 ? 0 : std::sqrt(x * x + y * y);
+}
+
+void IslandBuilder::link(int i, int j) {
+  if (i > j) std::swap(i, j);
+  Near near;
+  near.a = local_[slot_of(i)], near.b = local_[slot_of(j)];
+  near.kind = is_module(j)   ? PairKind::squares
+              : is_module(i) ? PairKind::square_disc
+                             : PairKind::discs;
+  near.order_a = i, near.order_b = j;
+  near.inner_a = assemblies_->inner[i], near.inner_b = assemblies_->inner[j];
+  near.arm_a = place(i, near.ax, near.ay), near.arm_b = place(j, near.bx, near.by);
+  island_.add(near);
+}
+
+void IslandBuilder::link_wall(int i) {
+  Near near;
+  near.b = local_[slot_of(i)];
+  near.kind = is_module(i) ? PairKind::wall_square : PairKind::wall_disc;
+  near.order_a = -1, near.order_b = i;
+  near.arm_b = place(i, near.bx, near.by);
+  island_.add(near);
+}
+
+Vec2 IslandBuilder::centre_of(int body) const {
+  const int index = local_[slot_of(body)];
+  if (index == 0) return {assemblies_->x[body], assemblies_->y[body]};
+  double x = 0, y = 0;
+  place(body, x, y);
+  const Pose& pose = island_.movers()[index].pose;
+  return Vec2(pose.x, pose.y) + rotate(pose.r, Vec2(x, y));
+}
+
+}  // namespace lilytank
