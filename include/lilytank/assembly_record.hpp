@@ -11,11 +11,11 @@ namespace lilytank {
 
 /// A kind of assembly: cells and bonds, up to turning, with the modules' ruleset states.
 struct Species {
-  std::string key;     ///< canonical text, equal for equal species
-  int size = 1;        ///< modules
-  bool legal = true;   ///< reachable by the ruleset from single modules
-  bool target = false; ///< has the target's shape
-  std::string drawing; ///< rows joined by '/', '#' a module, for reports
+  std::string key;      ///< canonical text, equal for equal species
+  int size = 1;         ///< modules
+  bool legal = true;    ///< reachable by the ruleset from single modules
+  bool target = false;  ///< has the target's shape
+  std::string drawing;  ///< rows joined by '/', '#' a module, for reports
 };
 
 /// All species that a ruleset can make, by applying its rules to single modules until nothing new

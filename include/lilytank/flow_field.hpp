@@ -23,8 +23,9 @@ class FlowField {
  public:
   FlowField() = default;
   /// Takes `cells` * `cells` samples; `measured[i]` = false marks a cell without data, which is
-  /// then filled from its neighbours (the mean of its neighbours, solved for all such cells at once). Throws InputError on a size that does not fit,
-  /// on numbers that are not finite, on a negative sigma, or if no cell is measured.
+  /// then filled from its neighbours (the mean of its neighbours, solved for all such cells at
+  /// once). Throws InputError on a size that does not fit, on numbers that are not finite, on a
+  /// negative sigma, or if no cell is measured.
   FlowField(int cells, double extent, std::vector<FlowSample> samples, std::vector<bool> measured,
             Interpolation interpolation);
 
@@ -51,9 +52,10 @@ class FlowField {
 
 /// Settings of the built-in tank.
 struct AnalyticTank {
-  double radius = 0.30;       ///< m
-  double pump_power = 69;     ///< percent of a pump's full flow (9 l/min)
-  double water_level = -0.08; ///< m, from the tank's upper border: lower water, stronger surface flow
+  double radius = 0.30;    ///< m
+  double pump_power = 69;  ///< percent of a pump's full flow (9 l/min)
+  double water_level =
+      -0.08;  ///< m, from the tank's upper border: lower water, stronger surface flow
   int inlets = 7;
   double inlet_angle = 0.2617993877991494;  ///< rad, each inlet's turn from the radius (15 degrees)
   int cells = 50;

@@ -26,22 +26,22 @@ struct Parameter {
 /// Poses and twists of all bodies that water touches, structure of arrays, each of length n:
 /// modules first, then balls. Read from a running World or from a smoothed recording.
 struct Kinematics {
-  std::span<const double> x, y;        ///< m
-  std::span<const double> c, s;        ///< heading
-  std::span<const double> vx, vy;      ///< m/s
-  std::span<const double> omega;       ///< rad/s
+  std::span<const double> x, y;           ///< m
+  std::span<const double> c, s;           ///< heading
+  std::span<const double> vx, vy;         ///< m/s
+  std::span<const double> omega;          ///< rad/s
   std::span<const std::uint8_t> covered;  ///< bit f: face f is latched to a neighbour
-  int modules = 0;                     ///< bodies [0, modules) are squares, the rest balls
+  int modules = 0;                        ///< bodies [0, modules) are squares, the rest balls
   int size() const { return static_cast<int>(x.size()); }
 };
 
 /// When a force is asked for, and the key of its random draws.
 struct Moment {
-  double time = 0;          ///< s
-  std::int64_t step = 0;    ///< steps of dt since the start
-  std::int64_t gust = 0;    ///< 25 ms intervals since the start: a gust is held for one
+  double time = 0;        ///< s
+  std::int64_t step = 0;  ///< steps of dt since the start
+  std::int64_t gust = 0;  ///< 25 ms intervals since the start: a gust is held for one
   std::uint64_t seed = 0;
-  bool gusts = true;        ///< false: the mean flow only
+  bool gusts = true;  ///< false: the mean flow only
 };
 
 /// Factors on twists at the end of a step; 1 leaves them alone.

@@ -42,7 +42,9 @@ inline Vec2 unrotate(Rot r, const Vec2& v) {
   return {r.c * v.x() + r.s * v.y(), r.c * v.y() - r.s * v.x()};
 }
 /// The rotation by a and then by b.
-inline Rot compose(Rot a, Rot b) { return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s}; }
+inline Rot compose(Rot a, Rot b) {
+  return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
+}
 /// The rotation that takes heading `from` to heading `to`.
 inline Rot between(Rot from, Rot to) {
   return {from.c * to.c + from.s * to.s, from.c * to.s - from.s * to.c};
@@ -57,7 +59,9 @@ inline Rot renormalised(Rot r) {
   const double k = 1.5 - 0.5 * (r.c * r.c + r.s * r.s);
   return {r.c * k, r.s * k};
 }
-inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// cos and sin of an angle in radians; absolute error under 3e-16 for |angle| < 1e5.
 Rot rotation(double angle);

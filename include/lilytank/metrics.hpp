@@ -14,8 +14,8 @@ enum class Origins {
 
 /// Mean squared displacement by lag.
 struct MsdCurve {
-  std::vector<double> lag;      ///< s
-  std::vector<double> msd;      ///< m^2, mean over bodies and origins
+  std::vector<double> lag;          ///< s
+  std::vector<double> msd;          ///< m^2, mean over bodies and origins
   std::vector<std::int64_t> count;  ///< displacements in each mean
 };
 

@@ -33,9 +33,9 @@ struct ModuleParameters {
 /// A ball of the flow measurements: a disc that does not turn.
 struct BallParameters {
   int count = 0;
-  double radius = 0.015;     ///< m
-  double mass = 0.0131;      ///< kg
-  double drag_area = 7e-4;   ///< m^2
+  double radius = 0.015;    ///< m
+  double mass = 0.0131;     ///< kg
+  double drag_area = 7e-4;  ///< m^2
 };
 
 struct ContactParameters {
@@ -50,12 +50,12 @@ enum class Clock { firmware, events };
 struct FlowParameters {
   double K_v = 1.365;  ///< factor on mean and deviation [Eq. 4]
   Gusts gusts = Gusts::per_point;
-  double rho = 1000;   ///< kg/m^3
+  double rho = 1000;  ///< kg/m^3
 };
 
 /// Latches and firmware of a module.
 struct ControlParameters {
-  bool latches = true;              ///< false: EPMs off, nothing latches
+  bool latches = true;  ///< false: EPMs off, nothing latches
   Clock clock = Clock::firmware;
   double capture_distance = 0.005;  ///< m, between face centres
   double capture_angle = 0.2;       ///< rad, from anti-parallel
@@ -80,9 +80,9 @@ enum class Layout { random, lattice, poses };
 /// How bodies lie at the start.
 struct StartParameters {
   Layout layout = Layout::random;
-  double radius = 0.20;    ///< m, centres are within it
-  double distance = 0.05;  ///< m, least distance of two centres (lattice: the pitch)
-  std::vector<Pose> poses; ///< of Layout::poses
+  double radius = 0.20;     ///< m, centres are within it
+  double distance = 0.05;   ///< m, least distance of two centres (lattice: the pitch)
+  std::vector<Pose> poses;  ///< of Layout::poses
 };
 
 struct Model {

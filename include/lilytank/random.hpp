@@ -11,15 +11,15 @@ namespace lilytank {
 
 /// What a random number is for. Add new uses at the end: the values are part of every result.
 enum class Stream : std::uint32_t {
-  start_pose = 1,     ///< where bodies start
-  gust = 2,           ///< xi of the flow, per drag point or per module
-  stochastic = 3,     ///< the stochastic force
-  initiative = 4,     ///< does a module begin an exchange in this tick
-  message = 5,        ///< the random number that an initiator sends
-  answer = 6,         ///< which queued message a module answers
-  reenable = 7,       ///< when an unlatched face comes on again
-  evaluation = 8,     ///< the event-driven clock's waiting times
-  first_face = 9,     ///< where a module's round of its faces begins
+  start_pose = 1,  ///< where bodies start
+  gust = 2,        ///< xi of the flow, per drag point or per module
+  stochastic = 3,  ///< the stochastic force
+  initiative = 4,  ///< does a module begin an exchange in this tick
+  message = 5,     ///< the random number that an initiator sends
+  answer = 6,      ///< which queued message a module answers
+  reenable = 7,    ///< when an unlatched face comes on again
+  evaluation = 8,  ///< the event-driven clock's waiting times
+  first_face = 9,  ///< where a module's round of its faces begins
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

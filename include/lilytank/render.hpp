@@ -11,15 +11,16 @@ enum class FlowStyle { none, arrows, streamlines };
 
 /// How a frame looks.
 struct FrameStyle {
-  int size = 1080;              ///< pixels, height of the picture; the width is 16/9 of it
+  int size = 1080;  ///< pixels, height of the picture; the width is 16/9 of it
   FlowStyle flow = FlowStyle::streamlines;
-  double trail = 4;             ///< s of path drawn behind each body, 0: none
-  bool labels = true;           ///< l_a and the last engaged connector on each module
+  double trail = 4;    ///< s of path drawn behind each body, 0: none
+  bool labels = true;  ///< l_a and the last engaged connector on each module
 };
 
 /// Frame at a time (s), poses interpolated between stored ones, as .png or .svg by the file's
 /// ending. Throws InputError outside the run or if the file cannot be written.
-void draw_frame(const StoredRun& run, double time, const FrameStyle& style, const std::string& file);
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
+                const std::string& file);
 
 struct FilmOptions {
   double from = 0, to = -1;  ///< s, to < 0: the end
@@ -39,7 +40,7 @@ void draw_stills(const StoredRun& run, const FilmOptions& options, const std::st
 struct Curve {
   std::string name;
   std::vector<double> x, y, low, high;
-  bool steps = false;    ///< stairs instead of a line
+  bool steps = false;  ///< stairs instead of a line
   bool markers = false;
 };
 /// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
@@ -47,8 +48,8 @@ struct Plot {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
-  double y_low = 0, y_high = 0;  ///< equal: from the data
-  int width = 900, height = 600; ///< pixels (PNG: twice that)
+  double y_low = 0, y_high = 0;   ///< equal: from the data
+  int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
 void draw_plot(const Plot& plot, const std::string& file);
 

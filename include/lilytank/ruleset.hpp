@@ -66,19 +66,19 @@ int reverse_hop(int hop);
 /// order share [0,1) by their probabilities. `swapped` says that the rule's first label is the
 /// responder's; for equal labels the initiator comes first.
 struct Match {
-  int rule = -1;         ///< index, -1: no rule fires
+  int rule = -1;  ///< index, -1: no rule fires
   bool swapped = false;
   bool applicable = false;  ///< some rule has this left side, whether or not u let it fire
 };
 /// `standing`: the connection is a bond already (unlink and update rules), else a new latch (link).
 Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u);
 
-/// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file, line,
-/// column, the offending word and what was expected.
+/// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file,
+/// line, column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
 Ruleset read_ruleset(const std::string& file);
-/// Throws InputError where a p is outside [0,1] or the rules that share a left side (and with it one
-/// random number) have p that add up to more than 1. For callers that change p after reading.
+/// Throws InputError where a p is outside [0,1] or the rules that share a left side (and with it
+/// one random number) have p that add up to more than 1. For callers that change p after reading.
 void check_probabilities(const Ruleset& rules);
 /// Writes a ruleset so that parse_ruleset gives it back.
 std::string to_text(const Ruleset& rules);

@@ -10,17 +10,17 @@
 namespace lilytank {
 
 struct RunOptions {
-  std::string out;      ///< directory, made if absent; empty: nothing is written
-  bool force = false;   ///< replace another run's files
+  std::string out;     ///< directory, made if absent; empty: nothing is written
+  bool force = false;  ///< replace another run's files
   const std::atomic<bool>* stop = nullptr;  ///< set by a signal: finish the step, keep everything
   std::function<void(double done, double rate)> progress;  ///< share done, simulated s per s
-  double checkpoint_seconds = 20;  ///< wall time between checkpoints
+  double checkpoint_seconds = 20;                          ///< wall time between checkpoints
 };
 
 struct RunResult {
   RunStatus status = RunStatus::ok;
-  double time = 0;       ///< s, simulated
-  double wall = 0;       ///< s, of this call
+  double time = 0;                ///< s, simulated
+  double wall = 0;                ///< s, of this call
   std::uint64_t fingerprint = 0;  ///< of the final state
   int copies = 0, possible = 0;
   std::vector<double> completion_times;  ///< s

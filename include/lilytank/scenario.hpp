@@ -12,25 +12,25 @@ namespace lilytank {
 
 /// One value of a resolved scenario, for `lilytank info` and resolved.toml.
 struct ScenarioEntry {
-  std::string path;     ///< "forces.face_drag.K_F"
-  std::string value;    ///< as TOML
-  std::string unit;     ///< "" for text and switches
-  std::string bounds;   ///< "0 .. 10", or the allowed words
+  std::string path;    ///< "forces.face_drag.K_F"
+  std::string value;   ///< as TOML
+  std::string unit;    ///< "" for text and switches
+  std::string bounds;  ///< "0 .. 10", or the allowed words
   std::string meaning;
   bool is_default = true;
-  SourcePlace where;    ///< where it was set
+  SourcePlace where;  ///< where it was set
 };
 
 /// What to write in a run, and how often.
 struct OutputParameters {
   TrajectoryFormat trajectory = TrajectoryFormat::binary;
-  double rate = 5;            ///< frames per second of simulated time
+  double rate = 5;               ///< frames per second of simulated time
   double metrics_interval = 10;  ///< s
 };
 
 struct Scenario {
   std::string title;
-  double duration = 600;   ///< s
+  double duration = 600;  ///< s
   std::uint64_t seed = 1;
   OutputParameters output;
   Model model;

@@ -18,14 +18,14 @@ enum class FaceStatus : std::uint8_t {
 
 /// A connector of a module and the message that waits at it.
 struct Face {
-  std::int64_t due = 0;         ///< tick of the next evaluation (event-driven clock, lower module's face)
+  std::int64_t due = 0;  ///< tick of the next evaluation (event-driven clock, lower module's face)
   std::int32_t partner = -1;    ///< the module held, -1: none
   std::uint32_t random = 0;     ///< the random number of a queued message
   std::uint16_t off_ticks = 0;  ///< off: ticks since it was released; enabled: ticks that it rests
                                 ///< after a latch for which there was no room
   std::uint8_t partner_face = 0;
   FaceStatus status = FaceStatus::enabled;
-  std::uint8_t message = 0;     ///< 1: the neighbour's message waits for an answer
+  std::uint8_t message = 0;  ///< 1: the neighbour's message waits for an answer
   std::uint8_t spare[3] = {0, 0, 0};
 };
 

@@ -12,11 +12,11 @@ namespace lilytank {
 
 /// What a module shows besides its pose.
 struct Markings {
-  std::int16_t label = 0;        ///< l_a
-  std::int8_t last = -1;         ///< l_n, -1: isolated
-  std::uint8_t latched = 0;      ///< bit f: face f holds a neighbour
-  std::uint8_t bonded = 0;       ///< bit f: ... by a rule
-  std::uint8_t complete = 0;     ///< 1: part of a finished copy of the target
+  std::int16_t label = 0;     ///< l_a
+  std::int8_t last = -1;      ///< l_n, -1: isolated
+  std::uint8_t latched = 0;   ///< bit f: face f holds a neighbour
+  std::uint8_t bonded = 0;    ///< bit f: ... by a rule
+  std::uint8_t complete = 0;  ///< 1: part of a finished copy of the target
 };
 
 /// Poses of `bodies` bodies at `time.size()` instants, frame by frame: pose of body b in frame f is

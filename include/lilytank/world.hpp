@@ -12,13 +12,13 @@
 namespace lilytank {
 
 enum class EventKind : std::uint8_t {
-  latch,        ///< two faces met and hold
-  unlatch,      ///< they let go: no applicable rule
-  link,         ///< a rule made the latch a bond
-  unlink,       ///< a rule released a bond
-  update,       ///< a rule changed labels on a bond
-  report,       ///< answer to a query: a module's state
-  command,      ///< the base station spoke (a: command index)
+  latch,    ///< two faces met and hold
+  unlatch,  ///< they let go: no applicable rule
+  link,     ///< a rule made the latch a bond
+  unlink,   ///< a rule released a bond
+  update,   ///< a rule changed labels on a bond
+  report,   ///< answer to a query: a module's state
+  command,  ///< the base station spoke (a: command index)
 };
 
 /// Something that a module reported by radio, or the base station did, during a step.
@@ -44,10 +44,10 @@ struct Divergence {
 
 /// Counts of work done since the start of this object (not part of the state).
 struct Tallies {
-  std::int64_t evaluations = 0;      ///< exchanges completed
-  std::int64_t snaps_refused = 0;    ///< latches put off because there was no room
-  std::int64_t moves_undone = 0;     ///< bodies put back to keep overlap in bounds
-  double deepest_overlap = 0;        ///< m
+  std::int64_t evaluations = 0;    ///< exchanges completed
+  std::int64_t snaps_refused = 0;  ///< latches put off because there was no room
+  std::int64_t moves_undone = 0;   ///< bodies put back to keep overlap in bounds
+  double deepest_overlap = 0;      ///< m
 };
 
 /// One tank. Not shared between threads; the Model may be. No allocation after the first step.

@@ -9,12 +9,12 @@
 namespace lilytank {
 namespace {
 
-constexpr double kReference = 0.30;     // m, tank radius of the profiles; other tanks scale them
-constexpr double kSwirl = 0.23;         // m/s, at its peak
-constexpr double kInflow = 0.33;        // of the swirl, both at their peaks
-constexpr double kJet = 0.10;           // m/s, at an inlet
-constexpr double kJetReach = 0.08;      // m, the stream's speed falls by e
-constexpr double kJetWidth = 0.018;     // m, at the inlet; it spreads by an eighth of its length
+constexpr double kReference = 0.30;  // m, tank radius of the profiles; other tanks scale them
+constexpr double kSwirl = 0.23;      // m/s, at its peak
+constexpr double kInflow = 0.33;     // of the swirl, both at their peaks
+constexpr double kJet = 0.10;        // m/s, at an inlet
+constexpr double kJetReach = 0.08;   // m, the stream's speed falls by e
+constexpr double kJetWidth = 0.018;  // m, at the inlet; it spreads by an eighth of its length
 constexpr double kGustCentre = 0.14, kGustPeak = 0.05;  // m/s
 
 // Rises as r^power, peaks with 1 at r = peak, and falls as an exponential.
@@ -60,10 +60,9 @@ FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation) {
       const double around = strength * kSwirl * profile(r / scale, 0.13, 2);
       const double inward = inflow * strength * kSwirl * profile(r / scale, 0.13, 3);
       const Vec2 jet = strength * jets(tank, x, y, scale);
-      const double sigma =
-          strength * (kGustCentre + kGustPeak * profile(r / scale, 0.18, 2));
-      samples.push_back({-around * s - inward * c + jet.x(), around * c - inward * s + jet.y(),
-                         sigma, sigma});
+      const double sigma = strength * (kGustCentre + kGustPeak * profile(r / scale, 0.18, 2));
+      samples.push_back(
+          {-around * s - inward * c + jet.x(), around * c - inward * s + jet.y(), sigma, sigma});
     }
   }
   std::vector<bool> measured(samples.size(), true);

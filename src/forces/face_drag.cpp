@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "face_drag_kernel.hpp"
-#include "lilytank/model.hpp"
 #include "library.hpp"
+#include "lilytank/model.hpp"
 
 namespace lilytank {
 namespace {
@@ -15,24 +15,15 @@ constexpr Parameter kParameters[] = {
 };
 
 // The gusts at a module's drag points: each point its own, or one for the whole module.
-void draw_gusts(const Model& model, const Moment& now, int body, float xi[2][kDragPoints]) {
-  if (!now.gusts) {
-    std::fill(&xi[0][0], &xi[0][0] + 2 * kDragPoints, 0.0f);
-    return;
-  }
+void draw_gusts(const Model& model, const Moment& now, int body, PointGusts& gusts) {
   const Draw draw{now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(body), 0};
-  if (model.flow.gusts == Gusts::per_module) {
-    const auto z = normal_pair(draw);
-    std::fill_n(xi[0], kDragPoints, static_cast<float>(z[0]));
-    std::fill_n(xi[1], kDragPoints, static_cast<float>(z[1]));
+  if (now.gusts && model.flow.gusts == Gusts::per_point) {
+    bulk_normals(draw, false, gusts.x, gusts.y);
     return;
   }
-  alignas(64) float z[4][kBulkBlocks];
-  bulk_normals(draw, false, z);
-  for (int axis = 0; axis < 2; ++axis) {
-    std::copy_n(z[axis], kBulkBlocks, xi[axis]);
-    std::copy_n(z[2 + axis], kBulkBlocks, xi[axis] + kBulkBlocks);
-  }
+  const auto z = now.gusts ? normal_pair(draw) : std::array<double, 2>{};
+  std::fill_n(gusts.x, kDragPoints, static_cast<float>(z[0]));
+  std::fill_n(gusts.y, kDragPoints, static_cast<float>(z[1]));
 }
 
 class FaceDrag final : public ForceTerm {
@@ -59,16 +50,16 @@ class FaceDrag final : public ForceTerm {
                           static_cast<float>(field.cells() / (2 * field.extent())),
                           field.interpolation() == Interpolation::nearest,
                           static_cast<float>(model.flow.K_v)};
-    const double scale = p[0] * 0.5 * model.flow.rho * model.module.draught *
-                         (model.module.side / segments);
-    alignas(64) float xi[2][kDragPoints];
+    const double scale =
+        p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
+    PointGusts gusts;
     for (int i = 0; i < k.modules; ++i) {
-      draw_gusts(model, now, i, xi);
+      draw_gusts(model, now, i, gusts);
       const auto f = [](double x) { return static_cast<float>(x); };
       const BodyView body{f(k.x[i]),  f(k.y[i]),  f(k.c[i]),    f(k.s[i]),
                           f(k.vx[i]), f(k.vy[i]), f(k.omega[i])};
       const unsigned covered = model.module.shadowing ? k.covered[i] : 0u;
-      const Wrench sum = face_drag_sum(points, water, body, covered, xi);
+      const Wrench sum = face_drag_sum(points, water, body, covered, gusts);
       out[i].fx += scale * sum.fx;
       out[i].fy += scale * sum.fy;
       out[i].torque += scale * sum.torque;

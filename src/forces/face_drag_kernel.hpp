@@ -6,13 +6,12 @@
 
 namespace lilytank {
 
-/// Most segments a face may have: two faces' points share one bulk draw.
-constexpr int kMostSegments = kBulkBlocks / 2;
-/// Drag points of a module, padded: faces 0 and 1 from 0, faces 2 and 3 from kBulkBlocks.
-constexpr int kDragPoints = 2 * kBulkBlocks;
+/// Drag points of a module, padded to what one bulk draw serves; face f's segment k is point
+/// f * segments + k.
+constexpr int kDragPoints = kBulkBlocks * kBulkPairs;
+constexpr int kMostSegments = kDragPoints / 4;
 
-/// What is the same for all modules and steps, float32. Points are numbered as the gusts are: face
-/// f's segment k is at (f / 2) * kBulkBlocks + (f % 2) * segments + k.
+/// What is the same for all modules and steps, float32.
 struct DragPoints {
   DragPoints(int segments, double side);
   alignas(64) float px[kDragPoints], py[kDragPoints];  ///< m, in the module's frame
@@ -20,7 +19,7 @@ struct DragPoints {
   int segments;
 };
 
-/// The water around one module as the kernel reads it.
+/// The water as the kernel reads it.
 struct WaterView {
   const float* packed;  ///< FlowField::packed()
   int cells;
@@ -33,10 +32,14 @@ struct BodyView {
   float x, y, c, s, vx, vy, omega;
 };
 
+/// Gusts at a module's drag points, standard normals per axis.
+struct PointGusts {
+  alignas(64) float x[kDragPoints], y[kDragPoints];
+};
+
 /// Sum over the segments of max(0, -n.w) w, w = u(p) - v_p, and of its torque about the centre
-/// (m^2/s^2 and m^3/s^2 per unit segment area), with xi[0] and xi[1] the gusts per point and axis.
-/// Faces whose bit is set in `covered` feel nothing.
+/// (m^2/s^2 and m^3/s^2 per unit segment area). Faces whose bit is set in `covered` feel nothing.
 Wrench face_drag_sum(const DragPoints& points, const WaterView& water, const BodyView& body,
-                     unsigned covered, const float xi[2][kDragPoints]);
+                     unsigned covered, const PointGusts& gusts);
 
 }  // namespace lilytank

@@ -28,8 +28,10 @@ void fill(int cells, std::vector<FlowSample>& samples, const std::vector<bool>& 
         ++neighbours;
         const int j = jy * cells + jx;
         const FlowSample& f = samples[j];
-        if (row[j] >= 0) entries.emplace_back(r, row[j], -1.0);
-        else right.row(r) += Eigen::RowVector4d(f.mu_x, f.mu_y, f.sigma_x, f.sigma_y);
+        if (row[j] >= 0)
+          entries.emplace_back(r, row[j], -1.0);
+        else
+          right.row(r) += Eigen::RowVector4d(f.mu_x, f.mu_y, f.sigma_x, f.sigma_y);
       };
       couple(ix - 1, iy), couple(ix + 1, iy), couple(ix, iy - 1), couple(ix, iy + 1);
       entries.emplace_back(r, r, neighbours);
@@ -79,7 +81,8 @@ FlowField::FlowField(int cells, double extent, std::vector<FlowSample> samples,
 FlowSample FlowField::at(double x, double y) const {
   const double per_metre = cells_ / (2 * extent_), last = cells_ - 1;
   double gx = (x + extent_) * per_metre - 0.5, gy = (y + extent_) * per_metre - 0.5;
-  if (interpolation_ == Interpolation::nearest) gx = std::floor(gx + 0.5), gy = std::floor(gy + 0.5);
+  if (interpolation_ == Interpolation::nearest)
+    gx = std::floor(gx + 0.5), gy = std::floor(gy + 0.5);
   gx = std::clamp(gx, 0.0, last), gy = std::clamp(gy, 0.0, last);
   const int ix = std::min(static_cast<int>(gx), cells_ - 2);
   const int iy = std::min(static_cast<int>(gy), cells_ - 2);

@@ -7,8 +7,8 @@ namespace lilytank {
 std::span<const ForceTerm* const> force_library() {
   // The order of addition is part of every result: new terms go to the end.
   static const std::array<const ForceTerm*, 6> terms{
-      &face_drag(), &ball_drag(), &stochastic_force(), &damping(), &body_force(),
-      &pair_attraction(),
+      &face_drag(), &ball_drag(),  &stochastic_force(),
+      &damping(),   &body_force(), &pair_attraction(),
   };
   return terms;
 }

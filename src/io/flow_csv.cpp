@@ -10,8 +10,7 @@ namespace lilytank {
 namespace {
 
 constexpr std::array<std::string_view, 9> kColumns = {
-    "ix",           "iy",           "x_m",         "y_m",        "mean_vx_mps",
-    "mean_vy_mps",  "std_vx_mps",   "std_vy_mps",  "measured"};
+    "ix", "iy", "x_m", "y_m", "mean_vx_mps", "mean_vy_mps", "std_vx_mps", "std_vy_mps", "measured"};
 
 struct Row {
   int ix = 0, iy = 0;
@@ -54,8 +53,12 @@ Row read_row(std::string_view line, const std::string& file, int number) {
   }
   if (at <= line.size())
     throw InputError({file, number, static_cast<int>(at) + 1}, "the row has more than 9 values");
-  return {static_cast<int>(value[0]), static_cast<int>(value[1]), value[2], value[3],
-          {value[4], value[5], value[6], value[7]}, value[8] != 0};
+  return {static_cast<int>(value[0]),
+          static_cast<int>(value[1]),
+          value[2],
+          value[3],
+          {value[4], value[5], value[6], value[7]},
+          value[8] != 0};
 }
 
 }  // namespace
@@ -67,8 +70,10 @@ FlowField read_flow_csv(const std::string& file, Interpolation interpolation) {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) check_header(line, file);
-    else if (!line.empty()) rows.push_back(read_row(line, file, number));
+    if (number == 1)
+      check_header(line, file);
+    else if (!line.empty())
+      rows.push_back(read_row(line, file, number));
   }
   int cells = 0;
   double extent = 0;
@@ -86,13 +91,15 @@ FlowField read_flow_csv(const std::string& file, Interpolation interpolation) {
     const Row& row = rows[k];
     const std::size_t i = static_cast<std::size_t>(row.iy) * cells + row.ix;
     const SourcePlace place{file, static_cast<int>(k) + 2};
-    const std::string cell = "cell (" + std::to_string(row.ix) + ", " + std::to_string(row.iy) + ")";
+    const std::string cell =
+        "cell (" + std::to_string(row.ix) + ", " + std::to_string(row.iy) + ")";
     if (seen[i]) throw InputError(place, cell + " is given twice");
     const double h = 2 * extent / cells;
     const double x = (row.ix + 0.5) * h - extent, y = (row.iy + 0.5) * h - extent;
     if (!(extent > 0) || std::fabs(row.x - x) > 0.01 * h || std::fabs(row.y - y) > 0.01 * h)
-      throw InputError(place, cell + " is not where a square grid about the tank's centre has it; "
-                                     "are x_m and y_m in metres?");
+      throw InputError(place, cell +
+                                  " is not where a square grid about the tank's centre has it; "
+                                  "are x_m and y_m in metres?");
     seen[i] = true, measured[i] = row.measured, samples[i] = row.sample;
   }
   return FlowField(cells, extent, std::move(samples), std::move(measured), interpolation);

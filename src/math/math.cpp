@@ -35,10 +35,14 @@ Rot rotation(double angle) {
   const Rot small{cosine_near_zero(rest), sine_near_zero(rest)};
   const int quadrant = static_cast<int>(turns - 4 * std::floor(turns / 4));
   switch (quadrant) {
-    case 0: return small;
-    case 1: return {-small.s, small.c};
-    case 2: return {-small.c, -small.s};
-    default: return {small.s, -small.c};
+    case 0:
+      return small;
+    case 1:
+      return {-small.s, small.c};
+    case 2:
+      return {-small.c, -small.s};
+    default:
+      return {small.s, -small.c};
   }
 }
 

@@ -11,8 +11,7 @@ namespace lilytank {
 std::array<std::uint32_t, 4> counter_of(const Draw& draw) {
   const auto step = static_cast<std::uint64_t>(draw.step);
   return {draw.index, draw.body, static_cast<std::uint32_t>(step),
-          static_cast<std::uint32_t>(step >> 32) |
-              (static_cast<std::uint32_t>(draw.stream) << 24)};
+          static_cast<std::uint32_t>(step >> 32) | (static_cast<std::uint32_t>(draw.stream) << 24)};
 }
 
 std::array<std::uint32_t, 2> key_of(std::uint64_t seed) {

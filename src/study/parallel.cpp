@@ -15,11 +15,12 @@ void for_each_world(int count, int threads, const std::function<void(int)>& work
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   // One world a task: they differ in length, and a world is long beside a task's cost.
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, count, 1),
-                      [&](const tbb::blocked_range<int>& range) {
-                        for (int i = range.begin(); i != range.end(); ++i) work(i);
-                      },
-                      tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, count, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int i = range.begin(); i != range.end(); ++i) work(i);
+        },
+        tbb::simple_partitioner());
   });
 }
 

@@ -25,7 +25,8 @@ bool place_random(const Model& model, std::uint64_t seed, int body, State& state
     bool free = true;
     for (int j = 0; j < body && free; ++j) {
       const double dx = x - state.x[j], dy = y - state.y[j];
-      const double least = std::fmax(model.start.distance, reach_of(model, body) + reach_of(model, j));
+      const double least =
+          std::fmax(model.start.distance, reach_of(model, body) + reach_of(model, j));
       free = dx * dx + dy * dy >= least * least;
     }
     if (!free) continue;
@@ -69,8 +70,9 @@ void place(const Model& model, std::uint64_t seed, State& state) {
   for (int i = 0; i < n; ++i) {
     if (model.start.layout == Layout::lattice) {
       if (i >= static_cast<int>(points.size())) {
-        throw InputError("only " + std::to_string(points.size()) + " of " + std::to_string(n) +
-                         " bodies fit on the start lattice: widen start.radius or narrow start.distance");
+        throw InputError(
+            "only " + std::to_string(points.size()) + " of " + std::to_string(n) +
+            " bodies fit on the start lattice: widen start.radius or narrow start.distance");
       }
       state.x[i] = points[i].x(), state.y[i] = points[i].y();
       continue;

@@ -30,9 +30,8 @@ struct World::Impl {
     assemblies.resize(m);
     derive(m, state, assemblies);
     events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
-    kinematics = {assemblies.x,  assemblies.y,  assemblies.c,     assemblies.s,
-                  assemblies.vx, assemblies.vy, assemblies.omega, assemblies.covered,
-                  m.module.count};
+    kinematics = {assemblies.x,  assemblies.y,     assemblies.c,       assemblies.s,  assemblies.vx,
+                  assemblies.vy, assemblies.omega, assemblies.covered, m.module.count};
     for (const ActiveForce& force : m.forces) {
       const Decay d = force.term->decay(force.p, m.dt);
       decay.linear *= d.linear, decay.angular *= d.angular;
@@ -156,12 +155,26 @@ RunStatus World::step() {
   return w.status;
 }
 
-const Model& World::model() const { return *impl_->model; }
-const State& World::state() const { return impl_->state; }
-double World::time() const { return impl_->state.step * impl_->model->dt; }
-const Kinematics& World::kinematics() const { return impl_->kinematics; }
-std::span<const Event> World::events() const { return impl_->events; }
-const Divergence& World::divergence() const { return impl_->divergence; }
-const Tallies& World::tallies() const { return impl_->tallies; }
+const Model& World::model() const {
+  return *impl_->model;
+}
+const State& World::state() const {
+  return impl_->state;
+}
+double World::time() const {
+  return impl_->state.step * impl_->model->dt;
+}
+const Kinematics& World::kinematics() const {
+  return impl_->kinematics;
+}
+std::span<const Event> World::events() const {
+  return impl_->events;
+}
+const Divergence& World::divergence() const {
+  return impl_->divergence;
+}
+const Tallies& World::tallies() const {
+  return impl_->tallies;
+}
 
 }  // namespace lilytank

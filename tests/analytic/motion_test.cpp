@@ -58,7 +58,8 @@ TEST(Analytic, SpinDownOfASquareFollowsItsIntegral) {
       const double s = (k + 0.5) * ds - h;
       if (s < 0) sum += -s * (h * h + s * s) * ds;
     }
-    const double beta = 0.442 * 0.5 * 1000 * model.module.draught * 4 * sum / model.module.inertia();
+    const double beta =
+        0.442 * 0.5 * 1000 * model.module.draught * 4 * sum / model.module.inertia();
     for (int second = 1; second <= 20; ++second) {
       ASSERT_TRUE(advance(world, 1));
       const double want = 4 / (1 + beta * 4 * second);
@@ -131,7 +132,8 @@ TEST(Analytic, HalvingTheStepHalvesTheError) {
     return Vec2(world.kinematics().x[0], world.kinematics().y[0]);
   };
   const Vec2 exact = 2 * end(128) - end(64);
-  const double e1 = (end(2) - exact).norm(), e2 = (end(4) - exact).norm(), e4 = (end(8) - exact).norm();
+  const double e1 = (end(2) - exact).norm(), e2 = (end(4) - exact).norm(),
+               e4 = (end(8) - exact).norm();
   EXPECT_NEAR(e1 / e2, 2, 0.35);
   EXPECT_NEAR(e2 / e4, 2, 0.35);
 }

@@ -14,7 +14,8 @@ struct Scene {
   const char* name;
   Model model;
   double seconds;
-  const char* golden;  ///< fingerprint after `seconds` with seed 42; a change of it is a new version
+  const char*
+      golden;  ///< fingerprint after `seconds` with seed 42; a change of it is a new version
 };
 
 std::vector<Scene> scenes() {

@@ -1,5 +1,5 @@
-// The built-in tank follows the trends of the paper's Fig. 4: more pump power, or lower water, gives
-// a faster oscillation of the MSD and a lower plateau.
+// The built-in tank follows the trends of the paper's Fig. 4: more pump power, or lower water,
+// gives a faster oscillation of the MSD and a lower plateau.
 #include <gtest/gtest.h>
 
 #include "lilytank/metrics.hpp"

@@ -33,8 +33,8 @@ Statistics observe(double draught, int runs, int steps_per_tick) {
   model.module.count = 1;
   model.module.draught = draught;
   model.control.latches = false;
-  model.field = std::make_shared<const FlowField>(
-      read_flow_csv(measured_field(), Interpolation::bilinear));
+  model.field =
+      std::make_shared<const FlowField>(read_flow_csv(measured_field(), Interpolation::bilinear));
   std::vector<Statistics> each(runs);
   for_each_world(runs, 0, [&](int run) {
     World world(model, derived_seed(2026, run));
@@ -69,8 +69,9 @@ Statistics observe(double draught, int runs, int steps_per_tick) {
 }
 
 void print(const char* name, const Statistics& s) {
-  std::printf("%s: speed %.4f m/s, rms %.4f, radius %.4f m (between runs %.4f), spin %.3f rad/s, MSD",
-              name, s.speed, s.rms_speed, s.radius, s.radius_between_runs, s.rms_spin);
+  std::printf(
+      "%s: speed %.4f m/s, rms %.4f, radius %.4f m (between runs %.4f), spin %.3f rad/s, MSD", name,
+      s.speed, s.rms_speed, s.radius, s.radius_between_runs, s.rms_spin);
   for (const double m : s.msd) std::printf(" %.4f", m);
   std::printf(" m^2\n");
 }

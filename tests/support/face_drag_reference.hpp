@@ -2,7 +2,7 @@
 #pragma once
 #include <cmath>
 
-#include "forces/bulk_normals.hpp"
+#include "forces/face_drag_kernel.hpp"
 #include "lilytank/model.hpp"
 
 namespace lilytank::test {
@@ -10,10 +10,12 @@ namespace lilytank::test {
 /// Drag on module i with K_F and N segments a face.
 inline Wrench face_drag_reference(const Model& model, const Kinematics& k, const Moment& now,
                                   double K_F, int segments, int i) {
-  alignas(64) float z[4][kBulkBlocks] = {};
+  PointGusts gusts{};
   if (now.gusts && model.flow.gusts == Gusts::per_point)
-    bulk_normals({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i), 0}, false, z);
-  const auto whole = normal_pair({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i), 0});
+    bulk_normals({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i), 0}, false,
+                 gusts.x, gusts.y);
+  const auto whole =
+      normal_pair({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i), 0});
   const double a = model.module.side, area = model.module.draught * a / segments;
   const Vec2 centre(k.x[i], k.y[i]), v(k.vx[i], k.vy[i]);
   Wrench sum;
@@ -24,10 +26,11 @@ inline Wrench face_drag_reference(const Model& model, const Kinematics& k, const
     for (int q = 0; q < segments; ++q) {
       const Vec2 r = rotate(out, Vec2(a / 2, ((q + 0.5) / segments - 0.5) * a));
       const FlowSample f = model.field->at(centre.x() + r.x(), centre.y() + r.y());
-      const int block = (face % 2) * segments + q, half = face / 2;
-      Vec2 xi(z[2 * half][block], z[2 * half + 1][block]);
+      const int at = face * segments + q;
+      Vec2 xi(gusts.x[at], gusts.y[at]);
       if (model.flow.gusts == Gusts::per_module && now.gusts) xi = Vec2(whole[0], whole[1]);
-      const Vec2 u = model.flow.K_v * Vec2(f.mu_x + f.sigma_x * xi.x(), f.mu_y + f.sigma_y * xi.y());
+      const Vec2 u =
+          model.flow.K_v * Vec2(f.mu_x + f.sigma_x * xi.x(), f.mu_y + f.sigma_y * xi.y());
       const Vec2 point = v + k.omega[i] * Vec2(-r.y(), r.x()), w = u - point;
       const Vec2 dF = K_F * 0.5 * model.flow.rho * area * std::fmax(0, -n.dot(w)) * w;
       sum.fx += dF.x(), sum.fy += dF.y(), sum.torque += cross(r, dF);

@@ -63,8 +63,8 @@ TEST(FlowField, RefusesWhatIsNotAField) {
   EXPECT_THROW(FlowField(2, 0.3, samples, all, Interpolation::bilinear), InputError);
 }
 
-// What is known of the paper's tank: swirl 0.23 m/s near 13 cm and 0.1 at the wall, inflow about 0.1
-// m/s where the swirl peaks, 0.14 to 0.19 m/s deviation.
+// What is known of the paper's tank: swirl 0.23 m/s near 13 cm and 0.1 at the wall, inflow about
+// 0.1 m/s where the swirl peaks, 0.14 to 0.19 m/s deviation.
 TEST(AnalyticTank, HasTheProfileOfThePapersTank) {
   const FlowField field = analytic_tank({}, Interpolation::bilinear);
   const auto ring = [&](double r) {
@@ -95,11 +95,10 @@ TEST(AnalyticTank, MorePowerAndLowerWaterAreStronger) {
 
 TEST(AnalyticTank, InletsPushInwardsAndAroundAndSevenAlike) {
   const FlowField field = analytic_tank({.cells = 200}, Interpolation::bilinear);
-  const FlowSample at_inlet = field.at(0.28, 0.005), between =
-      field.at(0.28 * std::cos(kPi / 7), 0.28 * std::sin(kPi / 7));
+  const FlowSample at_inlet = field.at(0.28, 0.005),
+                   between = field.at(0.28 * std::cos(kPi / 7), 0.28 * std::sin(kPi / 7));
   EXPECT_LT(at_inlet.mu_x, -0.08);
-  const double inward_between =
-      between.mu_x * std::cos(kPi / 7) + between.mu_y * std::sin(kPi / 7);
+  const double inward_between = between.mu_x * std::cos(kPi / 7) + between.mu_y * std::sin(kPi / 7);
   EXPECT_GT(inward_between, at_inlet.mu_x + 0.05);
   for (int k = 1; k < 7; ++k) {
     const double c = std::cos(2 * kPi * k / 7), s = std::sin(2 * kPi * k / 7);
