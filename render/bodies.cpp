@@ -134,7 +134,8 @@ void BodyPainter::draw_trail(const Canvas& canvas, const Colour& colour, double 
 void BodyPainter::trails(const Canvas& canvas, const Trajectory& trajectory, const Snapshot& now,
                          double seconds) {
   if (!(seconds > 0)) return;
-  interpolate(trajectory, std::max(trajectory.time.front(), now.time - seconds), start_);
+  interpolate(trajectory, model_.module.side, std::max(trajectory.time.front(), now.time - seconds),
+              start_);
   const Saved saved(canvas);
   cairo_set_line_cap(canvas.get(), CAIRO_LINE_CAP_BUTT);
   cairo_set_tolerance(canvas.get(), 0.3);

@@ -47,7 +47,7 @@ void FramePainter::draw_static(const Canvas& canvas) const {
 
 void FramePainter::draw_moving(const Canvas& canvas, double time) {
   check_time(run_.trajectory, time);
-  interpolate(run_.trajectory, time, now_);
+  interpolate(run_.trajectory, run_.scenario.model.module.side, time, now_);
   bodies_.trails(canvas, run_.trajectory, now_, style_.trail);
   bodies_.bodies(canvas, now_);
   panel_.draw_moving(canvas, now_);

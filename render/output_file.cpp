@@ -13,8 +13,11 @@ namespace lilytank {
 
 std::string unfinished_name(const std::string& file) {
   const std::filesystem::path path(file);
-  const std::string name =
-      "." + path.filename().string() + "." + std::to_string(::getpid()) + ".part";
+  std::string name = ".";
+  name += path.filename().string();
+  name += '.';
+  name += std::to_string(::getpid());
+  name += ".part";
   return (path.parent_path() / name).string();
 }
 

@@ -57,7 +57,8 @@ void choose_axes(const Plot& plot, PlotArea& area) {
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
   double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();
-  area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110), data.x.whole());
+  area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110),
+                     data.x.whole() && !data.x.empty());
   low = data.y.empty() ? (plot.log_y ? 0.1 : 0) : data.y.low();
   high = data.y.empty() ? (plot.log_y ? 10 : 1) : data.y.high();
   const bool given =
@@ -66,7 +67,8 @@ void choose_axes(const Plot& plot, PlotArea& area) {
     low = plot.y_low, high = plot.y_high;
   else if (high > low)
     widen(low, high, plot.log_y);
-  area.y = make_axis(low, high, plot.log_y, static_cast<int>(area.height / 70), data.y.whole());
+  area.y = make_axis(low, high, plot.log_y, static_cast<int>(area.height / 70),
+                     data.y.whole() && !data.y.empty());
 }
 
 double widest_label(const Canvas& canvas, const Axis& axis) {
@@ -183,6 +185,10 @@ void draw_all(const Canvas& canvas, const Plot& plot) {
   draw_grid(canvas, area);
   draw_curves(canvas, plot, area);
   draw_frame_and_ticks(canvas, area);
+  if (range_of(plot).x.empty()) {
+    canvas.text(area.left + area.width / 2, area.top + area.height / 2, "no data",
+                {16, palette::muted, false, Align::centre});
+  }
   draw_points(canvas, plot, area);  // whole, also on the frame
   draw_titles(canvas, plot, area);
   draw_legend_box(canvas, legend, plot);

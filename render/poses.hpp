@@ -13,11 +13,14 @@ struct BodyPose {
 
 /// The bodies at one time.
 struct Snapshot {
-  double time = 0;              ///< s
-  int modules = 0;              ///< bodies [0, modules) are squares, the rest balls
-  int frame = 0;                ///< the stored frame at or just before it
-  std::vector<BodyPose> poses;  ///< [bodies]
-  std::vector<Markings> marks;  ///< [modules], as in that frame; empty for recordings
+  double time = 0;                 ///< s
+  int modules = 0;                 ///< bodies [0, modules) are squares, the rest balls
+  int frame = 0;                   ///< the stored frame at or just before it
+  std::vector<BodyPose> poses;     ///< [bodies]
+  std::vector<Markings> marks;     ///< [modules], as in that frame; empty for recordings
+  std::vector<BodyPose> next;      ///< scratch of interpolate: the frame after
+  std::vector<int> group;          ///< scratch: the lowest body that moves with this one
+  std::vector<std::uint8_t> held;  ///< scratch: bit f: face f keeps its neighbour
   /// Whether module i is part of a finished copy.
   bool complete(int i) const {
     return !marks.empty() && marks[static_cast<std::size_t>(i)].complete != 0;
@@ -27,8 +30,10 @@ struct Snapshot {
 /// Index of the stored frame at or just before a time (the first frame for earlier times).
 int frame_at(const Trajectory& trajectory, double time);
 /// Sets `out` to the bodies at a time (s) between the first and the last frame: positions in a
-/// straight line between stored frames, angles the shorter way round.
-void interpolate(const Trajectory& trajectory, double time, Snapshot& out);
+/// straight line between stored frames, angles the shorter way round. Modules of `side` metres that
+/// hold each other in both frames move as one rigid body, so that a turning chain stays a chain;
+/// faces whose neighbour leaves are drawn free in between.
+void interpolate(const Trajectory& trajectory, double side, double time, Snapshot& out);
 /// Throws InputError unless the trajectory has frames, consistent arrays, and covers `time`.
 void check_time(const Trajectory& trajectory, double time);
 

@@ -75,17 +75,21 @@ Colour stream_colour(double share) {
 }
 
 void draw_line(const Canvas& canvas, const View& view, const Streamline& line, double peak) {
-  constexpr std::size_t kPiece = 5;  // points drawn in one tone
+  constexpr int kTones = 12;  // few, so that long pieces can be drawn at once
   cairo_t* c = canvas.get();
   const std::size_t n = line.points.size();
-  for (std::size_t i = 0; i + 1 < n; i += kPiece) {
-    const std::size_t end = std::min(i + kPiece, n - 1);
-    const double share = std::min(1.0, line.speed[i] / peak);
+  const auto tone = [&](std::size_t i) {
+    return std::min(kTones - 1, static_cast<int>(kTones * line.speed[i] / peak));
+  };
+  for (std::size_t i = 0; i + 1 < n;) {
+    const int now = tone(i);
     cairo_move_to(c, view.x(line.points[i].x()), view.y(line.points[i].y()));
-    for (std::size_t k = i + 1; k <= end; ++k) {
-      cairo_line_to(c, view.x(line.points[k].x()), view.y(line.points[k].y()));
-    }
-    canvas.stroke(stream_colour(share), (0.9 + 1.3 * share));
+    do {
+      ++i;
+      cairo_line_to(c, view.x(line.points[i].x()), view.y(line.points[i].y()));
+    } while (i + 1 < n && tone(i) == now);
+    const double share = (now + 0.5) / kTones;
+    canvas.stroke(stream_colour(share), 0.9 + 1.3 * share);
   }
   constexpr double kHeadEvery = 0.16;  // m, about one head a line; long lines get more
   const double length = (line.points[1] - line.points[0]).norm() * static_cast<double>(n - 1);

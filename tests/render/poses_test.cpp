@@ -22,16 +22,47 @@ Trajectory two_frames() {
 
 TEST(Poses, PositionsGoStraightAndAnglesTheShortWay) {
   Snapshot s;
-  interpolate(two_frames(), 0.5, s);
+  interpolate(two_frames(), 0.035, 0.5, s);
   EXPECT_NEAR(s.poses[0].x, 1, 1e-6);
   EXPECT_NEAR(s.poses[0].y, -0.5, 1e-6);
   // From 3 to -3 rad it is 0.2832 rad over the back, not 6 over the front.
   EXPECT_NEAR(s.poses[0].theta, 3 + 0.25 * (2 * kPi - 6), 1e-6);
   EXPECT_NEAR(s.poses[1].theta, 0.25, 1e-6);
   EXPECT_EQ(s.marks[0].label, 0) << "markings are those of the frame before";
-  interpolate(two_frames(), 2, s);
+  interpolate(two_frames(), 0.035, 2, s);
   EXPECT_EQ(s.marks[0].label, 7);
   EXPECT_NEAR(s.poses[0].x, 4, 1e-6);
+}
+
+TEST(Poses, ATurningPairStaysAPair) {
+  const double side = 0.035;
+  Trajectory t;
+  t.bodies = t.modules = 2;
+  t.time = {0, 1};
+  // Turns by 120 degrees about its middle while that moves 0.1 m.
+  for (int f = 0; f < 2; ++f) {
+    const double a = f * 2 * kPi / 3;
+    for (const double along : {-side / 2, side / 2}) {
+      t.x.push_back(static_cast<float>(0.1 * f + along * std::cos(a)));
+      t.y.push_back(static_cast<float>(along * std::sin(a)));
+      t.theta.push_back(static_cast<float>(a));
+    }
+  }
+  t.markings.resize(4);
+  t.markings[0].latched = 1, t.markings[1].latched = 4;
+  Snapshot s;
+  for (const double time : {0.0, 0.25, 0.5, 1.0}) {
+    interpolate(t, side, time, s);
+    const double dx = s.poses[1].x - s.poses[0].x, dy = s.poses[1].y - s.poses[0].y;
+    EXPECT_NEAR(std::hypot(dx, dy), side, 1e-6) << time;
+    EXPECT_NEAR(std::atan2(dy, dx), time * 2 * kPi / 3, 1e-5) << time;
+    EXPECT_NEAR((s.poses[1].x + s.poses[0].x) / 2, 0.1 * time, 1e-6) << time;
+  }
+  EXPECT_NEAR(s.poses[0].x, t.x[2], 1e-6);
+  // Modules that let go by the next frame move on their own.
+  t.x[3] += 0.01F;
+  interpolate(t, side, 0.5, s);
+  EXPECT_NEAR(s.poses[1].x, (t.x[1] + t.x[3]) / 2, 1e-6);
 }
 
 TEST(Poses, TimesOutsideAreRefused) {
