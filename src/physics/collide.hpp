@@ -43,29 +43,48 @@ struct WallManifold {
   Touch touch[4];
 };
 
-/// Largest gap of two squares along the four directions of their sides (the separating axis
-/// theorem), m. Never more than their distance; negative: they overlap by that much.
-inline double separation(const Square& a, const Square& b) {
+/// How far two shapes are apart along a unit normal that looks from the first to the second, m;
+/// negative where they overlap by that much in every direction, or more.
+struct Gap {
+  double size = 0, nx = 0, ny = 0;
+};
+
+/// The largest gap of two squares along the directions of their sides (the separating axis
+/// theorem); no more than their distance.
+inline Gap separation(const Square& a, const Square& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
+  const double a1 = a.r.c * dx + a.r.s * dy, a2 = a.r.c * dy - a.r.s * dx;
+  const double b1 = b.r.c * dx + b.r.s * dy, b2 = b.r.c * dy - b.r.s * dx;
   const Rot q = between(a.r, b.r);
-  const double a1 = std::fabs(a.r.c * dx + a.r.s * dy), a2 = std::fabs(a.r.c * dy - a.r.s * dx);
-  const double b1 = std::fabs(b.r.c * dx + b.r.s * dy), b2 = std::fabs(b.r.c * dy - b.r.s * dx);
   const double reach = a.half + b.half * (std::fabs(q.c) + std::fabs(q.s));
-  return std::max(std::max(a1, a2), std::max(b1, b2)) - reach;
+  const bool first_a = std::fabs(a1) >= std::fabs(a2), first_b = std::fabs(b1) >= std::fabs(b2);
+  const double ua = first_a ? a1 : a2, ub = first_b ? b1 : b2;
+  const bool of_a = std::fabs(ua) >= std::fabs(ub);
+  const double u = of_a ? ua : ub, way = u < 0 ? -1 : 1;
+  const Rot r = of_a ? a.r : b.r;
+  const bool along = of_a ? first_a : first_b;
+  return {std::fabs(u) - reach, way * (along ? r.c : -r.s), way * (along ? r.s : r.c)};
 }
 
-/// Distance of a square and a disc, m; negative: depth of the overlap.
-inline double separation(const Square& a, const Disc& b) {
+/// Distance of a square and a disc.
+inline Gap separation(const Square& a, const Disc& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
-  const double u = std::fabs(a.r.c * dx + a.r.s * dy) - a.half;
-  const double v = std::fabs(a.r.c * dy - a.r.s * dx) - a.half;
-  if (u <= 0 || v <= 0) return std::max(u, v) - b.radius;
-  return std::sqrt(u * u + v * v) - b.radius;
+  const double u = a.r.c * dx + a.r.s * dy, v = a.r.c * dy - a.r.s * dx;
+  const double past_u = std::fabs(u) - a.half, past_v = std::fabs(v) - a.half;
+  double nu = u < 0 ? -1 : 1, nv = v < 0 ? -1 : 1, distance = std::max(past_u, past_v);
+  if (past_u > 0 && past_v > 0) {
+    distance = std::sqrt(past_u * past_u + past_v * past_v);
+    nu *= past_u / distance, nv *= past_v / distance;
+  } else {
+    (past_u >= past_v ? nv : nu) = 0;
+  }
+  return {distance - b.radius, a.r.c * nu - a.r.s * nv, a.r.s * nu + a.r.c * nv};
 }
 
-inline double separation(const Disc& a, const Disc& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  return std::sqrt(dx * dx + dy * dy) - a.radius - b.radius;
+inline Gap separation(const Disc& a, const Disc& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y, distance = std::sqrt(dx * dx + dy * dy);
+  const double gap = distance - a.radius - b.radius;
+  return distance > 0 ? Gap{gap, dx / distance, dy / distance} : Gap{gap, 1, 0};
 }
 
 /// Distance of a square's outermost corner from the wall of a tank of radius `tank`, m.

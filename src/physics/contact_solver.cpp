@@ -161,7 +161,7 @@ bool ContactSolver::approach(Island& island, double margin, double h) {
   bool needed = false;
   std::vector<Mover>& movers = island.movers();
   for (const Near& near : island.nears()) {
-    if (near.separation > margin) continue;
+    if (near.gap.size > margin) continue;
     const Mover &a = movers[near.a], &b = movers[near.b];
     island.touches(near, margin, [&](double nx, double ny, const Touch& touch) {
       Contact& c = contacts_.emplace_back();

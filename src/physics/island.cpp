@@ -73,12 +73,8 @@ void Island::clear() {
   nears_.clear();
 }
 
-int Island::add(const Mover& mover) {
-  movers_.push_back(mover);
-  Mover& m = movers_.back();
-  m.good = m.start = m.pose;
-  m.course = m.twist;
-  return static_cast<int>(movers_.size()) - 1;
+Mover& Island::add() {
+  return movers_.emplace_back();
 }
 
 void Island::add(const Near& near) {
@@ -93,7 +89,7 @@ void Island::sort_pairs() {
     std::sort(nears_.begin(), nears_.end(), before);
 }
 
-double Island::separation(const Near& near) const {
+Gap Island::separation(const Near& near) const {
   const Mover &a = movers_[near.a], &b = movers_[near.b];
   switch (near.kind) {
     case PairKind::squares:
@@ -104,17 +100,17 @@ double Island::separation(const Near& near) const {
     case PairKind::discs:
       return lilytank::separation(disc_of(a, radius_), disc_of(b, radius_));
     case PairKind::wall_square:
-      return wall_separation(square_of(b, near.bx, near.by, half_, 0), tank_);
+      return {wall_separation(square_of(b, near.bx, near.by, half_, 0), tank_), 0, 0};
     default:
-      return wall_separation(disc_of(b, radius_), tank_);
+      return {wall_separation(disc_of(b, radius_), tank_), 0, 0};
   }
 }
 
 double Island::survey() {
   double deepest = 0;
   for (Near& near : nears_) {
-    near.separation = separation(near);
-    deepest = std::max(deepest, -near.separation);
+    near.gap = separation(near);
+    deepest = std::max(deepest, -near.gap.size);
   }
   return deepest;
 }
@@ -126,11 +122,15 @@ Pace Island::pace(double left) const {
     const Vec2 v = velocity_at(b, near.bx, near.by) - velocity_at(a, near.ax, near.ay);
     const double wa = std::fabs(a.twist.omega), wb = std::fabs(b.twist.omega);
     // Corners turn about the bodies' centres, and those on arcs about the centres of mass.
-    const double closing = length(v.x(), v.y()) + corner_ * (wa + wb) +
-                           0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
-    p.fastest = std::max(p.fastest, closing);
-    if (closing == 0 || near.separation > closing * left) continue;
-    p.free_time = std::min(p.free_time, std::max(near.separation, 0.0) / closing);
+    const double turning =
+        corner_ * (wa + wb) + 0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
+    const double speed = length(v.x(), v.y());
+    p.fastest = std::max(p.fastest, speed + turning);
+    // Along the normal of the gap, fixed in the tank, nothing closes faster than this.
+    const double along = near.a == 0 ? -speed : near.gap.nx * v.x() + near.gap.ny * v.y();
+    const double closing = turning - along;
+    if (closing <= 0 || near.gap.size > closing * left) continue;
+    p.free_time = std::min(p.free_time, std::max(near.gap.size, 0.0) / closing);
     const double pace = near.a == 0 ? kWallShare * closing : relative_pace(a, b);
     if (pace * p.longest > kStride) p.longest = kStride / pace;
     limit_turn(a, p.longest);
@@ -168,7 +168,7 @@ double Island::push_apart(int rounds) {
   for (int round = 0; round < rounds; ++round) {
     deepest = 0;
     for (const Near& near : nears_) {
-      const double depth = -separation(near);
+      const double depth = -separation(near).size;
       if (depth <= kPushTo) continue;
       deepest = std::max(deepest, depth);
       // The deeper point first; the other is looked at afresh in the next round.
@@ -208,7 +208,7 @@ int Island::put_back(double limit) {
     for (const Near& near : nears_) {
       Mover &a = movers_[near.a], &b = movers_[near.b];
       if ((a.undone || near.a == 0) && b.undone) continue;
-      if (-separation(near) <= limit) continue;
+      if (-separation(near).size <= limit) continue;
       undo(a, count), undo(b, count);
       again = true;
     }

@@ -38,7 +38,7 @@ struct Near {
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, the bodies' centres in their movers' frames
   int order_a = 0, order_b = 0;           ///< body numbers, -1 for the wall: the order of solving
   double arm_a = 0, arm_b = 0;            ///< m, lengths of (ax, ay) and (bx, by)
-  double separation = 0;                  ///< m, as last surveyed
+  Gap gap;                                ///< as last surveyed; to the wall without a normal
 };
 
 /// How fast the pairs of an island move.
@@ -56,8 +56,8 @@ class Island {
 
   /// Forgets everything but the wall.
   void clear();
-  /// Adds an assembly; returns its index.
-  int add(const Mover& mover);
+  /// Adds an assembly, to be filled in.
+  Mover& add();
   void add(const Near& near);
   /// Puts pairs in order of their bodies, so that results do not depend on how they were found.
   void sort_pairs();
@@ -91,7 +91,7 @@ class Island {
   void touches(const Near& near, double margin, Use&& use) const;
 
  private:
-  double separation(const Near& near) const;
+  Gap separation(const Near& near) const;
   void push(Mover& a, Mover& b, double nx, double ny, const Touch& touch);
   void undo(Mover& mover, int& count);
 

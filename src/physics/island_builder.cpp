@@ -20,14 +20,32 @@ void IslandBuilder::begin(const State& state, const Assemblies& assemblies) {
   assemblies_ = &assemblies;
 }
 
-double IslandBuilder::gap(int i, int j) const {
+Square IslandBuilder::square(int i) const {
   const Assemblies& a = *assemblies_;
-  const auto square = [&](int k) { return Square{a.x[k], a.y[k], {a.c[k], a.s[k]}, half_, 0}; };
-  const auto disc = [&](int k) { return Disc{a.x[k], a.y[k], model_->ball.radius}; };
+  return {a.x[i], a.y[i], {a.c[i], a.s[i]}, half_, 0};
+}
+
+Disc IslandBuilder::disc(int i) const {
+  return {assemblies_->x[i], assemblies_->y[i], model_->ball.radius};
+}
+
+Gap IslandBuilder::gap(int i, int j) const {
   if (is_module(i) && is_module(j)) return separation(square(i), square(j));
   if (is_module(i)) return separation(square(i), disc(j));
-  if (is_module(j)) return separation(square(j), disc(i));
-  return separation(disc(i), disc(j));
+  if (!is_module(j)) return separation(disc(i), disc(j));
+  const Gap back = separation(square(j), disc(i));
+  return {back.size, -back.nx, -back.ny};
+}
+
+double IslandBuilder::wall_gap(int body, double dx, double dy) const {
+  if (!is_module(body)) {
+    Disc d = disc(body);
+    d.x += dx, d.y += dy;
+    return wall_separation(d, model_->tank.radius);
+  }
+  Square s = square(body);
+  s.x += dx, s.y += dy;
+  return wall_separation(s, model_->tank.radius);
 }
 
 void IslandBuilder::clear() {
@@ -37,7 +55,7 @@ void IslandBuilder::clear() {
 }
 
 void IslandBuilder::enter(int slot, double promise) {
-  Mover m;
+  Mover& m = island_.add();
   m.slot = slot;
   m.pose = {state_->x[slot], state_->y[slot], {state_->c[slot], state_->s[slot]}};
   m.twist = {state_->vx[slot], state_->vy[slot], state_->omega[slot]};
@@ -45,8 +63,10 @@ void IslandBuilder::enter(int slot, double promise) {
   m.inv_mass = 1 / m.mass, m.inv_inertia = m.inertia > 0 ? 1 / m.inertia : 0;
   m.reach = assemblies_->reach[slot];
   m.promise = promise;
-  local_[slot] = island_.add(m);
+  m.good = m.start = m.pose;
+  m.course = m.twist;
   slots_.push_back(slot);
+  local_[slot] = static_cast<int>(slots_.size());
 }
 
 // A body's centre in its assembly's frame; returns how far that is from the centre of mass.

@@ -20,8 +20,10 @@ class IslandBuilder {
   double size_of(int body) const { return is_module(body) ? corner_ : model_->ball.radius; }
   /// The assembly of a body.
   int slot_of(int body) const { return state_->assembly[body]; }
-  /// A lower bound of the distance of two bodies at the start, m; negative where they overlap.
-  double gap(int i, int j) const;
+  /// How two bodies lie apart at the start; the normal looks from i to j.
+  Gap gap(int i, int j) const;
+  /// A body's distance from the wall if it were shifted by (dx, dy), m.
+  double wall_gap(int body, double dx, double dy) const;
 
   /// Forgets the island.
   void clear();
@@ -42,6 +44,8 @@ class IslandBuilder {
   const Island& island() const { return island_; }
 
  private:
+  Square square(int body) const;
+  Disc disc(int body) const;
   double place(int body, double& x, double& y) const;
 
   const Model* model_;

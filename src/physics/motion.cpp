@@ -83,7 +83,9 @@ struct Motion::Impl {
   double fastest_way() const;
   void slice(double h, Tallies& tallies);
   void measure(double h);
-  double closing(int i, int j, double h) const;
+  double spin(int body, double h) const;
+  double clearance(int i, int j, double h) const;
+  double wall_clearance(int body, double h) const;
   void find_links(double h);
   void add_link(int i, int j);
   int root_of(int slot);
@@ -93,7 +95,6 @@ struct Motion::Impl {
   void gather_around(int body, double h);
   void run(double h, Way way, Tallies& tallies);
   double keep_good(double deepest, double before, Tallies& tallies);
-  bool meets_wall(int body, double spare) const;
   bool kept_clear(double h);
   void finish(double h);
 };
@@ -149,17 +150,25 @@ void Motion::Impl::measure(double h) {
   }
 }
 
-// No two points of bodies i and j come nearer to one another by more than this on their courses, m.
-double Motion::Impl::closing(int i, int j, double h) const {
-  const Assemblies& a = *assemblies;
-  const double spin = (builder.is_module(i) ? builder.size_of(i) * std::fabs(a.omega[i]) : 0) +
-                      (builder.is_module(j) ? builder.size_of(j) * std::fabs(a.omega[j]) : 0);
-  return h * (length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + spin) + arc[i] + arc[j];
+// How far the corners of a body get by its spin, m.
+double Motion::Impl::spin(int i, double h) const {
+  return builder.is_module(i) ? h * builder.size_of(i) * std::fabs(assemblies->omega[i]) : 0;
 }
 
-// Does body i come nearer to the wall than `spare` (m) on its course?
-bool Motion::Impl::meets_wall(int i, double spare) const {
-  return !within(assemblies->x[i], assemblies->y[i], model->tank.radius - reach[i] - spare);
+// No less than this is between bodies i and j, of different assemblies, on their courses, m. Uses
+// that the gap along a fixed normal closes no faster than along it.
+double Motion::Impl::clearance(int i, int j, double h) const {
+  const Assemblies& a = *assemblies;
+  const Gap gap = builder.gap(i, j);
+  const double along = gap.nx * (a.vx[j] - a.vx[i]) + gap.ny * (a.vy[j] - a.vy[i]);
+  return gap.size - std::max(0.0, spin(i, h) + spin(j, h) + arc[i] + arc[j] - h * along);
+}
+
+// The same between body i and the wall: distance from the centre is greatest at an end of a
+// straight way.
+double Motion::Impl::wall_clearance(int i, double h) const {
+  const double end = builder.wall_gap(i, h * assemblies->vx[i], h * assemblies->vy[i]);
+  return std::min(builder.wall_gap(i, 0, 0), end) - spin(i, h) - arc[i];
 }
 
 int Motion::Impl::root_of(int slot) {
@@ -176,19 +185,19 @@ void Motion::Impl::find_links(double h) {
     const double rim = model->tank.radius - kLinkSpare - a.reach[slot] - slots[slot].own;
     if (within(state->x[slot], state->y[slot], rim)) continue;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
-      if (!meets_wall(i, kLinkSpare)) continue;
+      if (wall_clearance(i, h) > kLinkSpare) continue;
       links.push_back({i, -1, -1});
-      extra = std::max(extra, kPushShare * slots[slot].own);
+      extra =
+          std::max(extra, kPushShare * slots[slot].own - std::min(0.0, 2 * wall_clearance(i, 0)));
     }
   }
   broadphase.build(a.x, a.y, reach);
   broadphase.pairs(kLinkSpare, [&](int i, int j) {
     const int p = builder.slot_of(i), q = builder.slot_of(j);
-    if (p == q) return;
-    const double most = closing(i, j, h), gap = builder.gap(i, j);
-    if (gap > most + kLinkSpare) return;
+    if (p == q || clearance(i, j, h) > kLinkSpare) return;
     links.push_back({i, j, -1});
-    extra = std::max(extra, kPushShare * most + std::max(-2 * gap, 0.0));
+    const double most = h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + spin(i, h) + spin(j, h);
+    extra = std::max(extra, kPushShare * most - std::min(0.0, 2 * builder.gap(i, j).size));
     const int root_p = root_of(p), root_q = root_of(q);
     slots[std::max(root_p, root_q)].root = std::min(root_p, root_q);
   });
@@ -231,8 +240,8 @@ void Motion::Impl::gather_around(int i, double h) {
   broadphase.around(i, room + extra + turn_slack, [&](int j) {
     const int other = builder.slot_of(j);
     if (other == slot || slots[other].gathered) return;
-    const double most = std::max(promise + slots[other].own + extra, closing(i, j, h) + kLinkSpare);
-    if (builder.gap(i, j) > most) return;
+    const double apart = builder.gap(i, j).size - promise - slots[other].own - extra;
+    if (apart > 0 && clearance(i, j, h) > kLinkSpare) return;
     if (!builder.has(other)) builder.enter(other, slots[other].own + extra);
     builder.link(i, j);
   });
@@ -303,11 +312,12 @@ bool Motion::Impl::kept_clear(double h) {
     if (strayed > extra) return false;
     bool clear = true;
     for (int i = a.first[slot]; i >= 0 && clear; i = a.next[i]) {
-      clear = meets_wall(i, kLinkSpare) || !meets_wall(i, strayed);
+      const double from_wall = wall_clearance(i, h);
+      clear = from_wall <= kLinkSpare || from_wall > strayed;
       broadphase.around(i, reach[i] + strayed + extra, [&](int j) {
         const int other = builder.slot_of(j);
         if (other == slot || slots[other].way == Way::wide) return;
-        const double spare = builder.gap(i, j) - closing(i, j, h);
+        const double spare = clearance(i, j, h);
         if (spare > kLinkSpare && spare <= strayed + slots[other].strayed) clear = false;
       });
     }
