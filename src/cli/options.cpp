@@ -12,7 +12,7 @@ namespace lilytank::cli {
 VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
                          const std::string& summary)
     : verb_(verb), options_("lilytank " + verb, summary) {
-  options_.positional_help(usage).show_positional_help();
+  options_.custom_help("[OPTION...] " + usage);
   options_.add_options()("h,help", "print this");
 }
 

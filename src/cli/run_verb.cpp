@@ -95,7 +95,7 @@ void say_time(const RunResult& result, const std::string& out) {
     std::cerr << "this run was complete already\n";
   } else {
     char text[80];
-    std::snprintf(text, sizeof text, "took %.1f s%s", result.wall,
+    std::snprintf(text, sizeof text, "took %.2f s%s", result.wall,
                   result.resumed ? ", going on from a checkpoint" : "");
     std::cerr << text << "\n";
   }
@@ -105,8 +105,8 @@ void say_time(const RunResult& result, const std::string& out) {
 int finish(const Scenario& scenario, const RunResult& result, const std::string& out, bool video,
            bool quiet) {
   if (result.status == RunStatus::stopped) {
-    std::cerr << "stopped at " << shortest(result.time) << " s of " << shortest(scenario.duration)
-              << " s; the same command goes on from there\n";
+    std::cerr << "stopped at " << without_rounding(result.time) << " s of "
+              << shortest(scenario.duration) << " s; the same command goes on from there\n";
     return Exit::stopped;
   }
   if (!quiet) say_time(result, out);
@@ -138,7 +138,7 @@ int run_verb(const Arguments& arguments) {
   }
   std::vector<std::string> sets = options.list("set");
   if (options.has("seed")) {
-    sets.push_back("run.seed=" + std::to_string(options.whole("seed", 1, 0, INT64_MAX)));
+    sets.push_back("run.seed=" + std::to_string(options.whole("seed", 1, 0, 1000000000000000000)));
   }
   const Scenario scenario = load_scenario(options.positional(), sets);
   const bool video = options.has("video"), quiet = options.has("quiet");

@@ -1,11 +1,9 @@
 #include "io/scenario_keys.hpp"
 
-#include <limits>
-
 namespace lilytank {
 namespace {
 
-constexpr double kLargestSeed = 9223372036854775807.0;  // what TOML's integers hold
+constexpr double kLargestSeed = 1e18;  // TOML's integers hold a little more
 
 /// A word choice bound to an enum whose values are 0, 1, ... in the order of `words`.
 template <class Enum>

@@ -1,7 +1,6 @@
 #include "io/scenario_values.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
@@ -28,20 +27,12 @@ std::string as_written(const Assignment& from, double value, const std::string& 
   return text == nullptr || *text == plain ? plain : *text + " (" + plain + ")";
 }
 
-/// With ten digits, for numbers that rounding has touched.
-std::string rounded(double value) {
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 10).ptr;
-  return {buffer, end};
-}
-
 /// What a value out of bounds may have been meant as.
 std::string meant(const Assignment& from, const ScenarioKey& key, double value) {
   if (key.path.ends_with(".sigma_stoch")) {
     const double tabled = value / 1e4;
     if (tabled >= key.low && tabled <= key.high) {
-      return " - the paper's table is in 1e-4 N: write " + rounded(tabled) + ", in N";
+      return " - the paper's table is in 1e-4 N: write " + without_rounding(tabled) + ", in N";
     }
   }
   const bool plain = !std::holds_alternative<std::string>(from.value);

@@ -32,7 +32,7 @@ class CsvWriter final : public TrajectoryWriter {
 
   void write(const World& world, const std::vector<std::uint8_t>& complete) override {
     const Kinematics& k = world.kinematics();
-    const std::string begin = std::to_string(frame_++) + "," + shortest(world.time()) + ",";
+    const std::string begin = std::to_string(frame_++) + "," + without_rounding(world.time()) + ",";
     std::string rows;
     for (int b = 0; b < k.size(); ++b) {
       const auto i = static_cast<std::size_t>(b);
@@ -82,7 +82,11 @@ class CsvTrajectory {
     const double time = reader_->number(1);
     if (frame != out_.frames() - 1) begin_frame(frame, time);
     if (time != out_.time.back()) reader_->refuse(1, "the time changes within a frame");
-    if (id != rows_ || (out_.bodies > 0 && id >= out_.bodies)) {
+    if (out_.bodies > 0 && id >= out_.bodies) {
+      reader_->refuse(2, "id '" + std::to_string(id) + "' in a file of " +
+                             std::to_string(out_.bodies) + " bodies");
+    }
+    if (id != rows_) {
       reader_->refuse(2, "id '" + std::to_string(id) + "' instead of " + std::to_string(rows_) +
                              ": rows are sorted by frame and id, each once");
     }
@@ -116,7 +120,7 @@ class CsvTrajectory {
       return;
     }
     const bool module = !reader_->empty(6);
-    if (out_.frames() == 1 && module) modules_ = id + 1;
+    if (out_.frames() == 1 && module && id == modules_) ++modules_;
     if (module != (id < modules_)) reader_->refuse(6, "modules come before balls");
     Markings m;
     if (module) {

@@ -14,7 +14,7 @@ std::string word_of(RuleKind kind) {
 
 std::string joined(const std::vector<double>& values) {
   std::string out;
-  for (const double v : values) out += (out.empty() ? "" : ", ") + shortest(v);
+  for (const double v : values) out += (out.empty() ? "" : ", ") + without_rounding(v);
   return out;
 }
 
@@ -102,7 +102,7 @@ std::string species_table(const AssemblyRecord& record) {
 
 std::string divergence_text(const Divergence& d, const Model& model) {
   const bool module = d.body < model.module.count;
-  return "diverged at " + shortest(static_cast<double>(d.step) * model.dt) + " s (step " +
+  return "diverged at " + without_rounding(static_cast<double>(d.step) * model.dt) + " s (step " +
          std::to_string(d.step) + "): " + (module ? "module " : "ball ") +
          std::to_string(module ? d.body : d.body - model.module.count) + ", largest force " +
          std::string(d.force) + ", " + shortest(d.size) + " N";
@@ -115,7 +115,7 @@ std::string summary_text(const Scenario& scenario, const World& world, const Ass
   std::string out = line("scenario", scenario.title.empty() ? "(no title)" : scenario.title);
   out += line("seed", std::to_string(scenario.seed));
   out += line("status", diverged ? divergence_text(outcome.divergence, model) : "complete");
-  out += line("simulated", shortest(world.time()) + " s of " + bodies_text(model));
+  out += line("simulated", without_rounding(world.time()) + " s of " + bodies_text(model));
   if (record.possible_copies() > 0) {
     out += line("copies", std::to_string(record.copies()) + " of " +
                               std::to_string(record.possible_copies()) + " possible, most " +
@@ -138,7 +138,7 @@ std::string summary_json(const Scenario& scenario, const World& world, const Ass
   json.text("scenario", hex(scenario.identity));
   json.whole("seed", static_cast<std::int64_t>(scenario.seed));
   json.text("status", diverged ? "diverged" : "complete");
-  json.number("time_s", world.time());
+  json.raw("time_s", without_rounding(world.time()));
   json.whole("steps", world.state().step);
   json.whole("modules", scenario.model.module.count);
   json.whole("balls", scenario.model.ball.count);

@@ -39,7 +39,7 @@ std::string pair_of(bool there, int first, int second) {
 std::string row_of(const Event& event, const World& world) {
   const bool spoken = event.kind == EventKind::command;
   const bool a = event.a >= 0 && !spoken, b = event.b >= 0;
-  return shortest(world.time()) + "," + std::to_string(world.state().step) + "," +
+  return without_rounding(world.time()) + "," + std::to_string(world.state().step) + "," +
          kind_word(event.kind) + pair_of(a, event.a, event.face_a) +
          pair_of(b, event.b, event.face_b) + "," + rule_of(event, world) +
          pair_of(a, event.label_a, event.last_a) + pair_of(b, event.label_b, event.last_b) + ",\n";
@@ -113,13 +113,13 @@ void RunFiles::events(const World& world, const AssemblyRecord& record) {
   for (const Event& event : world.events()) events_.append(row_of(event, world));
   if (record.copies() == copies_) return;
   copies_ = record.copies();
-  events_.append(shortest(world.time()) + "," + std::to_string(world.state().step) +
+  events_.append(without_rounding(world.time()) + "," + std::to_string(world.state().step) +
                  ",copy,,,,,,,,,," + std::to_string(copies_) + "\n");
 }
 
 void RunFiles::metrics(const World& world, const AssemblyRecord& record) {
   metrics_step_ = world.state().step;
-  std::string row = shortest(world.time()) + "," + std::to_string(record.copies()) + "," +
+  std::string row = without_rounding(world.time()) + "," + std::to_string(record.copies()) + "," +
                     std::to_string(record.most_copies());
   const int modules = scenario_->model.module.count;
   for (int n = 1; n <= std::max(1, modules); ++n) {

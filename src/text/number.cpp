@@ -36,6 +36,12 @@ std::string shortest(float value) {
   return shortest_of(value);
 }
 
+std::string without_rounding(double value) {
+  char buffer[40];
+  const auto format = std::chars_format::general;
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format, 15).ptr};
+}
+
 std::optional<double> parse_number(std::string_view text) {
   return finite(parse<double>(text));
 }

@@ -10,6 +10,9 @@ namespace lilytank {
 /// The shortest decimal text that reads back as the same number: "0.3", "1e-05".
 std::string shortest(double value);
 std::string shortest(float value);
+/// With 15 digits at most: "1.45" where a product such as 58 * 0.025 has rounding at the end. For
+/// times in tables; reads back to within one part in 10^15.
+std::string without_rounding(double value);
 
 /// The whole of `text` as a finite decimal number; nothing if it is not one (empty, "nan", "1 ",
 /// "0x1", out of the range of double). A leading '+' is allowed.
