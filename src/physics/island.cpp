@@ -8,9 +8,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kStride = 1.5e-3;     // m, most that a pair moves relatively in a substep
+constexpr double kStride = 2e-3;       // m, most that a pair moves relatively in a substep
 constexpr double kTurnError = 6e-5;    // m, most that an arc strays from its tangent in a substep
 constexpr double kWallShare = 0.3;     // the round wall is smooth: sliding along it costs less
+constexpr double kPushRange = 2e-3;    // m, pairs farther apart are not pushed together
 constexpr double kLongestPush = 2e-3;  // m, per contact and sweep
 
 double length(double x, double y) {
@@ -168,6 +169,7 @@ double Island::push_apart(int rounds) {
   for (int round = 0; round < rounds; ++round) {
     deepest = 0;
     for (const Near& near : nears_) {
+      if (near.gap.size > kPushRange) continue;
       const double depth = -separation(near).size;
       if (depth <= kPushTo) continue;
       deepest = std::max(deepest, depth);
