@@ -1,0 +1,206 @@
+// Signals and kills at any moment: the same command goes on and ends in the same bytes. The moment
+// depends on the machine, the result must not; nothing is asserted about time.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/program.hpp"
+#include "lilytank/run.hpp"
+
+namespace lilytank {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+class InterruptionTest : public testing::Test {
+ protected:
+  InterruptionTest() {
+    lilytank_.here.write("pair.rules", kPairRules);
+    lilytank_.here.write("long.toml",
+                         "title = \"long\"\n[run]\nduration = 1500\n[module]\ncount = 15\n"
+                         "[ruleset]\nfile = \"pair.rules\"\n[output]\nrate = 2\n");
+  }
+
+  std::string path(const std::string& name) const { return lilytank_.here.path(name); }
+  std::uintmax_t size(const std::string& name) const {
+    std::error_code gone;
+    const auto n = std::filesystem::file_size(path(name), gone);
+    return gone ? 0 : n;
+  }
+
+  /// Starts the program and leaves it running.
+  pid_t start(const Texts& arguments) const {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    if (::chdir(path("").c_str()) != 0) ::_exit(99);
+    std::vector<char*> words{const_cast<char*>("lilytank")};
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    const int null = ::open("/dev/null", O_WRONLY);
+    ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
+    ::execv(LILYTANK_PROGRAM, words.data());
+    ::_exit(98);
+  }
+
+  static bool has_ended(pid_t process) {
+    siginfo_t info{};
+    ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT);
+    return info.si_pid != 0;
+  }
+
+  /// Waits until a file is longer than `bytes` or the process has ended.
+  void await(pid_t process, const std::string& file, std::uintmax_t bytes) const {
+    while (size(file) <= bytes && !has_ended(process)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  static int end(pid_t process, int signal) {
+    ::kill(process, signal);
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  Program lilytank_;
+};
+
+TEST_F(InterruptionTest, TermStopsAndTheSameCommandGoesOn) {
+  for (const std::string format : {"binary", "csv"}) {
+    const std::string set = " --set output.trajectory=" + format;
+    const std::string poses = format == "csv" ? "/trajectory.csv" : "/trajectory.bin";
+    const Answer whole = lilytank_("run long.toml --out whole-" + format + set);
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const std::string out = "parts-" + format;
+    const pid_t run =
+        start({"run", "long.toml", "--out", out, "--set", "output.trajectory=" + format});
+    await(run, out + poses, 100);
+    const int code = end(run, SIGTERM);
+    EXPECT_TRUE(code == 3 || code == 0) << code;
+    const Answer rest = lilytank_("run long.toml --out " + out + set);
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_EQ(rest.out, whole.out);
+    EXPECT_EQ(lilytank_.files(out), lilytank_.files("whole-" + format));
+  }
+}
+
+TEST_F(InterruptionTest, KillsAtAnyMomentDoNoHarm) {
+  const Answer whole = lilytank_("run long.toml --out whole");
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  const Texts command{"run", "long.toml", "--out", "parts"};
+  end(start(command), SIGKILL);  // most likely before there is anything
+  pid_t run = start(command);
+  await(run, "parts/resolved.toml", 0);  // begun, no checkpoint
+  EXPECT_NE(end(run, SIGKILL), 3);
+  run = start(command);
+  await(run, "parts/trajectory.bin", 1000);
+  end(run, SIGTERM);  // leaves a checkpoint
+  for (int i = 0; i < 3; ++i) {
+    const std::uintmax_t length = size("parts/trajectory.bin");
+    run = start(command);
+    await(run, "parts/trajectory.bin", length);  // beyond the checkpoint
+    end(run, SIGKILL);
+  }
+  const Answer rest = lilytank_("run long.toml --out parts");
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(rest.out, whole.out);
+  EXPECT_EQ(lilytank_.files("parts"), lilytank_.files("whole"));
+}
+
+// Many checkpoints, each one cut off by a kill at some moment of writing.
+TEST_F(InterruptionTest, KillsBetweenFrequentCheckpointsDoNoHarm) {
+  const Scenario scenario = load_scenario({path("long.toml")}, {});
+  RunOptions options;
+  options.out = path("whole");
+  run(scenario, options);
+  options.out = path("parts");
+  options.checkpoint_seconds = 0;
+  for (int i = 0; i < 5; ++i) {
+    const std::string before = lilytank_.here.read("parts/checkpoint.bin");
+    const pid_t child = ::fork();
+    if (child == 0) {
+      run(scenario, options);
+      ::_exit(0);
+    }
+    while (lilytank_.here.read("parts/checkpoint.bin") == before && !has_ended(child)) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(7 * i));
+    const bool complete = has_ended(child);
+    end(child, SIGKILL);
+    EXPECT_NE(lilytank_.here.read("parts/checkpoint.bin"), before);
+    if (complete) break;  // a very fast machine
+  }
+  options.checkpoint_seconds = 20;
+  const RunResult rest = run(scenario, options);
+  EXPECT_TRUE(rest.resumed || rest.already_complete);
+  std::error_code ignored;
+  std::filesystem::remove(path("parts/checkpoint.bin.tmp"), ignored);  // of the last kill
+  EXPECT_EQ(lilytank_.files("parts"), lilytank_.files("whole"));
+}
+
+TEST_F(InterruptionTest, OneProcessADirectory) {
+  const pid_t first = start({"run", "long.toml", "--out", "a", "--set", "run.duration=1e7"});
+  await(first, "a/resolved.toml", 0);
+  const Answer second = lilytank_("run long.toml --out a --set run.duration=1e7");
+  end(first, SIGKILL);
+  EXPECT_EQ(second.code, 2);
+  EXPECT_EQ(second.err, "another process is at work in 'a'\n");
+}
+
+TEST_F(InterruptionTest, AStoppedRunSaysHowToGoOn) {
+  const Scenario scenario = load_scenario({path("long.toml")}, {});
+  std::atomic<bool> stop{true};
+  RunOptions options;
+  options.out = path("a");
+  options.stop = &stop;
+  const RunResult stopped = run(scenario, options);
+  EXPECT_EQ(stopped.status, RunStatus::stopped);
+  EXPECT_EQ(stopped.time, 0);
+  EXPECT_FALSE(lilytank_.here.has("a/summary.txt"));
+  stop = false;
+  const RunResult rest = run(scenario, options);
+  EXPECT_EQ(rest.status, RunStatus::ok);
+  EXPECT_TRUE(rest.resumed);
+  EXPECT_EQ(rest.time, 1500);
+  const RunResult again = run(scenario, options);
+  EXPECT_TRUE(again.already_complete);
+  EXPECT_EQ(again.fingerprint, rest.fingerprint);
+  EXPECT_EQ(again.completion_times, rest.completion_times);
+  RunOptions nowhere;
+  EXPECT_EQ(run(scenario, nowhere).fingerprint, rest.fingerprint);
+}
+
+TEST_F(InterruptionTest, ACutFileIsNoticed) {
+  const Scenario scenario = load_scenario({path("long.toml")}, {"run.duration=20"});
+  std::atomic<bool> stop{true};
+  RunOptions options;
+  options.out = path("a");
+  options.stop = &stop;
+  run(scenario, options);
+  std::filesystem::resize_file(path("a/events.csv"), 3);
+  EXPECT_THROW(run(scenario, options), InputError);
+}
+
+TEST_F(InterruptionTest, StoredRunsLoadWhileUnfinished) {
+  const Scenario scenario = load_scenario({path("long.toml")}, {"run.duration=20"});
+  RunOptions options;
+  options.out = path("a");
+  const RunResult result = run(scenario, options);
+  const StoredRun stored = load_run(path("a"));
+  EXPECT_EQ(stored.scenario.identity, scenario.identity);
+  EXPECT_EQ(stored.trajectory.frames(), 41);  // two a second and the start
+  EXPECT_EQ(stored.trajectory.time.back(), 20);
+  EXPECT_EQ(stored.metrics_time, (std::vector<double>{0, 10, 20}));
+  EXPECT_EQ(stored.metrics_copies.back(), result.copies);
+  std::filesystem::remove(path("a/summary.txt"));
+  std::filesystem::remove(path("a/checkpoint.bin"));
+  EXPECT_EQ(load_run(path("a")).trajectory.frames(), 41);
+}
+
+}  // namespace
+}  // namespace lilytank
