@@ -7,23 +7,11 @@
 namespace lilytank {
 namespace {
 
-bool bare(const std::string& name) {
-  const auto odd =
-      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-");
-  return !name.empty() && odd == std::string::npos;
-}
-
 /// The header and the last name of a path: "forces.damping" and "D_linear".
 std::pair<std::string, std::string> parted(const std::string& path) {
   const auto dot = path.rfind('.');
   if (dot == std::string::npos) return {"", path};
-  std::string header = path.substr(0, dot);
-  const auto first = header.find('.');
-  // Rule names are the user's and may hold anything.
-  if (first != std::string::npos && !bare(header.substr(first + 1))) {
-    header = header.substr(0, first + 1) + toml_quoted(header.substr(first + 1));
-  }
-  return {header, path.substr(dot + 1)};
+  return {path.substr(0, dot), path.substr(dot + 1)};
 }
 
 std::string comment_of(const ScenarioKey& key) {

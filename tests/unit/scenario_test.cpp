@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "io/scenario_keys.hpp"
+#include "io/scenario_values.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace lilytank {
@@ -230,6 +232,17 @@ TEST_F(ScenarioTest, EveryKeyExplainsItselfAndHasItsDefaultInBounds) {
       EXPECT_GE(**v, key.low) << key.path;
       EXPECT_LE(**v, key.high) << key.path;
     }
+  }
+}
+
+TEST_F(ScenarioTest, TheManualListsEveryKeyWithItsDefault) {
+  std::ifstream in(LILYTANK_SOURCE_DIR "/scenarios/README.md");
+  const std::string manual{std::istreambuf_iterator<char>(in), {}};
+  ScenarioDraft draft;
+  for (const ScenarioKey& key : scenario_keys(draft)) {
+    if (key.path.starts_with("forces.")) continue;  // lilytank forces
+    const std::string row = "| `" + key.path + "` | " + value_text(key);
+    EXPECT_NE(manual.find(row), std::string::npos) << row;
   }
 }
 
