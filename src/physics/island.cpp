@@ -9,7 +9,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kStride = 2e-3;       // m, most that a pair moves relatively in a substep
-constexpr double kTurnError = 6e-5;    // m, most that an arc strays from its tangent in a substep
+constexpr double kTurnError = 4e-5;    // m, most that an arc strays from its tangent in a substep
 constexpr double kWallShare = 0.3;     // the round wall is smooth: sliding along it costs less
 constexpr double kPushRange = 2e-3;    // m, pairs farther apart are not pushed together
 constexpr double kLongestPush = 2e-3;  // m, per contact and sweep
@@ -53,6 +53,37 @@ void limit_turn(const Mover& m, double& longest) {
   const double turn2 = m.twist.omega * m.twist.omega * longest * longest;
   if (turn2 * m.reach > 2 * kTurnError)
     longest = std::sqrt(2 * kTurnError / m.reach) / std::fabs(m.twist.omega);
+}
+
+// Pushing a and b apart by `moved` (kg m) along n, at unchanged velocities, gains angular momentum.
+// Takes it back by equal and opposite impulses across the line of centres, and, if that gained
+// energy, slows the motion within the pair; momentum and angular momentum stay. Not for balls:
+// they cannot take up spin, so contacts with them do not keep it.
+void hold_spin(Mover& a, Mover& b, double moved, double nx, double ny) {
+  if (a.inv_inertia == 0 || b.inv_inertia == 0) return;
+  const double dx = b.pose.x - a.pose.x, dy = b.pose.y - a.pose.y, d2 = dx * dx + dy * dy;
+  const double reduced = a.mass * b.mass / (a.mass + b.mass);
+  const double ux = b.twist.vx - a.twist.vx, uy = b.twist.vy - a.twist.vy;
+  const auto energy = [&](double x, double y) {
+    return reduced * (x * x + y * y) + a.inertia * a.twist.omega * a.twist.omega +
+           b.inertia * b.twist.omega * b.twist.omega;
+  };
+  const double back = -moved * (nx * uy - ny * ux) / (reduced * d2);
+  double vx = ux - back * dy, vy = uy + back * dx;
+  const double allowed = energy(ux, uy), now = energy(vx, vy);
+  if (now > allowed) {
+    const double inertia = reduced * d2 + a.inertia + b.inertia;
+    const double spin =
+        reduced * (dx * vy - dy * vx) + a.inertia * a.twist.omega + b.inertia * b.twist.omega;
+    const double omega = spin / inertia, least = spin * omega;  // of the pair as one rigid body
+    const double share = std::sqrt(std::max(allowed - least, 0.0) / (now - least));
+    vx = share * vx - (1 - share) * omega * dy, vy = share * vy + (1 - share) * omega * dx;
+    a.twist.omega = share * a.twist.omega + (1 - share) * omega;
+    b.twist.omega = share * b.twist.omega + (1 - share) * omega;
+  }
+  const double jx = reduced * (vx - ux), jy = reduced * (vy - uy);
+  a.twist.vx -= a.inv_mass * jx, a.twist.vy -= a.inv_mass * jy;
+  b.twist.vx += b.inv_mass * jx, b.twist.vy += b.inv_mass * jy;
 }
 
 }  // namespace
@@ -162,6 +193,7 @@ void Island::push(Mover& a, Mover& b, double nx, double ny, const Touch& touch) 
   b.pose.x += j * b.inv_mass * nx, b.pose.y += j * b.inv_mass * ny;
   if (a.inv_inertia > 0) a.pose.r = turned_by(a.pose.r, -j * a.inv_inertia * arm_a);
   if (b.inv_inertia > 0) b.pose.r = turned_by(b.pose.r, j * b.inv_inertia * arm_b);
+  hold_spin(a, b, j, nx, ny);
 }
 
 double Island::push_apart(int rounds) {

@@ -73,9 +73,9 @@ class Island {
   Pace pace(double left) const;
   /// Moves everything by its twist for h seconds.
   void move(double h);
-  /// Pushes overlapping bodies apart, positions only, in at most `rounds` sweeps over the pairs;
-  /// returns what is left of the deepest overlap (m), 0 if nothing overlapped by more than the
-  /// slop.
+  /// Pushes overlapping bodies apart, without giving them speed, in at most `rounds` sweeps over
+  /// the pairs; returns what is left of the deepest overlap (m), 0 if nothing overlapped by more
+  /// than the slop.
   double push_apart(int rounds);
   /// True if a mover got farther than it promised.
   bool breaks_promise() const;
@@ -100,8 +100,8 @@ class Island {
   std::vector<Near> nears_;
 };
 
-constexpr double kSlop = 5e-5;    ///< m, overlap that is left alone
-constexpr double kPushTo = 2e-5;  ///< m, overlap that pushing apart aims at
+constexpr double kSlop = 8e-5;    ///< m, overlap that is left alone
+constexpr double kPushTo = 4e-5;  ///< m, overlap that pushing apart aims at
 
 inline Square square_of(const Mover& m, double ox, double oy, double half, std::uint8_t inner) {
   return {m.pose.x + m.pose.r.c * ox - m.pose.r.s * oy,
