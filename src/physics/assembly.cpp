@@ -142,10 +142,12 @@ void derive(const Model& model, const State& state, Assemblies& out) {
 }
 
 void derive_poses(const Model& model, const State& state, Assemblies& out) {
-  for (const int slot : out.live) {
-    for (int i = out.first[slot]; i >= 0; i = out.next[i])
-      derive_body_pose(model, state, slot, i, out);
-  }
+  for (const int slot : out.live) derive_poses(model, state, slot, out);
+}
+
+void derive_poses(const Model& model, const State& state, int slot, Assemblies& out) {
+  for (int i = out.first[slot]; i >= 0; i = out.next[i])
+    derive_body_pose(model, state, slot, i, out);
 }
 
 void derive_slot(const Model& model, const State& state, int slot, Assemblies& out) {
@@ -164,8 +166,7 @@ void derive_slot(const Model& model, const State& state, int slot, Assemblies& o
     derive_properties(model, state, slot, out);
     derive_sides(state, slot, out);
   }
-  for (int i = out.first[slot]; i >= 0; i = out.next[i])
-    derive_body_pose(model, state, slot, i, out);
+  derive_poses(model, state, slot, out);
 }
 
 namespace {
@@ -255,8 +256,7 @@ bool merge(const Model& model, State& state, Assemblies& assemblies, int i, int 
   derive_slot(model, state, b, assemblies);
   derive_slot(model, state, a, assemblies);
   state.omega[a] = joined.spin / assemblies.inertia[a];
-  for (int m = assemblies.first[a]; m >= 0; m = assemblies.next[m])
-    derive_body_pose(model, state, a, m, assemblies);
+  derive_poses(model, state, a, assemblies);
   return true;
 }
 

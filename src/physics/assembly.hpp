@@ -32,6 +32,8 @@ struct Assemblies {
 void derive(const Model& model, const State& state, Assemblies& out);
 /// Rebuilds only the bodies' poses and twists (after assemblies moved or were pushed).
 void derive_poses(const Model& model, const State& state, Assemblies& out);
+/// The same for the members of one slot.
+void derive_poses(const Model& model, const State& state, int slot, Assemblies& out);
 /// Rebuilds one slot: its place in `live`, properties, member list, and its members' poses, twists,
 /// covered faces and inner sides (after a merge, a split, or a change of a face's status).
 void derive_slot(const Model& model, const State& state, int slot, Assemblies& out);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "broadphase.hpp"
-#include "contact_solver.hpp"
 #include "island_builder.hpp"
+#include "island_stepper.hpp"
 #include "settle.hpp"
 #include "small_turn.hpp"
 
@@ -18,10 +18,6 @@ constexpr double kLinkSpare = 1e-3;    // m, pairs that miss by less are watched
 constexpr double kPushShare = 1.2;     // how much of a closing speed a push may pass on
 constexpr double kPushSpare = 3e-4;    // m
 constexpr int kCrowd = 12;             // links of an island in which a push surely reaches others
-constexpr double kReach = 1.25;        // contacts are looked for in so many times the closing way
-constexpr double kReachSpare = 1e-4;   // m
-constexpr double kUndoLimit = 4.5e-4;  // m, below kOverlapLimit by more than rounding
-constexpr int kPushRounds = 12;        // sweeps that push overlaps apart after a substep
 constexpr double kNoPromise = 1e9;     // m
 
 double length(double x, double y) {
@@ -54,7 +50,7 @@ struct Motion::Impl {
   const Model* model;
   Broadphase broadphase, latch_range;
   IslandBuilder builder;
-  ContactSolver solver;
+  IslandStepper stepper;
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
   double extra = 0;       // m, a push moves a body by so much more at most
@@ -94,8 +90,8 @@ struct Motion::Impl {
   void gather_wide(int slot, double h);
   void gather_around(int body, double h);
   void run(double h, Way way, Tallies& tallies);
-  double keep_good(double deepest, double before, Tallies& tallies);
   bool kept_clear(double h);
+  Pose flown(int slot, double h) const;
   void finish(double h);
 };
 
@@ -104,7 +100,7 @@ Motion::Impl::Impl(const Model& m)
       broadphase(m.bodies(), m.tank.radius, 0.01 + m.module.side),
       latch_range(m.bodies(), m.tank.radius, 0.01 + m.module.side),
       builder(m),
-      solver(m) {
+      stepper(m) {
   const auto n = static_cast<std::size_t>(m.bodies());
   reach.assign(n, 0), arc.assign(n, 0);
   slots.assign(n, {});
@@ -259,43 +255,10 @@ void Motion::Impl::gather_wide(int slot, double h) {
   builder.island().sort_pairs();
 }
 
-// Pushes overlaps apart; what that cannot help is put back to where it was good. A start that was
-// worse than the limit (poses given by a user) may only get better. Returns the deepest overlap.
-double Motion::Impl::keep_good(double deepest, double before, Tallies& tallies) {
-  Island& island = builder.island();
-  if (deepest > kSlop) {
-    island.push_apart(kPushRounds);
-    deepest = island.survey();
-  }
-  const double limit = std::max(kUndoLimit, before);
-  if (deepest > limit || island.breaks_promise()) {
-    tallies.moves_undone += island.put_back(limit);
-    deepest = island.survey();
-  }
-  return deepest;
-}
-
-// Moves the island by h seconds.
+// Moves the island by h seconds and notes where its members end.
 void Motion::Impl::run(double h, Way way, Tallies& tallies) {
-  Island& island = builder.island();
-  double deepest = island.survey();
-  if (deepest > kSlop) deepest = keep_good(deepest, deepest, tallies);
-  island.accept(0);
-  for (double left = h; left > 0;) {
-    const Pace pace = island.pace(left);
-    const double part = pace.longest < left ? left / (std::floor(left / pace.longest) + 1) : left;
-    const bool free = pace.free_time >= part;
-    const double step = free ? std::min(pace.free_time, left) : part;
-    const bool met =
-        !free && solver.approach(island, kReach * pace.fastest * step + kReachSpare, step);
-    island.move(step);
-    if (met) solver.rebound(island, step);
-    left = step < left ? left - step : 0;
-    deepest = keep_good(island.survey(), deepest, tallies);
-    island.accept(h - left);
-  }
-  tallies.deepest_overlap = std::max(tallies.deepest_overlap, deepest);
-  for (const Mover& m : island.movers()) {
+  stepper.run(builder.island(), h, tallies);
+  for (const Mover& m : builder.island().movers()) {
     if (m.slot < 0) continue;
     Slot& s = slots[m.slot];
     s.way = way, s.pose = m.pose, s.twist = m.twist, s.strayed = m.strayed;
@@ -326,23 +289,31 @@ bool Motion::Impl::kept_clear(double h) {
   return true;
 }
 
-// Writes the end of the slice to the state.
+// An assembly's pose after h seconds on its course.
+Pose Motion::Impl::flown(int slot, double h) const {
+  const Rot r{state->c[slot], state->s[slot]};
+  const double omega = state->omega[slot];
+  return {state->x[slot] + h * state->vx[slot], state->y[slot] + h * state->vy[slot],
+          omega == 0 ? r : turned_by(r, h * omega)};
+}
+
+// Writes the end of the slice to the state and the bodies.
 void Motion::Impl::finish(double h) {
-  for (const int slot : assemblies->live) {
+  Assemblies& a = *assemblies;
+  for (const int slot : a.live) {
     const Slot& s = slots[slot];
-    if (s.way == Way::free) {
-      state->x[slot] += h * state->vx[slot], state->y[slot] += h * state->vy[slot];
-      if (state->omega[slot] == 0) continue;
-      const Rot r = turned_by({state->c[slot], state->s[slot]}, h * state->omega[slot]);
-      state->c[slot] = r.c, state->s[slot] = r.s;
-    } else {
-      state->x[slot] = s.pose.x, state->y[slot] = s.pose.y;
-      state->c[slot] = s.pose.r.c, state->s[slot] = s.pose.r.s;
-      state->vx[slot] = s.twist.vx, state->vy[slot] = s.twist.vy,
+    const Pose pose = s.way == Way::free ? flown(slot, h) : s.pose;
+    state->x[slot] = pose.x, state->y[slot] = pose.y;
+    state->c[slot] = pose.r.c, state->s[slot] = pose.r.s;
+    if (s.way != Way::free) {
+      state->vx[slot] = s.twist.vx, state->vy[slot] = s.twist.vy;
       state->omega[slot] = s.twist.omega;
+    } else if (a.next[slot] < 0 && state->turn[slot] == 0) {  // alone: its twist is there already
+      a.x[slot] = pose.x, a.y[slot] = pose.y, a.c[slot] = pose.r.c, a.s[slot] = pose.r.s;
+      continue;
     }
+    derive_poses(*model, *state, slot, a);
   }
-  derive_poses(*model, *state, *assemblies);
 }
 
 void Motion::Impl::slice(double h, Tallies& tallies) {
