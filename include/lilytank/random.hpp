@@ -20,6 +20,8 @@ enum class Stream : std::uint32_t {
   reenable = 7,    ///< when an unlatched face comes on again
   evaluation = 8,  ///< the event-driven clock's waiting times
   first_face = 9,  ///< where a module's round of its faces begins
+  bootstrap = 10,  ///< which runs a resample draws (statistics only, never a world)
+  latin = 11,      ///< where the samples of a latin hypercube lie (studies only)
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below
