@@ -26,7 +26,7 @@ struct Trajectory {
   int modules = 0;  ///< bodies [0, modules) are squares, the rest balls
   std::vector<double> time;
   std::vector<float> x, y, theta;
-  std::vector<Markings> markings;  ///< empty for recordings
+  std::vector<Markings> markings;  ///< as the poses, balls without; empty for recordings
   int frames() const { return static_cast<int>(time.size()); }
 };
 
@@ -46,9 +46,10 @@ class TrajectoryWriter {
   virtual std::int64_t flush() = 0;
 };
 
-/// CSV: `frame,time,id,x,y,theta,label,last,latched,bonded,complete`, SI, angle in (-pi, pi].
+/// CSV: `frame,time,id,x,y,theta,label,last,latched,bonded,complete`, SI, angle in (-pi, pi]; cells
+/// from `label` on are empty for balls, and a table of poses alone may leave those columns out.
 /// Binary: a header (magic, version, bodies, modules) and fixed-size frames (time as float64, poses
-/// as float32, markings), about a fifth of the CSV; a cut last frame is dropped on reading.
+/// as float32, markings), about a third of the CSV; a cut last frame is dropped on reading.
 /// `keep_bytes` >= 0 goes on in an existing file cut to that length.
 std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
                                                   const Model& model, std::int64_t keep_bytes = -1);
