@@ -23,6 +23,7 @@ class CsvReader {
   bool next();
 
   bool empty(std::size_t column) const { return cells_[column].empty(); }
+  std::string_view text(std::size_t column) const { return cells_[column]; }
   /// Cell values; throw InputError where a cell is not a finite number, or is outside low .. high.
   double number(std::size_t column) const;
   float float_number(std::size_t column) const;

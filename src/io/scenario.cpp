@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/poses_csv.hpp"
+#include "io/scenario_build.hpp"
 #include "io/scenario_commands.hpp"
 #include "io/scenario_keys.hpp"
 #include "io/scenario_layers.hpp"
@@ -23,8 +24,7 @@ bool is_rule(const Assignment& a) {
 
 class Loader {
  public:
-  Loader(const std::vector<std::string>& files, const std::vector<std::string>& sets)
-      : layers_(read_layers(files, sets)) {}
+  explicit Loader(std::vector<Layer> layers) : layers_(std::move(layers)) {}
 
   Scenario load() {
     keys_ = scenario_keys(draft_);
@@ -243,7 +243,11 @@ class Loader {
 
 Scenario load_scenario(const std::vector<std::string>& files,
                        const std::vector<std::string>& sets) {
-  return Loader(files, sets).load();
+  return build_scenario(read_layers(files, sets));
+}
+
+Scenario build_scenario(std::vector<Layer> layers) {
+  return Loader(std::move(layers)).load();
 }
 
 }  // namespace lilytank
