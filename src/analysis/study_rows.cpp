@@ -1,0 +1,56 @@
+#include "analysis/study_rows.hpp"
+
+#include <algorithm>
+
+namespace lilytank {
+
+std::vector<std::vector<const RunRow*>> finished_runs(const StudyTable& table) {
+  std::size_t settings = table.labels.size();
+  for (const RunRow& row : table.rows) {
+    settings = std::max(settings, static_cast<std::size_t>(row.setting) + 1);
+  }
+  std::vector<std::vector<const RunRow*>> runs(settings);
+  for (const RunRow& row : table.rows) {
+    if (row.status == RunStatus::ok) runs[static_cast<std::size_t>(row.setting)].push_back(&row);
+  }
+  for (auto& of_setting : runs) {
+    std::sort(of_setting.begin(), of_setting.end(), [](const RunRow* a, const RunRow* b) {
+      return a->replicate != b->replicate ? a->replicate < b->replicate : a->id < b->id;
+    });
+  }
+  return runs;
+}
+
+int reached_copies(const RunRow& row) {
+  return std::min(static_cast<int>(row.completion.size()), row.possible);
+}
+
+bool reached_all(const RunRow& row) {
+  return row.possible > 0 && reached_copies(row) == row.possible;
+}
+
+double followed_until(const RunRow& row, double horizon) {
+  return reached_all(row) ? horizon : std::min(row.duration, horizon);
+}
+
+double watched_by_all(const std::vector<std::vector<const RunRow*>>& runs, double horizon) {
+  double all = horizon;
+  for (const auto& of_setting : runs) {
+    double longest = 0;
+    for (const RunRow* row : of_setting) longest = std::max(longest, followed_until(*row, horizon));
+    if (!of_setting.empty()) all = std::min(all, longest);
+  }
+  return all;
+}
+
+std::vector<Duration> durations_to(const std::vector<const RunRow*>& runs, int k) {
+  std::vector<Duration> durations;
+  for (const RunRow* row : runs) {
+    if (row->possible < k) continue;
+    const bool observed = reached_copies(*row) >= k;
+    durations.push_back({observed ? row->completion[k - 1] : row->duration, observed});
+  }
+  return durations;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,21 @@
+#include <filesystem>
+#include <system_error>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/study_summary.hpp"
+
+namespace lilytank {
+
+void write_study_summary(const StudySummary& summary, const std::string& dir) {
+  const std::filesystem::path path(dir);
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  write_atomically((path / "summary.csv").string(), summary_csv(summary));
+  write_atomically((path / "yield_curve.csv").string(), yield_curve_csv(summary));
+  write_atomically((path / "survival.csv").string(), survival_csv(summary));
+  write_atomically((path / "comparisons.csv").string(), comparisons_csv(summary));
+  write_atomically((path / "summary.txt").string(), study_text(summary));
+}
+
+}  // namespace lilytank
