@@ -54,7 +54,7 @@ struct Motion::Impl {
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
   double extra = 0;       // m, a push moves a body by so much more at most
-  double turn_slack = 0;  // m, no body's own + size is more than its reach by more
+  double turn_slack = 0;  // m, no body's size + own exceeds its reach by more
   struct Link {
     int i, j;  // bodies; j = -1: the wall
     int next;  // of the same island
@@ -83,9 +83,7 @@ struct Motion::Impl {
   double clearance(int i, int j, double h) const;
   double wall_clearance(int body, double h) const;
   void find_links(double h);
-  void add_link(int i, int j);
   int root_of(int slot);
-  void join(int p, int q);
   void gather_course(int root);
   void gather_wide(int slot, double h);
   void gather_around(int body, double h);
@@ -132,7 +130,7 @@ void Motion::Impl::measure(double h) {
     s.way = Way::free, s.gathered = false;
     s.root = slot, s.head = -1, s.count = 0;
     s.own = way + turn * a.reach[slot];
-    turn_slack = std::max(turn_slack, turn * a.reach[slot]);
+    turn_slack = std::max(turn_slack, 2 * turn * a.reach[slot]);
     s.strayed = 0;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
       a.vx[i] = vx, a.vy[i] = vy, a.omega[i] = omega;
