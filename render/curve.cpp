@@ -9,6 +9,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kLine = 2.2, kMarker = 4.2;  // units
+constexpr double kCap = 4.5, kMark = 6;       // half widths of bars' ends, half heights of marks
 
 // After one round of colours the dashes change, so that curves stay apart in print.
 void set_dashes(const Canvas& canvas, int index) {
@@ -132,6 +133,25 @@ void draw_band(const Canvas& canvas, const PlotArea& area, const Curve& curve, i
   canvas.fill(faded(colour_of_curve(index), 0.18));
 }
 
+void draw_bars(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
+  const std::size_t n = std::min({curve.x.size(), curve.low.size(), curve.high.size()});
+  const Saved saved(canvas);
+  cairo_rectangle(canvas.get(), area.left - kCap - 1, area.top - 1, area.width + 2 * kCap + 2,
+                  area.height + 2);
+  cairo_clip(canvas.get());
+  for (std::size_t i = 0; i < n; ++i) {
+    const PagePoint low = page_point(area, curve.x[i], curve.low[i]);
+    const PagePoint high = page_point(area, curve.x[i], curve.high[i]);
+    if (!high.known() || !std::isfinite(curve.low[i])) continue;
+    const bool cut = !low.known();  // a log axis does not reach down to it
+    const double bottom = cut ? area.bottom() + 10 : low.y;
+    const Colour colour = colour_of_curve(index);
+    canvas.line(high.x, bottom, high.x, high.y, colour, 1.5);
+    canvas.line(high.x - kCap, high.y, high.x + kCap, high.y, colour, 1.5);
+    if (!cut) canvas.line(low.x - kCap, low.y, low.x + kCap, low.y, colour, 1.5);
+  }
+}
+
 void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
   const Saved saved(canvas);
   const std::size_t n = points_of(curve);
@@ -144,6 +164,27 @@ void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, 
   pen.lift();
   set_dashes(canvas, index);
   canvas.stroke(colour_of_curve(index), kLine);
+}
+
+void draw_marks(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
+  const std::size_t n = points_of(curve);
+  double drawn = -1e9;
+  for (const double mark : curve.marks) {
+    // The last point at or before it; x rises.
+    const auto end = curve.x.begin() + static_cast<std::ptrdiff_t>(n);
+    const auto after =
+        static_cast<std::size_t>(std::upper_bound(curve.x.begin(), end, mark) - curve.x.begin());
+    if (after == 0 || (after == n && mark > curve.x[n - 1])) continue;
+    double y = curve.y[after - 1];
+    if (!curve.steps && after < n) {
+      const double w = (mark - curve.x[after - 1]) / (curve.x[after] - curve.x[after - 1]);
+      y += w * (curve.y[after] - y);
+    }
+    const PagePoint p = page_point(area, mark, y);
+    if (!p.known() || !area.holds(p) || std::fabs(p.x - drawn) < 2) continue;
+    canvas.line(p.x, p.y - kMark, p.x, p.y + kMark, colour_of_curve(index), 1.5);
+    drawn = p.x;
+  }
 }
 
 void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
@@ -165,7 +206,7 @@ void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve
 void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, double y,
                  double width) {
   const Saved saved(canvas);
-  if (!curve.low.empty() && !curve.high.empty()) {
+  if (!curve.bars && !curve.low.empty() && !curve.high.empty()) {
     cairo_rectangle(canvas.get(), x, y - 6, width, 12);
     canvas.fill(faded(colour_of_curve(index), 0.18));
   }

@@ -53,17 +53,20 @@ void widen(double& low, double& high, bool log) {
   high += 0.05 * span;
 }
 
+bool is_range(double low, double high) {
+  return low < high && std::isfinite(low) && std::isfinite(high);
+}
+
 void choose_axes(const Plot& plot, PlotArea& area) {
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
   double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();
+  if (is_range(plot.x_low, plot.x_high)) low = plot.x_low, high = plot.x_high;
   area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110),
                      data.x.whole() && !data.x.empty());
   low = data.y.empty() ? (plot.log_y ? 0.1 : 0) : data.y.low();
   high = data.y.empty() ? (plot.log_y ? 10 : 1) : data.y.high();
-  const bool given =
-      plot.y_low < plot.y_high && std::isfinite(plot.y_low) && std::isfinite(plot.y_high);
-  if (given)
+  if (is_range(plot.y_low, plot.y_high))
     low = plot.y_low, high = plot.y_high;
   else if (high > low)
     widen(low, high, plot.log_y);
@@ -149,7 +152,8 @@ void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
 
 void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
-    draw_band(canvas, area, plot.curves[i], static_cast<int>(i));
+    const bool bars = plot.curves[i].bars;
+    (bars ? draw_bars : draw_band)(canvas, area, plot.curves[i], static_cast<int>(i));
   }
   // The first curve is the one that matters: it comes last, on top.
   for (std::size_t i = plot.curves.size(); i-- > 0;) {
@@ -159,6 +163,7 @@ void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
 
 void draw_points(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   for (std::size_t i = plot.curves.size(); i-- > 0;) {
+    draw_marks(canvas, area, plot.curves[i], static_cast<int>(i));
     draw_markers(canvas, area, plot.curves[i], static_cast<int>(i));
   }
 }

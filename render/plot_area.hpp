@@ -39,9 +39,12 @@ struct PlotArea {
 std::size_t points_of(const Curve& curve);
 PagePoint page_point(const PlotArea& area, double x, double y);
 
-/// To be drawn in this order: band, line, markers. `index` chooses colour, dashes and marker.
+/// To be drawn in this order: band or bars, line with its marks, markers. `index` chooses colour,
+/// dashes and marker.
 void draw_band(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
+void draw_bars(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
 void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
+void draw_marks(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
 void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index);
 /// A short piece of a curve's line with its marker, for legends.
 void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, double y,

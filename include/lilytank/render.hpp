@@ -1,9 +1,10 @@
-// Pictures of a stored run: frames, films, curves. Only files in render/ know Cairo.
+// Pictures of stored runs and studies: frames, films, curves. Only files in render/ know Cairo.
 #pragma once
 #include <string>
 #include <vector>
 
 #include "lilytank/run.hpp"
+#include "lilytank/study_summary.hpp"
 
 namespace lilytank {
 
@@ -42,6 +43,8 @@ struct Curve {
   std::vector<double> x, y, low, high;
   bool steps = false;  ///< stairs instead of a line
   bool markers = false;
+  std::vector<double> marks;  ///< x of short upright strokes on the curve, such as censored times
+  bool bars = false;          ///< `low` and `high` as bars at the points instead of a band
 };
 /// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
 struct Plot {
@@ -49,11 +52,28 @@ struct Plot {
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
   double y_low = 0, y_high = 0;   ///< equal: from the data
+  double x_low = 0, x_high = 0;   ///< equal: from the data
   int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
 void draw_plot(const Plot& plot, const std::string& file);
 
 /// Copies standing over time, from a run's metrics.
 Plot yield_plot(const StoredRun& run);
+
+/// A plot of a study, and the name of its files without ending.
+struct StudyPlot {
+  std::string name;
+  Plot plot;
+};
+/// "yield": mean copies over time with bootstrap bands; "survival_<k>": Kaplan and Meier's curves
+/// of the time to the k-th copy, with their intervals and censored times; "mean_time": restricted
+/// mean times over the axis' values, where there is one axis and its labels show numbers; curves
+/// stand a little beside each other there. Bands are left out where there are more than six
+/// settings. Nothing for a study without finished runs.
+std::vector<StudyPlot> study_plots(const StudySummary& summary);
+
+/// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
+/// each plot as .png and .svg. Throws InputError if it cannot be written.
+void report_study(const StudyTable& table, const std::string& dir);
 
 }  // namespace lilytank

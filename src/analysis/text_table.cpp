@@ -1,6 +1,7 @@
 #include "analysis/text_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 

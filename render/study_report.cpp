@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include "lilytank/render.hpp"
+#include "text/number.hpp"
+#include "yield.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr std::size_t kBandsUpTo = 6;  // settings; more bands hide each other
+
+Plot time_plot(const StudySummary& summary, const TimeUnit& unit) {
+  Plot plot;
+  plot.title = summary.name;
+  plot.x_label = "time (" + unit.name + ")";
+  return plot;
+}
+
+void drop_bands(const StudySummary& summary, Curve& curve) {
+  if (summary.settings.size() > kBandsUpTo) curve.low.clear(), curve.high.clear();
+}
+
+std::vector<double> divided(std::vector<double> values, double by) {
+  for (double& v : values) v /= by;
+  return values;
+}
+
+Plot mean_yield_plot(const StudySummary& summary, const TimeUnit& unit) {
+  Plot plot = time_plot(summary, unit);
+  plot.y_label = "mean copies of the target";
+  int most = 1;
+  for (const SettingSummary& setting : summary.settings) {
+    if (setting.runs == 0) continue;
+    most = std::max(most, setting.possible);
+    const CurveBand& band = setting.yield;
+    Curve curve{setting.label, divided(band.time, unit.seconds), band.mean, band.low, band.high};
+    curve.steps = true;
+    drop_bands(summary, curve);
+    plot.curves.push_back(std::move(curve));
+  }
+  plot.y_low = -0.03 * most, plot.y_high = 1.05 * most;
+  return plot;
+}
+
+// From (0, 1) along the steps; where nobody is left, on to the horizon.
+Curve survival_curve(const Survival& survival, double horizon, const TimeUnit& unit) {
+  Curve curve;
+  curve.steps = true;
+  const auto add = [&](double time, double value, double low, double high) {
+    curve.x.push_back(time / unit.seconds), curve.y.push_back(value);
+    curve.low.push_back(low), curve.high.push_back(high);
+  };
+  const bool events = survival.survival.back() < 1;
+  add(0, 1, events ? 1 : survival.low.back(), 1);
+  for (std::size_t i = 0; i < survival.time.size(); ++i) {
+    // What is known before the first event is the number of runs; the band begins with the event.
+    const bool before = events && survival.survival[i] >= 1;
+    add(survival.time[i], survival.survival[i], before ? 1 : survival.low[i], survival.high[i]);
+    if (survival.censored[i] > 0) curve.marks.push_back(survival.time[i] / unit.seconds);
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (curve.y.back() <= 0 && survival.time.back() < horizon) add(horizon, 0, kNone, kNone);
+  return curve;
+}
+
+// " (log-rank p = 0.03)" of all settings together, or nothing.
+std::string test_note(const StudySummary& summary, int k) {
+  for (const SurvivalTest& test : summary.survival_tests) {
+    if (test.k != k || test.result.degrees == 0) continue;
+    char text[60];
+    std::snprintf(text, sizeof text,
+                  test.result.p < 1e-4 ? " (log-rank p < 0.0001)" : " (log-rank p = %.2g)",
+                  test.result.p);
+    return text;  // the test of all comes before those of pairs
+  }
+  return "";
+}
+
+Plot survival_plot(const StudySummary& summary, int k, const TimeUnit& unit) {
+  Plot plot = time_plot(summary, unit);
+  plot.title += ": time to copy " + std::to_string(k) + test_note(summary, k);
+  plot.y_label = k == 1 ? "share of runs without a copy"
+                        : "share of runs with fewer than " + std::to_string(k) + " copies";
+  for (const SettingSummary& setting : summary.settings) {
+    for (const CopyTime& time : setting.times) {
+      if (time.k != k || time.survival.time.empty()) continue;
+      plot.curves.push_back(survival_curve(time.survival, summary.horizon, unit));
+      plot.curves.back().name = setting.label;
+      drop_bands(summary, plot.curves.back());
+    }
+  }
+  plot.y_low = -0.03, plot.y_high = 1.04;
+  plot.x_low = 0,
+  plot.x_high = 1.015 * summary.horizon / unit.seconds;  // room for a mark at the end
+  return plot;
+}
+
+// Positions of words are no numbers: a label such as "flow.pump_power=80 %" shows one.
+bool shows_number(const std::string& label) {
+  const std::string_view value = trimmed(std::string_view(label).substr(label.rfind('=') + 1));
+  return parse_number(value.substr(0, value.find(' '))).has_value();
+}
+
+// Settings with runs, by rising value of the only axis; none if that is not of numbers.
+std::vector<const SettingSummary*> along_axis(const StudySummary& summary) {
+  std::vector<const SettingSummary*> along;
+  if (summary.axes.size() != 1) return along;
+  for (const SettingSummary& setting : summary.settings) {
+    if (setting.runs == 0) continue;
+    if (setting.values.size() != 1 || !shows_number(setting.label)) return {};
+    along.push_back(&setting);
+  }
+  std::stable_sort(
+      along.begin(), along.end(),
+      [](const SettingSummary* a, const SettingSummary* b) { return a->values[0] < b->values[0]; });
+  if (along.empty() || !(along.front()->values[0] < along.back()->values[0])) along.clear();
+  return along;
+}
+
+// A horizontal axis with room at its ends, on which curves stand apart by a little.
+struct ValueAxis {
+  double low = 0, high = 1;
+  bool log = false;
+  /// The place that is `share` of the axis' length to the right of a value.
+  double beside(double value, double share) const {
+    return log ? value * std::pow(high / low, share) : value + share * (high - low);
+  }
+};
+
+ValueAxis axis_along(const std::vector<const SettingSummary*>& along) {
+  ValueAxis axis{along.front()->values[0], along.back()->values[0], false};
+  // Values over more than one and a half decades would crowd at the left.
+  axis.log = along.size() > 2 && axis.low > 0 && axis.high / axis.low > 30;
+  const double low = axis.beside(axis.low, -0.06), high = axis.beside(axis.high, 0.06);
+  axis.low = low, axis.high = high;
+  return axis;
+}
+
+Curve mean_time_curve(const std::vector<const SettingSummary*>& along, int k, const TimeUnit& unit,
+                      const ValueAxis& axis, double beside) {
+  Curve curve;
+  curve.name = "k = " + std::to_string(k);
+  curve.markers = curve.bars = true;
+  for (const SettingSummary* setting : along) {
+    for (const CopyTime& time : setting->times) {
+      if (time.k != k || std::isnan(time.restricted_mean.value)) continue;
+      const Estimate& mean = time.restricted_mean;
+      curve.x.push_back(axis.beside(setting->values[0], beside));
+      curve.y.push_back(mean.value / unit.seconds);
+      curve.low.push_back(mean.low / unit.seconds);
+      curve.high.push_back(mean.high / unit.seconds);
+    }
+  }
+  return curve;
+}
+
+Plot mean_time_plot(const StudySummary& summary, const std::vector<const SettingSummary*>& along,
+                    const TimeUnit& unit) {
+  Plot plot;
+  plot.title = summary.name;
+  plot.x_label = summary.axes[0];
+  plot.y_label = "restricted mean time to copy k (" + unit.name + ")";
+  const ValueAxis axis = axis_along(along);
+  plot.x_low = axis.low, plot.x_high = axis.high, plot.log_x = axis.log;
+  constexpr double kApart = 0.008;  // of the axis, so that bars do not cover each other
+  const double middle = 0.5 * static_cast<double>(summary.copies.size() - 1);
+  for (std::size_t i = 0; i < summary.copies.size(); ++i) {
+    Curve curve = mean_time_curve(along, summary.copies[i], unit, axis,
+                                  kApart * (static_cast<double>(i) - middle));
+    if (!curve.x.empty()) plot.curves.push_back(std::move(curve));
+  }
+  plot.y_low = 0, plot.y_high = 1.05 * summary.restricted_to / unit.seconds;
+  return plot;
+}
+
+}  // namespace
+
+std::vector<StudyPlot> study_plots(const StudySummary& summary) {
+  std::vector<StudyPlot> plots;
+  const TimeUnit unit = unit_for(summary.horizon);
+  const bool any = std::any_of(summary.settings.begin(), summary.settings.end(),
+                               [](const SettingSummary& s) { return s.runs > 0; });
+  if (!any || summary.copies.empty()) return plots;
+  plots.push_back({"yield", mean_yield_plot(summary, unit)});
+  for (const int k : summary.copies) {
+    plots.push_back({"survival_" + std::to_string(k), survival_plot(summary, k, unit)});
+  }
+  const std::vector<const SettingSummary*> along = along_axis(summary);
+  if (!along.empty()) plots.push_back({"mean_time", mean_time_plot(summary, along, unit)});
+  return plots;
+}
+
+void report_study(const StudyTable& table, const std::string& dir) {
+  const StudySummary summary = summarise(table);
+  write_study_summary(summary, dir);
+  for (const StudyPlot& made : study_plots(summary)) {
+    const std::string file = (std::filesystem::path(dir) / made.name).string();
+    draw_plot(made.plot, file + ".png");
+    draw_plot(made.plot, file + ".svg");
+  }
+}
+
+}  // namespace lilytank
