@@ -44,16 +44,20 @@ void Broadphase::pairs(double margin, Use&& use) {
   const int n = static_cast<int>(x_.size());
   const double *x = x_.data(), *y = y_.data(), *radius = radius_.data();
   for (int i = 0; i < n; ++i) {
-    const double own = radius[i] + margin;
-    const auto test = [&](int j) {
-      const double dx = x[j] - x[i], dy = y[j] - y[i], reach = own + radius[j];
-      if (dx * dx + dy * dy < reach * reach) use(i, j);
+    const double xi = x[i], yi = y[i], own = radius[i] + margin;
+    const auto near = [=](int j) {
+      const double dx = x[j] - xi, dy = y[j] - yi, reach = own + radius[j];
+      return dx * dx + dy * dy < reach * reach;
     };
     if (cells_ == 0) {
-      for (int j = i + 1; j < n; ++j) test(j);
+      for (int j = i + 1; j < n; ++j) {
+        if (near(j)) use(i, j);
+      }
     } else {
-      gather(x[i], y[i], own, i);
-      for (const int j : found_) test(j);
+      gather(xi, yi, own, i);
+      for (const int j : found_) {
+        if (near(j)) use(i, j);
+      }
     }
   }
 }

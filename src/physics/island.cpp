@@ -153,11 +153,12 @@ Pace Island::pace(double left) const {
     const Mover &a = movers_[near.a], &b = movers_[near.b];
     const Vec2 v = velocity_at(b, near.bx, near.by) - velocity_at(a, near.ax, near.ay);
     const double wa = std::fabs(a.twist.omega), wb = std::fabs(b.twist.omega);
-    // Corners turn about the bodies' centres, and those on arcs about the centres of mass.
-    const double turning =
-        corner_ * (wa + wb) + 0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
     const double speed = length(v.x(), v.y());
-    p.fastest = std::max(p.fastest, speed + turning);
+    p.fastest = std::max(p.fastest, speed + corner_ * (wa + wb));
+    // A square's extent in a direction changes by no more than half its side per radian, its
+    // distance from the tank's centre by half its diagonal; members of a chain move on arcs.
+    const double turning = (near.a == 0 ? corner_ : half_) * (wa + wb) +
+                           0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
     // Along the normal of the gap, fixed in the tank, nothing closes faster than this.
     const double along = near.a == 0 ? -speed : near.gap.nx * v.x() + near.gap.ny * v.y();
     const double closing = turning - along;

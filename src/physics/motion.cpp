@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSliceMotion = 0.02;  // m, most that a point moves between two searches
 constexpr double kTooFast = 100;       // m/s, not worth solving
-constexpr double kLinkSpare = 1e-3;    // m, pairs that miss by less are watched too
+constexpr double kLinkSpare = 3e-4;    // m, pairs that miss by less are watched too
 constexpr double kPushShare = 1.2;     // how much of a closing speed a push may pass on
 constexpr double kPushSpare = 3e-4;    // m
 constexpr int kCrowd = 12;             // links of an island in which a push surely reaches others
@@ -79,7 +79,7 @@ struct Motion::Impl {
   double fastest_way() const;
   void slice(double h, Tallies& tallies);
   void measure(double h);
-  double spin(int body, double h) const;
+  double widening(int body, double h) const;
   double clearance(int i, int j, double h) const;
   double wall_clearance(int body, double h) const;
   void find_links(double h);
@@ -144,25 +144,28 @@ void Motion::Impl::measure(double h) {
   }
 }
 
-// How far the corners of a body get by its spin, m.
-double Motion::Impl::spin(int i, double h) const {
-  return builder.is_module(i) ? h * builder.size_of(i) * std::fabs(assemblies->omega[i]) : 0;
+// How much wider a body gets, at most, in any direction by its spin, m. A square at angle t to the
+// direction is half * (|cos t| + |sin t|) wide, which changes by less than half the side per
+// radian.
+double Motion::Impl::widening(int i, double h) const {
+  return builder.is_module(i) ? 0.5 * model->module.side * h * std::fabs(assemblies->omega[i]) : 0;
 }
 
-// No less than this is between bodies i and j, of different assemblies, on their courses, m. Uses
-// that the gap along a fixed normal closes no faster than along it.
+// No less than this is between bodies i and j, of different assemblies, on their courses, m: the
+// gap along a fixed normal closes by their motion along it, and as they turn.
 double Motion::Impl::clearance(int i, int j, double h) const {
   const Assemblies& a = *assemblies;
   const Gap gap = builder.gap(i, j);
   const double along = gap.nx * (a.vx[j] - a.vx[i]) + gap.ny * (a.vy[j] - a.vy[i]);
-  return gap.size - std::max(0.0, spin(i, h) + spin(j, h) + arc[i] + arc[j] - h * along);
+  return gap.size - std::max(0.0, widening(i, h) + widening(j, h) + arc[i] + arc[j] - h * along);
 }
 
 // The same between body i and the wall: distance from the centre is greatest at an end of a
 // straight way.
 double Motion::Impl::wall_clearance(int i, double h) const {
   const double end = builder.wall_gap(i, h * assemblies->vx[i], h * assemblies->vy[i]);
-  return std::min(builder.wall_gap(i, 0, 0), end) - spin(i, h) - arc[i];
+  const double turn = builder.is_module(i) ? h * std::fabs(assemblies->omega[i]) : 0;
+  return std::min(builder.wall_gap(i, 0, 0), end) - turn * builder.size_of(i) - arc[i];
 }
 
 int Motion::Impl::root_of(int slot) {
@@ -190,7 +193,8 @@ void Motion::Impl::find_links(double h) {
     const int p = builder.slot_of(i), q = builder.slot_of(j);
     if (p == q || clearance(i, j, h) > kLinkSpare) return;
     links.push_back({i, j, -1});
-    const double most = h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + spin(i, h) + spin(j, h);
+    const double most =
+        h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + 1.5 * (widening(i, h) + widening(j, h));
     extra = std::max(extra, kPushShare * most - std::min(0.0, 2 * builder.gap(i, j).size));
     const int root_p = root_of(p), root_q = root_of(q);
     slots[std::max(root_p, root_q)].root = std::min(root_p, root_q);
