@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/packages.sh
 
-duration="30 min"  # simulated; all three chains are usually complete well before
+duration="30 min"  # simulated; one or two of the three chains are usually complete by then
 out=out/demo
 
 need_packages "${build_packages[@]}" "${film_packages[@]}"

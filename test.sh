@@ -9,14 +9,15 @@ need_packages "${build_packages[@]}" "${film_packages[@]}" "${test_packages[@]}"
               "${bench_packages[@]}"
 
 run_tests() {  # <tree> [ctest option...]
-  ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
+  ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error \
+        --no-label-summary "${@:2}"
 }
 
 # Assertions on, no renderer: a second compiler setting must give the same golden fingerprints.
 configure build-debug -DCMAKE_BUILD_TYPE=Debug -DLILYTANK_RENDER=OFF -DLILYTANK_BENCH=OFF \
                       -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
 cmake --build build-debug --target lilytank unit_tests analytic_tests determinism_tests
-run_tests build-debug --exclude-regex '_NOT_BUILT$' --label-exclude '^source$'
+run_tests build-debug --exclude-regex '_NOT_BUILT$' --label-exclude '^tree$'
 
 configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH=ON \
                 -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON

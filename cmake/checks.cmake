@@ -1,7 +1,6 @@
 # Tests of the tree itself: its layers, its layout, and that another project can use what it installs.
 add_test(NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/layers.sh)
 add_test(NAME style COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/style.sh)
-set_tests_properties(layers style PROPERTIES LABELS source)
 set_tests_properties(style PROPERTIES SKIP_RETURN_CODE 77)
 
 # The same program inside and outside the tree; both must print the same fingerprint.
@@ -11,4 +10,4 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -DSOURCE=${PROJECT_SOURCE_DIR}/tests/package -DINSIDE=$<TARGET_FILE:package_inside>
   -DGENERATOR=${CMAKE_GENERATOR} -DCOMPILER=${CMAKE_CXX_COMPILER} -DRENDER=${LILYTANK_HAS_RENDER}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
-set_tests_properties(package PROPERTIES LABELS slow TIMEOUT 300)
+set_tests_properties(layers style package PROPERTIES LABELS tree TIMEOUT 300)
