@@ -1,12 +1,170 @@
-// Many worlds at once. A world is never split over threads, so results do not depend on how many
-// there are.
+// Many worlds at once: every combination of the axes' values, many replicates of each, on one
+// machine or on many, in any order, through any number of interruptions, to one table.
+//
+// A world is never split over threads, and a row is a function of its scenario and its seed, so the
+// table does not depend on threads, shards, order or interruptions.
 #pragma once
+#include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lilytank/scenario.hpp"
+#include "lilytank/statistics.hpp"
+#include "lilytank/study_table.hpp"
 
 namespace lilytank {
 
 /// Calls work(i) once for each i in [0, count), up to `threads` at a time (0: one a core), in no
 /// particular order. An exception of work is thrown on after the rest have ended.
 void for_each_world(int count, int threads, const std::function<void(int)>& work);
+
+/// Replicates are added in rounds until the half width of a metric's 95 % confidence interval is at
+/// most this. A decision after m replicates looks at replicates 0 .. m-1 of its setting and at
+/// nothing else.
+struct StoppingRule {
+  std::string metric;
+  double half_width = 0;  ///< in the metric's unit
+  int min = 0, max = 0;   ///< replicates
+  int round = 0;          ///< replicates between decisions
+};
+
+/// One combination of the axes' values.
+struct Setting {
+  std::string label;               ///< "count=15, p=p_e", for legends
+  std::vector<std::string> texts;  ///< the axes' values as in table.csv: "0.3", "p_e"
+  std::vector<double> values;      ///< the same in SI units; of words and overlays the position
+  double duration = 0;             ///< s
+  std::uint64_t identity = 0;      ///< of the resolved scenario, with run.seed = 0
+};
+
+/// All that decides what is run and how the table looks. It is stored as study.toml.
+struct StudyPlan {
+  std::string name;
+  std::vector<std::string> scenarios, sets;  ///< where it came from, for the reader
+  std::uint64_t seed = 1;
+  int replicates = 0;                ///< of each setting; with a stopping rule the most
+  std::optional<StoppingRule> stop;  ///< without one the number is fixed
+  std::vector<std::string> axes;     ///< names: dotted paths, or those of overlay axes
+  std::vector<Setting> settings;     ///< the last axis changes fastest
+
+  /// s, the longest duration.
+  double horizon() const;
+  /// Equal for studies that do the same runs, up to how many replicates of each.
+  std::uint64_t identity() const;
+  /// Of a replicate, the same for all settings (common random numbers). Below 2^59, so that
+  /// `lilytank run --seed` takes it.
+  std::uint64_t seed_of(int replicate) const;
+  /// 16 hex digits: a function of the setting's identity and the seed.
+  std::string id_of(int setting, int replicate) const;
+};
+
+/// A study that can be run: its plan, and where the scenarios come from.
+class Study {
+ public:
+  /// Reads a study file; `sets` ("path=value") are laid over every setting. Every setting is built
+  /// once, so mistakes come to light here. Throws InputError.
+  explicit Study(const std::string& file, const std::vector<std::string>& sets = {});
+  ~Study();
+  Study(Study&&) noexcept;
+  const StudyPlan& plan() const;
+  /// Builds a setting's scenario anew, with run.seed = 0. Throws InputError if files have changed
+  /// since the study was read.
+  Scenario scenario(int setting) const;
+
+ private:
+  struct Source;
+  std::unique_ptr<const Source> source_;
+};
+
+/// A part of a study: runs whose id leaves `index` when divided by `count`.
+struct Shard {
+  int index = 0;  ///< from 0; the user's "1/5" is 0
+  int count = 1;
+  std::string origin;  ///< what it was taken from: "--shard", "SLURM_ARRAY_TASK_ID"
+  bool holds(const std::string& id) const;
+};
+/// "2/5". Throws InputError.
+Shard shard_from(const std::string& text);
+/// Of a Slurm job array, an MPI launcher or srun, or the whole. `variable` looks up the
+/// environment, null where there is none. Throws InputError if what it finds makes no sense.
+Shard shard_of_environment(const std::function<const char*(const char*)>& variable);
+
+struct StudyProgress {
+  double done = 0;               ///< share of the simulated time that is to be done now
+  int runs = 0, failed = 0;      ///< of this call
+  int left = 0;                  ///< runs that are to be done now
+  double worlds_per_second = 0;  ///< of wall time, in this call
+  double hours_per_second = 0;   ///< simulated h per s of wall time
+};
+
+struct StudyOptions {
+  std::string out;  ///< directory, made if absent
+  Shard shard;
+  int threads = 0;                          ///< 0: one a core
+  bool force = false;                       ///< replace another study's files
+  const std::atomic<bool>* stop = nullptr;  ///< set by a signal: running worlds are abandoned
+  std::function<void(const StudyProgress&)> progress;  ///< called by one thread at a time
+};
+
+struct StudyResult {
+  bool stopped = false;   ///< by the signal
+  bool complete = false;  ///< all runs of all shards are there
+  bool waiting = false;  ///< the stopping rule needs other shards' rows before more can be run here
+  int runs = 0;          ///< of this call
+  int failed = 0;        ///< diverged, of all runs in the directory
+};
+
+/// Does what is missing of a study, or of a shard of it. Throws InputError if `out` holds another
+/// study or a world cannot be set up.
+StudyResult run_study(const Study& study, const StudyOptions& options);
+
+/// What a study's directory holds.
+struct StoredStudy {
+  StudyPlan plan;
+  /// The runs that there are. A setting's replicates beyond those that the stopping rule asks for
+  /// are left out.
+  StudyTable table;
+  struct Count {
+    int done = 0, failed = 0;
+    int wanted = 0;        ///< replicates, as far as is known
+    bool decided = false;  ///< the stopping rule has spoken; always for fixed numbers
+  };
+  std::vector<Count> counts;  ///< one a setting
+  bool complete = false;
+};
+/// Throws InputError if the directory holds no study or its files are damaged.
+StoredStudy load_study(const std::string& dir);
+
+/// table.csv: one row a run, sorted by setting and replicate. Nothing in it depends on the clock,
+/// the machine, threads, shards or order.
+std::string table_text(const StoredStudy& study);
+/// Writes table.csv into the directory.
+void write_table(const StoredStudy& study, const std::string& dir);
+
+/// Whether `name` is a metric: copies, full_yield, assembly_rate, time_1, time_2, ...
+bool is_metric(const std::string& name);
+/// "1", "s", "1/s".
+std::string metric_unit(const std::string& name);
+/// A metric of one setting's finished runs with its 95 % interval, as in SettingSummary: copies
+/// standing at the end, full_yield, assembly_rate (1/s), and time_k, the restricted mean time to
+/// the k-th copy (s).
+Estimate metric_estimate(const std::string& name, const std::vector<const RunRow*>& runs,
+                         double duration);
+
+/// What a batch script for Slurm is made from.
+struct SlurmJob {
+  std::string program, study;     ///< paths
+  std::vector<std::string> sets;  ///< as given to --set
+  std::string name, out;
+  int shards = 1, cpus = 8;
+  std::string time = "04:00:00";  ///< Slurm's form, of one task
+};
+/// A script for sbatch: an array with one shard a task, taken up again after a time limit, and how
+/// to submit it and the merging after it.
+std::string slurm_script(const SlurmJob& job);
 
 }  // namespace lilytank

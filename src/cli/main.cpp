@@ -12,6 +12,9 @@ namespace {
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> all{
       {"run", "simulate one tank", run_verb},
+      {"study",
+       "simulate many: settings, replicates, shards on many machines; statistics and plots",
+       study_verb},
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},

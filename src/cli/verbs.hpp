@@ -27,5 +27,6 @@ int run_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
+int study_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -1,0 +1,28 @@
+// What `lilytank study` and its further words share.
+#pragma once
+#include <string>
+
+#include "cli/options.hpp"
+#include "lilytank/study.hpp"
+
+namespace lilytank::cli {
+
+/// The one positional argument; refuses none or several.
+std::string only_argument(const VerbOptions& options, const std::string& what);
+/// --out, or out/<name of the study>.
+std::string study_directory(const VerbOptions& options, const std::string& name);
+/// The directory that a word means: itself, or where the study of a study file goes.
+std::string directory_meant(const VerbOptions& options, const std::string& word);
+
+/// Writes the statistics and, where there is a renderer, the plots beside them; returns the
+/// statistics as text.
+std::string report(const StoredStudy& study, const std::string& dir);
+/// "3 settings, 12 of 30 runs, 1 diverged".
+std::string counts_text(const StoredStudy& study);
+
+int study_merge(const Arguments& arguments);
+int study_status(const Arguments& arguments);
+int study_report(const Arguments& arguments);
+int study_slurm(const Arguments& arguments);
+
+}  // namespace lilytank::cli

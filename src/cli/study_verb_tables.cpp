@@ -1,0 +1,121 @@
+// What is there of a study: merge, status, report.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/study_verb.hpp"
+#include "lilytank/study_summary.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kWhich = "which study? write the directory of its results, or its STUDY.toml";
+
+/// The directory's study; nothing if only the help was asked for.
+std::optional<std::string> directory_asked(VerbOptions& options, const Arguments& arguments) {
+  options.add()("out",
+                "directory of the results, where a STUDY.toml is given and it is not "
+                "out/<name>",
+                cxxopts::value<std::string>(), "DIR");
+  if (!options.parse(arguments)) return std::nullopt;
+  return directory_meant(options, only_argument(options, kWhich));
+}
+
+/// Says what is missing on stderr; the exit code.
+int completeness(const StoredStudy& study, const std::string& done) {
+  int failed = 0;
+  for (const StoredStudy::Count& count : study.counts) failed += count.failed;
+  std::cerr << done << ": " << counts_text(study) << "\n";
+  if (!study.complete) {
+    std::cerr << "the study is not complete: run it or its shards again, then this\n";
+    return Exit::stopped;
+  }
+  return failed > 0 ? Exit::diverged : Exit::done;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string directory_meant(const VerbOptions& options, const std::string& word) {
+  std::error_code ignored;
+  if (fs::is_directory(word, ignored)) return word;
+  if (!fs::exists(word, ignored)) {
+    options.refuse("'" + word + "' is neither a directory nor a study file");
+  }
+  return study_directory(options, Study(word).plan().name);
+}
+
+std::string counts_text(const StoredStudy& study) {
+  std::int64_t done = 0, wanted = 0, failed = 0;
+  bool decided = true;
+  for (const StoredStudy::Count& count : study.counts) {
+    done += count.done, wanted += count.wanted, failed += count.failed;
+    decided = decided && count.decided;
+  }
+  const std::size_t n = study.counts.size();
+  return std::to_string(n) + (n == 1 ? " setting, " : " settings, ") + std::to_string(done) +
+         " of " + (decided ? "" : "at least ") + std::to_string(wanted) + " runs, " +
+         std::to_string(failed) + " diverged";
+}
+
+std::string report(const StoredStudy& study, const std::string& dir) {
+#ifdef LILYTANK_HAS_RENDER
+  report_study(study.table, dir);
+#else
+  write_study_summary(summarise(study.table), dir);
+  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  return study_text(summarise(study.table));
+}
+
+int study_merge(const Arguments& arguments) {
+  VerbOptions options("study merge", "DIR",
+                      "Makes table.csv, one row a run, from what all shards have done.");
+  const auto dir = directory_asked(options, arguments);
+  if (!dir) return Exit::done;
+  const StoredStudy study = load_study(*dir);
+  write_table(study, *dir);
+  return completeness(study, (fs::path(*dir) / "table.csv").string());
+}
+
+int study_report(const Arguments& arguments) {
+  VerbOptions options("study report", "DIR",
+                      "Writes a study's statistics and plots beside its runs, and prints the "
+                      "statistics.");
+  const auto dir = directory_asked(options, arguments);
+  if (!dir) return Exit::done;
+  const StoredStudy study = load_study(*dir);
+  std::cout << report(study, *dir) << std::flush;
+  return completeness(study, "results in " + *dir);
+}
+
+int study_status(const Arguments& arguments) {
+  VerbOptions options("study status", "DIR", "Tells what is done, missing and diverged.");
+  const auto dir = directory_asked(options, arguments);
+  if (!dir) return Exit::done;
+  const StoredStudy study = load_study(*dir);
+  std::size_t width = 8;
+  for (const Setting& setting : study.plan.settings) width = std::max(width, setting.label.size());
+  std::cout << padded("setting", width) << "  done  missing  diverged\n";
+  for (std::size_t s = 0; s < study.counts.size(); ++s) {
+    const StoredStudy::Count& count = study.counts[s];
+    const std::string missing =
+        std::to_string(count.wanted - count.done) + (count.decided ? "" : " or more");
+    std::cout << padded(study.plan.settings[s].label, width) << "  "
+              << padded(std::to_string(count.done), 6) << padded(missing, 9) << count.failed
+              << "\n";
+  }
+  std::cout << counts_text(study) << (study.complete ? ": complete\n" : "\n");
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

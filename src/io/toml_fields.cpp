@@ -1,0 +1,103 @@
+#include "io/toml_fields.hpp"
+
+#include <algorithm>
+
+#include "io/scenario_values.hpp"
+
+namespace lilytank {
+
+TomlFields::TomlFields(const toml::table& table, std::string path, std::string file,
+                       const std::vector<std::string>& names)
+    : table_(&table), path_(std::move(path)), file_(std::move(file)) {
+  check_names(names);
+}
+
+// toml++ keeps keys sorted by name; the message should be about the first in the file.
+void TomlFields::check_names(const std::vector<std::string>& names) const {
+  const toml::key* first = nullptr;
+  for (const auto& [key, node] : *table_) {
+    if (std::find(names.begin(), names.end(), key.str()) != names.end()) continue;
+    const bool earlier = first == nullptr || key.source().begin < first->source().begin;
+    if (earlier) first = &key;
+  }
+  if (first == nullptr) return;
+  const std::string name(first->str());
+  std::string help = did_you_mean(name, names);
+  if (help.empty()) {
+    for (const std::string& known : names) help += (help.empty() ? " - there are " : ", ") + known;
+  }
+  throw InputError(place_of(first->source(), file_), "unknown key '" + path(name) + "'" + help);
+}
+
+SourcePlace TomlFields::place(const std::string& name) const {
+  const toml::node* found = node(name);
+  return found == nullptr ? place() : place_of(found->source(), file_);
+}
+
+std::string TomlFields::path(const std::string& name) const {
+  return path_.empty() ? name : path_ + "." + name;
+}
+
+Assignment TomlFields::assignment(const std::string& name) const {
+  return {{name}, {place(name)}, value_of(*node(name)), place(name), "", ""};
+}
+
+std::string TomlFields::text(const std::string& name) const {
+  return text_of(assignment(name), path(name));
+}
+
+std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::int64_t high) const {
+  const toml::node& value = *node(name);
+  if (!value.is_integer()) {
+    refuse(name, path(name) + " is a whole number, not " + kind_of(value_of(value)));
+  }
+  const std::int64_t number = value.as_integer()->get();
+  if (number >= low && number <= high) return number;
+  refuse(name, path(name) + " = " + std::to_string(number) + " is outside " + std::to_string(low) +
+                   " .. " + std::to_string(high));
+}
+
+double TomlFields::number(const std::string& name, const std::string& unit) const {
+  return number_of(assignment(name), path(name), unit);
+}
+
+std::vector<std::pair<std::string, SourcePlace>> TomlFields::texts(const std::string& name) const {
+  std::vector<std::pair<std::string, SourcePlace>> out;
+  const auto one = [&](const toml::node& value) {
+    const auto* text = value.as_string();
+    const SourcePlace where = place_of(value.source(), file_);
+    if (text == nullptr || text->get().empty()) {
+      throw InputError(where, path(name) + " is text in quotes, or a list of texts");
+    }
+    out.emplace_back(text->get(), where);
+  };
+  if (const toml::array* list = node(name)->as_array()) {
+    for (const toml::node& value : *list) one(value);
+    if (out.empty()) refuse(name, path(name) + " is empty");
+  } else {
+    one(*node(name));
+  }
+  return out;
+}
+
+std::vector<const toml::table*> TomlFields::tables(const std::string& name) const {
+  std::vector<const toml::table*> out;
+  if (!has(name)) return out;
+  const toml::array* list = node(name)->as_array();
+  const auto is_table = [](const toml::node& item) { return item.is_table(); };
+  if (list == nullptr || !std::all_of(list->begin(), list->end(), is_table)) {
+    refuse(name, path(name) + " is a list of tables, each under its own line [[" + name + "]]");
+  }
+  for (const toml::node& item : *list) out.push_back(item.as_table());
+  return out;
+}
+
+void TomlFields::refuse(const std::string& name, const std::string& message) const {
+  throw InputError(place(name), message);
+}
+
+void TomlFields::need(const std::string& name, const std::string& why) const {
+  if (!has(name)) throw InputError(place(), path(name) + " is missing: " + why);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,62 @@
+#include "study/ledger.hpp"
+
+#include <algorithm>
+
+namespace lilytank {
+
+Ledger::Ledger(const StudyPlan& plan) : plan_(&plan), rows_(plan.settings.size()) {}
+
+void Ledger::add(RunRow row) {
+  auto& rows = rows_[static_cast<std::size_t>(row.setting)];
+  const auto at = static_cast<std::size_t>(row.replicate);
+  if (rows.size() <= at) rows.resize(at + 1);
+  if (!rows[at]) rows[at] = std::make_unique<RunRow>(std::move(row));
+}
+
+Wanted Ledger::wanted(int setting) const {
+  if (!plan_->stop) return {plan_->replicates, true};
+  std::vector<const RunRow*> rows;
+  for (const auto& row : rows_[static_cast<std::size_t>(setting)]) rows.push_back(row.get());
+  return wanted_replicates(*plan_, setting, rows);
+}
+
+std::vector<RunPlace> Ledger::missing() const {
+  std::vector<RunPlace> places;
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const auto n = static_cast<std::size_t>(wanted(static_cast<int>(s)).replicates);
+    for (std::size_t r = 0; r < n; ++r) {
+      const bool there = r < rows_[s].size() && rows_[s][r];
+      if (!there) places.push_back({static_cast<int>(s), static_cast<int>(r)});
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const RunPlace& a, const RunPlace& b) { return a.replicate < b.replicate; });
+  return places;
+}
+
+bool Ledger::complete() const {
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    if (!wanted(static_cast<int>(s)).decided) return false;
+  }
+  return missing().empty();
+}
+
+std::vector<const RunRow*> Ledger::wanted_rows() const {
+  std::vector<const RunRow*> out;
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const auto n = static_cast<std::size_t>(wanted(static_cast<int>(s)).replicates);
+    for (std::size_t r = 0; r < std::min(n, rows_[s].size()); ++r) {
+      if (rows_[s][r]) out.push_back(rows_[s][r].get());
+    }
+  }
+  return out;
+}
+
+int Ledger::failed() const {
+  const auto rows = wanted_rows();
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RunRow* row) {
+    return row->status == RunStatus::diverged;
+  }));
+}
+
+}  // namespace lilytank

@@ -1,0 +1,150 @@
+// The job behind `lilytank study`: what is missing, round by round, over threads.
+#include <algorithm>
+#include <chrono>
+
+#include "study/ledger.hpp"
+#include "study/row_text.hpp"
+#include "study/run_world.hpp"
+#include "study/study_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kBetweenTellings = 0.2;  // s of wall time
+
+/// Adds up what all threads do. Wall time is for people; no result depends on it.
+class Meter {
+ public:
+  Meter(const StudyPlan& plan, const StudyOptions& options) : plan_(&plan), options_(&options) {}
+
+  /// A further round with these runs begins.
+  void expect(const std::vector<RunPlace>& runs) {
+    const std::lock_guard hold(lock_);
+    for (const RunPlace& run : runs) {
+      expected_ += plan_->settings[static_cast<std::size_t>(run.setting)].duration;
+    }
+    now_.left += static_cast<int>(runs.size());
+  }
+
+  void simulated(double seconds) {
+    const std::lock_guard hold(lock_);
+    simulated_ += seconds;
+    tell();
+  }
+
+  void finished(const RunRow& row) {
+    const std::lock_guard hold(lock_);
+    ++now_.runs, --now_.left;
+    if (row.status != RunStatus::diverged) return;
+    ++now_.failed;
+    // What a world that was given up would still have had to do.
+    expected_ -= plan_->settings[static_cast<std::size_t>(row.setting)].duration - row.duration;
+  }
+
+  int runs() const { return now_.runs; }
+
+ private:
+  void tell() {
+    if (!options_->progress) return;
+    const double t = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (t - told_ < kBetweenTellings) return;
+    told_ = t;
+    now_.done = expected_ > 0 ? std::min(1.0, simulated_ / expected_) : 1;
+    now_.worlds_per_second = now_.runs / t;
+    now_.hours_per_second = simulated_ / 3600 / t;
+    options_->progress(now_);
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const StudyPlan* plan_;
+  const StudyOptions* options_;
+  std::mutex lock_;
+  StudyProgress now_;
+  double simulated_ = 0, expected_ = 0, told_ = 0;
+  Clock::time_point start_ = Clock::now();
+};
+
+class Job {
+ public:
+  Job(const Study& study, const StudyOptions& options)
+      : study_(&study),
+        options_(&options),
+        plan_(&study.plan()),
+        ledger_(*plan_),
+        writer_(options.out),
+        meter_(*plan_, options) {}
+
+  StudyResult run() {
+    open_study_directory(options_->out, *plan_, options_->force);
+    read();
+    for (;;) {
+      const std::vector<RunPlace> ours = missing_here();
+      if (ours.empty() || stopped()) break;
+      round(ours);
+      if (plan_->stop && options_->shard.count > 1) read();  // what others did meanwhile
+    }
+    StudyResult result;
+    result.complete = ledger_.complete();
+    result.stopped = stopped() && !missing_here().empty();
+    result.waiting = !result.stopped && !decided();
+    result.runs = meter_.runs();
+    result.failed = ledger_.failed();
+    return result;
+  }
+
+ private:
+  bool stopped() const {
+    return options_->stop != nullptr && options_->stop->load(std::memory_order_relaxed);
+  }
+
+  bool decided() const {
+    for (std::size_t s = 0; s < plan_->settings.size(); ++s) {
+      if (!ledger_.wanted(static_cast<int>(s)).decided) return false;
+    }
+    return true;
+  }
+
+  void read() {
+    std::string foreign;
+    for (RunRow& row : read_rows(options_->out, *plan_, foreign)) ledger_.add(std::move(row));
+  }
+
+  std::vector<RunPlace> missing_here() const {
+    std::vector<RunPlace> runs = ledger_.missing();
+    std::erase_if(runs, [&](const RunPlace& run) {
+      return !options_->shard.holds(plan_->id_of(run.setting, run.replicate));
+    });
+    return runs;
+  }
+
+  void round(const std::vector<RunPlace>& runs) {
+    meter_.expect(runs);
+    std::vector<std::optional<RunRow>> rows(runs.size());
+    for_each_world(static_cast<int>(runs.size()), options_->threads, [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      rows[at] = run_world(*study_, runs[at].setting, runs[at].replicate, options_->stop,
+                           [&](double seconds) { meter_.simulated(seconds); });
+      if (!rows[at]) return;
+      writer_.write(row_line(*rows[at], *plan_));
+      meter_.finished(*rows[at]);
+    });
+    for (auto& row : rows) {
+      if (row) ledger_.add(std::move(*row));
+    }
+  }
+
+  const Study* study_;
+  const StudyOptions* options_;
+  const StudyPlan* plan_;
+  Ledger ledger_;
+  RowWriter writer_;
+  Meter meter_;
+};
+
+}  // namespace
+
+StudyResult run_study(const Study& study, const StudyOptions& options) {
+  return Job(study, options).run();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,92 @@
+// A study's directory as one table.
+#include <algorithm>
+#include <filesystem>
+
+#include "analysis/study_rows.hpp"
+#include "io/atomic_file.hpp"
+#include "io/study_record.hpp"
+#include "study/ledger.hpp"
+#include "study/row_text.hpp"
+#include "study/study_directory.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + '"';
+}
+
+std::size_t most_copies(const StudyTable& table) {
+  std::size_t most = 0;
+  for (const RunRow& row : table.rows) {
+    most = std::max({most, static_cast<std::size_t>(row.possible), row.completion.size()});
+  }
+  return most;
+}
+
+std::string table_line(const RunRow& row, const StudyPlan& plan, std::size_t times) {
+  const Setting& setting = plan.settings[static_cast<std::size_t>(row.setting)];
+  std::string out = std::to_string(row.setting) + "," + std::to_string(row.replicate) + "," +
+                    row.id + "," + std::to_string(row.seed) + "," + status_word(row.status);
+  for (const std::string& text : setting.texts) out += "," + csv_cell(text);
+  out += "," + without_rounding(row.duration) + "," + std::to_string(row.possible) + "," +
+         std::to_string(row.copies) + (reached_all(row) ? ",1," : ",0,") +
+         std::to_string(row.illegal);
+  for (std::size_t k = 0; k < times; ++k) {
+    out += "," + (k < row.completion.size() ? without_rounding(row.completion[k]) : "");
+  }
+  return out + "," + csv_cell(row.note) + "\n";
+}
+
+}  // namespace
+
+StoredStudy load_study(const std::string& dir) {
+  namespace fs = std::filesystem;
+  const std::string file = (fs::path(dir) / study_file::plan).string();
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    throw InputError("'" + dir + "' is not the directory of a study: it has no study.toml");
+  }
+  StoredStudy out;
+  out.plan = read_plan(file);
+  Ledger ledger(out.plan);
+  std::string foreign;
+  for (RunRow& row : read_rows(dir, out.plan, foreign)) ledger.add(std::move(row));
+  if (!foreign.empty()) throw InputError("'" + foreign + "' holds rows of another study");
+  out.table = {out.plan.name, out.plan.axes, {}, out.plan.horizon(), {}};
+  for (std::size_t s = 0; s < out.plan.settings.size(); ++s) {
+    const Wanted wanted = ledger.wanted(static_cast<int>(s));
+    out.table.labels.push_back(out.plan.settings[s].label);
+    out.counts.push_back({0, 0, wanted.replicates, wanted.decided});
+  }
+  for (const RunRow* row : ledger.wanted_rows()) {
+    StoredStudy::Count& count = out.counts[static_cast<std::size_t>(row->setting)];
+    ++count.done;
+    if (row->status == RunStatus::diverged) ++count.failed;
+    out.table.rows.push_back(*row);
+  }
+  out.complete = ledger.complete();
+  return out;
+}
+
+std::string table_text(const StoredStudy& study) {
+  const std::size_t times = most_copies(study.table);
+  std::string out = "setting,replicate,id,seed,status";
+  for (const std::string& axis : study.table.axes) out += "," + csv_cell(axis);
+  out += ",duration_s,possible,copies,full_yield,illegal";
+  for (std::size_t k = 1; k <= times; ++k) out += ",time_" + std::to_string(k) + "_s";
+  out += ",note\n";
+  for (const RunRow& row : study.table.rows) out += table_line(row, study.plan, times);
+  return out;
+}
+
+void write_table(const StoredStudy& study, const std::string& dir) {
+  const std::string file = (std::filesystem::path(dir) / study_file::table).string();
+  write_atomically(file, table_text(study));
+}
+
+}  // namespace lilytank

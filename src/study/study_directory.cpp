@@ -1,0 +1,175 @@
+#include "study/study_directory.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "io/atomic_file.hpp"
+#include "io/study_record.hpp"
+#include "study/row_text.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Rows files, sorted by name.
+std::vector<std::string> rows_files(const std::string& dir) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(dir, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(study_file::rows_prefix) && name.ends_with(".csv")) {
+      files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool same(const RunRow& a, const RunRow& b) {
+  const auto all = [](const RunRow& r) {
+    return std::tie(r.status, r.duration, r.possible, r.copies, r.illegal, r.completion, r.note);
+  };
+  return all(a) == all(b);
+}
+
+std::string file_in(const std::string& dir, const std::string& name) {
+  return (fs::path(dir) / name).string();
+}
+
+/// The study that a directory says to be of, if it says so.
+std::optional<StudyPlan> plan_in(const std::string& dir) {
+  const std::string file = file_in(dir, study_file::plan);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return std::nullopt;
+  return read_plan(file);
+}
+
+void refuse_other(const std::string& dir, const StudyPlan& plan) {
+  const std::string advice = "; choose another --out, or --force to replace it";
+  const auto there = plan_in(dir);
+  if (there && there->identity() != plan.identity()) {
+    throw InputError("'" + dir + "' holds another study ('" + there->name + "', " +
+                     std::to_string(there->settings.size()) +
+                     " settings, other scenarios, axes or seed)" + advice);
+  }
+  std::string foreign;
+  read_rows(dir, plan, foreign);
+  if (!foreign.empty()) throw InputError("'" + foreign + "' holds rows of another study" + advice);
+}
+
+/// Removes what another study left. Shards may do so at once: files of `plan` are spared.
+void remove_other(const std::string& dir, const StudyPlan& plan) {
+  std::error_code ignored;
+  bool other = false;
+  try {
+    const auto there = plan_in(dir);
+    other = there && there->identity() != plan.identity();
+  } catch (const InputError&) {
+    other = true;  // of an older version, or damaged
+  }
+  for (const std::string& file : rows_files(dir)) {
+    bool foreign = false;
+    try {
+      rows_from(read_whole(file), file, plan, foreign);
+    } catch (const InputError&) {
+      foreign = true;
+    }
+    if (foreign) fs::remove(file, ignored);
+  }
+  if (!other) return;
+  fs::remove(file_in(dir, study_file::table), ignored);
+  fs::remove(file_in(dir, study_file::plan), ignored);
+}
+
+/// Several processes may write the same file at once, each under a temporary name of its own.
+void publish(const std::string& file, const std::string& content) {
+  char host[64] = "";
+  ::gethostname(host, sizeof host - 1);
+  const std::string own = file + "." + host + "." + std::to_string(::getpid());
+  write_atomically(own, content);
+  std::error_code problem;
+  fs::rename(own, file, problem);
+  if (problem) throw InputError("cannot write '" + file + "': " + problem.message());
+}
+
+/// A new file with the next free number, that no other process has.
+std::string claim_file(const std::string& dir) {
+  for (std::size_t n = rows_files(dir).size() + 1;; ++n) {
+    std::string number = std::to_string(n);
+    number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
+    const std::string file = file_in(dir, study_file::rows_prefix + number + ".csv");
+    const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (opened >= 0) {
+      ::close(opened);
+      return file;
+    }
+    if (errno != EEXIST) throw InputError(system_problem("cannot write", file, errno));
+  }
+}
+
+}  // namespace
+
+std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std::string& foreign) {
+  std::vector<RunRow> rows;
+  std::map<std::string, std::size_t> known;  // by id
+  for (const std::string& file : rows_files(dir)) {
+    bool other = false;
+    for (RunRow& row : rows_from(read_whole(file), file, plan, other)) {
+      const auto [at, fresh] = known.emplace(row.id, rows.size());
+      if (fresh) {
+        rows.push_back(std::move(row));
+      } else if (!same(rows[at->second], row)) {
+        throw InputError(file + ": run " + row.id + " has another result in another rows file: " +
+                         "were they made by different programs?");
+      }
+    }
+    if (other && foreign.empty()) foreign = file;
+  }
+  return rows;
+}
+
+void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
+  std::error_code problem;
+  if (fs::exists(dir, problem) && !fs::is_directory(dir, problem)) {
+    throw InputError("'" + dir + "' is a file; the results need a directory");
+  }
+  if (force) {
+    remove_other(dir, plan);
+  } else {
+    refuse_other(dir, plan);
+  }
+  fs::create_directories(dir, problem);
+  if (problem) throw InputError("cannot make directory '" + dir + "': " + problem.message());
+  const std::string file = file_in(dir, study_file::plan), text = plan_text(plan);
+  if (!fs::exists(file, problem) || read_whole(file) != text) publish(file, text);
+}
+
+// Rows of all threads that wait for the disk go there together.
+void RowWriter::write(const std::string& line) {
+  {
+    const std::lock_guard hold(waiting_lock_);
+    waiting_ += line;
+  }
+  const std::lock_guard hold(file_lock_);
+  std::string lines;
+  {
+    const std::lock_guard hold_waiting(waiting_lock_);
+    lines.swap(waiting_);
+  }
+  if (lines.empty()) return;  // another thread has taken ours along
+  if (!file_) {
+    file_.emplace(claim_file(dir_), 0);
+    lines.insert(0, row_header());
+  }
+  file_->append(lines);
+  file_->flush();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,47 @@
+// The directory of a study: whose it is, the rows that are there, and new ones.
+//
+// Every process writes a rows file of its own, begun with its first row and never touched by
+// another, so any number of processes, on any machines that share the directory, may come and go. A
+// file is only ever appended to, one line a run.
+#pragma once
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/append_file.hpp"
+#include "lilytank/study.hpp"
+
+namespace lilytank {
+
+namespace study_file {
+inline constexpr const char* plan = "study.toml";
+inline constexpr const char* table = "table.csv";
+inline constexpr const char* rows_prefix = "rows-";  ///< "rows-0001.csv"
+}  // namespace study_file
+
+/// The rows of `plan` in a directory, each run once, in no particular order; none if there is no
+/// directory. Throws InputError if a file is damaged, or if a run has two different results.
+/// `foreign`: the name of a file with rows of another study, or "".
+std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std::string& foreign);
+
+/// Makes the directory and says whose it is. Throws InputError if it is another study's, unless
+/// `force`: then the other study's files are removed.
+void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
+
+/// Writes rows as they come, from any thread.
+class RowWriter {
+ public:
+  explicit RowWriter(std::string dir) : dir_(std::move(dir)) {}
+  /// On the disk on return. Throws InputError if it cannot be written.
+  void write(const std::string& line);
+
+ private:
+  std::string dir_;
+  std::mutex waiting_lock_, file_lock_;
+  std::string waiting_;
+  std::optional<AppendFile> file_;
+};
+
+}  // namespace lilytank
