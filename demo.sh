@@ -16,5 +16,7 @@ options=()
 configure build -DCMAKE_BUILD_TYPE=Release "${options[@]}"
 cmake --build build --target lilytank
 
-build/lilytank run scenarios/chain5.toml --set "run.duration="10 min"  # simulated; with seed 1 all three chains stand after eight minutes
-               --force --video
+build/lilytank run scenarios/chain5.toml --set "run.duration='$duration'" \
+               --set output.rate=10 --set "output.metrics_interval='5 s'" \
+               --out "$out" --force --video
+echo "In $out: video.mp4, yield.png, summary.txt, and the run's data"
