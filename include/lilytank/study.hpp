@@ -107,6 +107,8 @@ struct StudyOptions {
   int threads = 0;                          ///< 0: one a core
   bool force = false;                       ///< replace another study's files
   const std::atomic<bool>* stop = nullptr;  ///< set by a signal: running worlds are abandoned
+  /// Called once everything is checked, with how many runs are to be done now, before any is.
+  std::function<void(int runs)> begin;
   std::function<void(const StudyProgress&)> progress;  ///< called by one thread at a time
 };
 

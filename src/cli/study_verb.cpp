@@ -57,6 +57,11 @@ int dry_run(const StudyPlan& plan, const StudyOptions& job) {
 
 StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) {
   Progress progress(quiet);
+  job.begin = [&](int runs) {
+    if (quiet) return;
+    std::cerr << plan_line(study.plan(), job) << "; " << runs << (runs == 1 ? " run" : " runs")
+              << " to do\n";
+  };
   job.progress = [&](const StudyProgress& now) {
     char note[120];
     std::snprintf(note, sizeof note, "%d runs, %d left, %.3g worlds/s, %.3g simulated h/s%s%s",
@@ -120,7 +125,6 @@ int run_one(const Arguments& arguments) {
   job.force = options.has("force");
   if (options.has("dry-run")) return dry_run(study.plan(), job);
   job.stop = &stop_signal();
-  if (!options.has("quiet")) std::cerr << plan_line(study.plan(), job) << "\n";
   return finish(study.plan(), run_with_progress(study, job, options.has("quiet")), job);
 }
 

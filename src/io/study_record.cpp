@@ -15,6 +15,8 @@ constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 const std::vector<std::string> kHeadNames{"name",       "scenarios", "sets",    "seed",
                                           "replicates", "axes",      "identity"};
 
+const std::string kFirstWords = "# A study's settings and rules, written by lilytank";
+
 std::string quoted_list(const std::vector<std::string>& texts) {
   std::string out;
   for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + toml_quoted(text);
@@ -115,8 +117,13 @@ Setting read_setting(const toml::table& table, const std::string& file, std::siz
 
 }  // namespace
 
+bool is_plan(const std::string& text) {
+  return text.starts_with(kFirstWords);
+}
+
 std::string plan_text(const StudyPlan& plan) {
-  std::string out = "# A study's settings and rules, written by lilytank " LILYTANK_VERSION
+  std::string out = kFirstWords +
+                    " " LILYTANK_VERSION
                     ". Every value of a setting's scenario\n# decides its identity.\n[study]\n";
   out += "name = " + toml_quoted(plan.name) + "\nscenarios = " + quoted_list(plan.scenarios) +
          "\nsets = " + quoted_list(plan.sets) + "\nseed = " + std::to_string(plan.seed) +
@@ -133,7 +140,11 @@ std::string plan_text(const StudyPlan& plan) {
 }
 
 StudyPlan read_plan(const std::string& file) {
-  const toml::table root = parse_toml(read_whole(file), file);
+  const std::string text = read_whole(file);
+  if (!is_plan(text)) {
+    throw InputError("'" + file + "' was not written by a study's run: is it a study file?");
+  }
+  const toml::table root = parse_toml(text, file);
   const TomlFields top(root, "", file, {"study", "stop", "setting"});
   const auto table = [&](const std::string& name) -> const toml::table& {
     const toml::table* found = top.node(name)->as_table();

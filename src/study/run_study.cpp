@@ -77,6 +77,7 @@ class Job {
   StudyResult run() {
     open_study_directory(options_->out, *plan_, options_->force);
     read();
+    if (options_->begin) options_->begin(static_cast<int>(missing_here().size()));
     for (;;) {
       const std::vector<RunPlace> ours = missing_here();
       if (ours.empty() || stopped()) break;

@@ -48,9 +48,9 @@ std::string slurm_script(const SlurmJob& job) {
        command +
        " --threads \"$SLURM_CPUS_PER_TASK\"\n"
        "code=$?\n"
-       "if [ \"$code\" -eq 3 ]; then\n"
-       "  # There is more to do: take this task up again.\n"
-       "  exec scontrol requeue \"${SLURM_ARRAY_JOB_ID}_${SLURM_ARRAY_TASK_ID}\"\n"
+       "if [ \"$code\" -eq 3 ] && [ \"$(squeue -h -j \"$SLURM_JOB_ID\" -o %T)\" = RUNNING ]; then\n"
+       "  # There is more to do, and nobody has cancelled the task: take it up again.\n"
+       "  exec scontrol requeue \"$SLURM_JOB_ID\"\n"
        "fi\n"
        "# 1 says that worlds diverged: their rows are there, and the study goes on.\n"
        "[ \"$code\" -eq 1 ] && code=0\n"

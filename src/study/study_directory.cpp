@@ -64,6 +64,16 @@ void refuse_other(const std::string& dir, const StudyPlan& plan) {
   if (!foreign.empty()) throw InputError("'" + foreign + "' holds rows of another study" + advice);
 }
 
+/// A study file of the user's in the directory is not to be replaced by ours of the same name.
+void spare_study_file(const std::string& dir) {
+  const std::string file = file_in(dir, study_file::plan);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || is_plan(read_whole(file))) return;
+  throw InputError("'" + file +
+                   "' is not of a study's results and would be overwritten; choose "
+                   "another --out");
+}
+
 /// Removes what another study left. Shards may do so at once: files of `plan` are spared.
 void remove_other(const std::string& dir, const StudyPlan& plan) {
   std::error_code ignored;
@@ -140,6 +150,7 @@ void open_study_directory(const std::string& dir, const StudyPlan& plan, bool fo
   if (fs::exists(dir, problem) && !fs::is_directory(dir, problem)) {
     throw InputError("'" + dir + "' is a file; the results need a directory");
   }
+  spare_study_file(dir);
   if (force) {
     remove_other(dir, plan);
   } else {
