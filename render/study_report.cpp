@@ -173,7 +173,11 @@ Plot mean_time_plot(const StudySummary& summary, const std::vector<const Setting
                                   kApart * (static_cast<double>(i) - middle));
     if (!curve.x.empty()) plot.curves.push_back(std::move(curve));
   }
-  plot.y_low = 0, plot.y_high = 1.05 * summary.restricted_to / unit.seconds;
+  double most = 0;
+  for (const Curve& curve : plot.curves) {
+    for (const double high : curve.high) most = std::max(most, high);
+  }
+  plot.y_low = 0, plot.y_high = 1.05 * most;
   return plot;
 }
 
