@@ -8,12 +8,17 @@ set -euo pipefail
 program=$(realpath "$1")
 PATH=$PATH:/usr/sbin:/sbin
 
+fail() {
+  echo "failed: $1"
+  exit 1
+}
+
 skip() {
   echo "skipped: $1"
   exit 77
 }
 
-installed() { command -v slurmctld > /dev/null && command -v slurmd > /dev/null && command -v sbatch > /dev/null; }
+installed() { command -v slurmctld slurmd sbatch | wc -l | grep -qx 3; }
 
 if ! installed; then
   ((EUID == 0)) || skip "Slurm is not installed, and only root can install it"
@@ -23,6 +28,7 @@ if ! installed; then
   installed || skip "Debian's slurm-wlm brought no slurmctld, slurmd and sbatch"
 fi
 ((EUID == 0)) || skip "only root can start a Slurm node"
+grep -q ' /sys/fs/cgroup' /proc/mounts || skip "slurmd needs /sys/fs/cgroup, which is not mounted here"
 
 # The test may itself run within a job of another Slurm.
 for name in $(compgen -e | grep -E '^(SLURM|SBATCH|SRUN|SCANCEL|SQUEUE|OMPI)_' || true); do
@@ -38,9 +44,13 @@ finish() {
   if ((code != 0)); then
     tail -n 20 "$home"/*.log "$home"/work/*.log 2> /dev/null || true
   fi
-  scancel --user root 2> /dev/null || true  # of the node that SLURM_CONF tells of: ours
-  ((${#daemons[@]})) && kill "${daemons[@]}" 2> /dev/null
-  wait 2> /dev/null || true
+  # Jobs first: their helpers would wait for the daemons for ever. SLURM_CONF tells of our node only.
+  timeout 10 scancel --user root 2> /dev/null || true
+  await 30 queue_is_empty > /dev/null || true
+  for daemon in "${daemons[@]}"; do
+    kill "$daemon" 2> /dev/null || true
+    await 10 has_ended "$daemon" > /dev/null || kill -KILL "$daemon" 2> /dev/null || true
+  done
   rm -rf "$home"
   exit "$code"
 }
@@ -48,15 +58,23 @@ export SLURM_CONF=$home/slurm.conf
 trap finish EXIT
 trap 'exit 1' INT TERM
 
+fail_waiting() {
+  echo "waited in vain: $*"
+  return 1
+}
+
 # await SECONDS COMMAND...: until the command succeeds.
 await() {
   local until=$((SECONDS + $1))
   shift
   until "$@"; do
-    ((SECONDS < until)) || { echo "waited in vain: $*"; return 1; }
+    ((SECONDS < until)) || fail_waiting "$@" || return 1
     sleep 0.2
   done
 }
+
+has_ended() { ! kill -0 "$1" 2> /dev/null; }
+queue_is_empty() { [[ -z $(timeout 10 squeue -h 2> /dev/null) ]]; }
 
 # --- one node ---------------------------------------------------------------------------------
 
@@ -107,9 +125,10 @@ CONF
 }
 node_is_idle() { [[ $(sinfo -h -o %T 2> /dev/null) == idle ]]; }
 
-queue_is_empty() { [[ -z $(squeue -h 2> /dev/null) ]]; }
 rows() { cat work/out/"$1"/rows-*.csv 2> /dev/null | grep -vc '^study,' || true; }
 has_rows() { (($(rows "$1") >= $2)); }
+# Whether task $3 of array $2 of a study has set to work.
+at_work() { grep -q 'to do' "work/$1-$2_$3.log" 2> /dev/null; }
 # The number that Slurm gave to task $2 of array $1.
 job_of() { squeue -h -j "${1}_$2" -o %A; }
 state_of() { scontrol show job "$1" | grep -oE 'JobState=[A-Z]+'; }
@@ -172,12 +191,13 @@ await 60 has_rows shards2 2
 scancel "$array"
 await 60 queue_is_empty  # a cancelled task does not take itself up again
 array=$(submit shards2 2)
+await 60 at_work shards2 "$array" 0
 await 60 has_rows shards2 6
 victim=$(job_of "$array" 0)
-scancel --signal=KILL "$victim.0"
+scancel --signal=KILL "$victim.0" || fail "task 0 was too quick to be killed"
 await 120 queue_is_empty
-[[ $(state_of "$victim") == JobState=FAILED ]] || { echo "killed, but $(state_of "$victim")"; exit 1; }
-"$program" study merge work/out/shards2 && { echo "complete in spite of the kill?"; exit 1; }
+[[ $(state_of "$victim") == JobState=FAILED ]] || fail "killed, but $(state_of "$victim")"
+if "$program" study merge work/out/shards2; then fail "complete in spite of the kill?"; fi
 submit shards2 2 > /dev/null
 await 120 queue_is_empty
 "$program" study merge work/out/shards2
@@ -188,11 +208,12 @@ array=$(submit shards5 5)
 # The merging waits for the array, as the script's head says.
 merging=$(grep -oE 'sbatch --dependency=.*' work/shards5.sbatch)
 (cd work && job=$array && eval "$merging" > /dev/null)
-await 60 has_rows shards5 4
+await 60 at_work shards5 "$array" 0
 stopped=$(job_of "$array" 0)
-scancel --signal=TERM "$stopped.0"
-scontrol requeue "$(job_of "$array" 1)"
+scancel --signal=TERM "$stopped.0" || fail "task 0 was too quick to be stopped"
+await 60 at_work shards5 "$array" 1
+scontrol requeue "$(job_of "$array" 1)" || fail "task 1 was too quick to be requeued"
 await 150 queue_is_empty
-scontrol show job "$stopped" | grep -q 'Restarts=1' || { echo "not taken up again"; exit 1; }
-[[ -e work/out/shards5/summary.txt ]] || { echo "the merging job has not reported"; exit 1; }
+scontrol show job "$stopped" | grep -q 'Restarts=1' || fail "task 0 was not taken up again"
+[[ -e work/out/shards5/summary.txt ]] || fail "the merging job has not reported"
 compare shards5
