@@ -81,7 +81,7 @@ queue_is_empty() { [[ -z $(timeout 10 squeue -h 2> /dev/null) ]]; }
 start_slurm() {
   local host port
   host=$(hostname -s)
-  port=$((20000 + $$ % 20000))
+  port=$((10000 + 2 * $$ % 20000))  # others may test at the same time
   mkdir "$home/state" "$home/spool"
   cat > "$SLURM_CONF" << CONF
 ClusterName=lilytank
