@@ -140,6 +140,9 @@ struct StoredStudy {
 };
 /// Throws InputError if the directory holds no study or its files are damaged.
 StoredStudy load_study(const std::string& dir);
+/// The runs of `plan` in a directory, none if there is no directory. Throws InputError if it holds
+/// another study.
+StoredStudy load_study(const std::string& dir, const StudyPlan& plan);
 
 /// table.csv: one row a run, sorted by setting and replicate. Nothing in it depends on the clock,
 /// the machine, threads, shards or order.

@@ -11,9 +11,6 @@ namespace lilytank::cli {
 std::string only_argument(const VerbOptions& options, const std::string& what);
 /// --out, or out/<name of the study>.
 std::string study_directory(const VerbOptions& options, const std::string& name);
-/// The directory that a word means: itself, or where the study of a study file goes.
-std::string directory_meant(const VerbOptions& options, const std::string& word);
-
 /// Writes the statistics and, where there is a renderer, the plots beside them; returns the
 /// statistics as text.
 std::string report(const StoredStudy& study, const std::string& dir);

@@ -16,14 +16,37 @@ namespace fs = std::filesystem;
 
 const std::string kWhich = "which study? write the directory of its results, or its STUDY.toml";
 
-/// The directory's study; nothing if only the help was asked for.
-std::optional<std::string> directory_asked(VerbOptions& options, const Arguments& arguments) {
+struct Asked {
+  std::string dir;
+  StoredStudy study;
+};
+
+/// The study of a directory, or of a study file; nothing if only the help was asked for.
+std::optional<Asked> asked(VerbOptions& options, const Arguments& arguments) {
   options.add()("out",
-                "directory of the results, where a STUDY.toml is given and it is not "
-                "out/<name>",
-                cxxopts::value<std::string>(), "DIR");
+                "directory of the results, where a STUDY.toml is given and it is not out/<name>",
+                cxxopts::value<std::string>(),
+                "DIR")("set", "as for lilytank study, where a STUDY.toml is given",
+                       cxxopts::value<std::vector<std::string>>(), "PATH=VALUE");
   if (!options.parse(arguments)) return std::nullopt;
-  return directory_meant(options, only_argument(options, kWhich));
+  const std::string word = only_argument(options, kWhich);
+  std::error_code ignored;
+  if (fs::is_directory(word, ignored)) return Asked{word, load_study(word)};
+  if (!fs::exists(word, ignored)) {
+    options.refuse("'" + word + "' is neither a directory nor a study file");
+  }
+  const StudyPlan plan = Study(word, options.list("set")).plan();
+  const std::string dir = study_directory(options, plan.name);
+  return Asked{dir, load_study(dir, plan)};
+}
+
+/// The same, where there are runs.
+std::optional<Asked> asked_with_runs(VerbOptions& options, const Arguments& arguments) {
+  auto found = asked(options, arguments);
+  if (found && found->study.table.rows.empty()) {
+    options.refuse("there are no runs in '" + found->dir + "' yet");
+  }
+  return found;
 }
 
 /// Says what is missing on stderr; the exit code.
@@ -44,15 +67,6 @@ std::string padded(std::string text, std::size_t width) {
 }
 
 }  // namespace
-
-std::string directory_meant(const VerbOptions& options, const std::string& word) {
-  std::error_code ignored;
-  if (fs::is_directory(word, ignored)) return word;
-  if (!fs::exists(word, ignored)) {
-    options.refuse("'" + word + "' is neither a directory nor a study file");
-  }
-  return study_directory(options, Study(word).plan().name);
-}
 
 std::string counts_text(const StoredStudy& study) {
   std::int64_t done = 0, wanted = 0, failed = 0;
@@ -80,29 +94,27 @@ std::string report(const StoredStudy& study, const std::string& dir) {
 int study_merge(const Arguments& arguments) {
   VerbOptions options("study merge", "DIR",
                       "Makes table.csv, one row a run, from what all shards have done.");
-  const auto dir = directory_asked(options, arguments);
-  if (!dir) return Exit::done;
-  const StoredStudy study = load_study(*dir);
-  write_table(study, *dir);
-  return completeness(study, (fs::path(*dir) / "table.csv").string());
+  const auto found = asked_with_runs(options, arguments);
+  if (!found) return Exit::done;
+  write_table(found->study, found->dir);
+  return completeness(found->study, (fs::path(found->dir) / "table.csv").string());
 }
 
 int study_report(const Arguments& arguments) {
   VerbOptions options("study report", "DIR",
                       "Writes a study's statistics and plots beside its runs, and prints the "
                       "statistics.");
-  const auto dir = directory_asked(options, arguments);
-  if (!dir) return Exit::done;
-  const StoredStudy study = load_study(*dir);
-  std::cout << report(study, *dir) << std::flush;
-  return completeness(study, "results in " + *dir);
+  const auto found = asked_with_runs(options, arguments);
+  if (!found) return Exit::done;
+  std::cout << report(found->study, found->dir) << std::flush;
+  return completeness(found->study, "results in " + found->dir);
 }
 
 int study_status(const Arguments& arguments) {
   VerbOptions options("study status", "DIR", "Tells what is done, missing and diverged.");
-  const auto dir = directory_asked(options, arguments);
-  if (!dir) return Exit::done;
-  const StoredStudy study = load_study(*dir);
+  const auto found = asked(options, arguments);
+  if (!found) return Exit::done;
+  const StoredStudy& study = found->study;
   std::size_t width = 8;
   for (const Setting& setting : study.plan.settings) width = std::max(width, setting.label.size());
   std::cout << padded("setting", width) << "  done  missing  diverged\n";

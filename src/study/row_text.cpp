@@ -74,12 +74,12 @@ std::string row_header() {
   return std::string(kHeader) + "\n";
 }
 
-std::string row_line(const RunRow& row, const StudyPlan& plan) {
+std::string row_line(const RunRow& row, std::uint64_t of_study) {
   std::string times, text = row.note;
   for (const double t : row.completion) times += (times.empty() ? "" : ";") + without_rounding(t);
   std::replace(text.begin(), text.end(), ',', ';');
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return hex(plan.identity()) + "," + row.id + "," + std::to_string(row.setting) + "," +
+  return hex(of_study) + "," + row.id + "," + std::to_string(row.setting) + "," +
          std::to_string(row.replicate) + "," + std::to_string(row.seed) + "," +
          status_word(row.status) + "," + without_rounding(row.duration) + "," +
          std::to_string(row.possible) + "," + std::to_string(row.copies) + "," +

@@ -70,6 +70,7 @@ class Job {
       : study_(&study),
         options_(&options),
         plan_(&study.plan()),
+        identity_(plan_->identity()),
         ledger_(*plan_),
         writer_(options.out),
         meter_(*plan_, options) {}
@@ -120,24 +121,24 @@ class Job {
 
   void round(const std::vector<RunPlace>& runs) {
     meter_.expect(runs);
-    std::vector<std::optional<RunRow>> rows(runs.size());
     for_each_world(static_cast<int>(runs.size()), options_->threads, [&](int i) {
-      const auto at = static_cast<std::size_t>(i);
-      rows[at] = run_world(*study_, runs[at].setting, runs[at].replicate, options_->stop,
+      const RunPlace& run = runs[static_cast<std::size_t>(i)];
+      auto row = run_world(*study_, run.setting, run.replicate, options_->stop,
                            [&](double seconds) { meter_.simulated(seconds); });
-      if (!rows[at]) return;
-      writer_.write(row_line(*rows[at], *plan_));
-      meter_.finished(*rows[at]);
+      if (!row) return;
+      writer_.write(row_line(*row, identity_));
+      meter_.finished(*row);
+      const std::lock_guard hold(ledger_lock_);
+      ledger_.add(std::move(*row));
     });
-    for (auto& row : rows) {
-      if (row) ledger_.add(std::move(*row));
-    }
   }
 
   const Study* study_;
   const StudyOptions* options_;
   const StudyPlan* plan_;
+  std::uint64_t identity_;
   Ledger ledger_;
+  std::mutex ledger_lock_;
   RowWriter writer_;
   Meter meter_;
 };

@@ -48,12 +48,15 @@ Shard of_array(const Lookup& variable) {
 }
 
 /// The processes of one start. mpirun's own variables come first: within a job its processes see
-/// the numbers of the job's script as well.
+/// the numbers of the job's script as well. A job's script by itself is process 0 of all that the
+/// job might start, but there are no others: without srun, it is not a part.
 Shard of_launcher(const Lookup& variable) {
   constexpr const char* pairs[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
                                       {"SLURM_PROCID", "SLURM_NTASKS"}};
+  const bool script = variable("SLURM_JOB_ID") != nullptr && variable("SLURM_STEP_ID") == nullptr;
   for (const auto& [rank, size] : pairs) {
     if (variable(rank) == nullptr || variable(size) == nullptr) continue;
+    if (script && rank == std::string_view("SLURM_PROCID")) continue;
     return checked(number_of(variable, rank, 0), number_of(variable, size, 1), rank, size);
   }
   return {};

@@ -51,8 +51,12 @@ StoredStudy load_study(const std::string& dir) {
   if (!fs::exists(file, ignored)) {
     throw InputError("'" + dir + "' is not the directory of a study: it has no study.toml");
   }
+  return load_study(dir, read_plan(file));
+}
+
+StoredStudy load_study(const std::string& dir, const StudyPlan& plan) {
   StoredStudy out;
-  out.plan = read_plan(file);
+  out.plan = plan;
   Ledger ledger(out.plan);
   std::string foreign;
   for (RunRow& row : read_rows(dir, out.plan, foreign)) ledger.add(std::move(row));

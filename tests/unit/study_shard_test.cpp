@@ -103,6 +103,13 @@ TEST(StudyShard, MpirunWithinAJobCountsItsOwnProcesses) {
             "6/8");
 }
 
+TEST(StudyShard, AScriptWithoutSrunIsTheWhole) {
+  Variables script{{"SLURM_JOB_ID", "9"}, {"SLURM_PROCID", "0"}, {"SLURM_NTASKS", "3"}};
+  EXPECT_EQ(text(shard_in(script)), "1/1");
+  script["SLURM_STEP_ID"] = "0";  // by srun
+  EXPECT_EQ(text(shard_in(script)), "1/3");
+}
+
 TEST(StudyShard, AnEnvironmentWithoutSenseIsRefused) {
   EXPECT_EQ(refusal({{"SLURM_ARRAY_TASK_ID", "7"}, {"SLURM_ARRAY_TASK_COUNT", "3"}}),
             "the environment's SLURM_ARRAY_TASK_ID is part 8 of SLURM_ARRAY_TASK_COUNT=3; give "

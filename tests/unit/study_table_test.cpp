@@ -100,20 +100,21 @@ TEST_F(StudyTableTest, RowsGoThroughText) {
   row.completion = {0.1, 2.225};
   row.note = "step 139: module 3, force";
   bool foreign = false;
-  const auto back = rows_from(row_header() + row_line(row, plan), "f", plan, foreign);
+  const auto back = rows_from(row_header() + row_line(row, plan.identity()), "f", plan, foreign);
   ASSERT_EQ(back.size(), 1u);
   EXPECT_FALSE(foreign);
   EXPECT_EQ(back[0].status, RunStatus::diverged);
   EXPECT_EQ(back[0].completion, row.completion);
   EXPECT_EQ(back[0].values, row.values);
   EXPECT_EQ(back[0].note, "step 139: module 3; force");
-  EXPECT_EQ(row_line(back[0], plan), row_line(row, plan));
-  std::string damaged = row_header() + row_line(row, plan);
+  EXPECT_EQ(row_line(back[0], plan.identity()), row_line(row, plan.identity()));
+  std::string damaged = row_header() + row_line(row, plan.identity());
   damaged.replace(damaged.find(",1,2,"), 5, ",1,3,");  // the id belongs to another replicate
   EXPECT_THROW(rows_from(damaged, "f", plan, foreign), InputError);
   StudyPlan other = plan;
   other.seed = 77;
-  EXPECT_TRUE(rows_from(row_header() + row_line(row, plan), "f", other, foreign).empty());
+  EXPECT_TRUE(
+      rows_from(row_header() + row_line(row, plan.identity()), "f", other, foreign).empty());
   EXPECT_TRUE(foreign);
 }
 
