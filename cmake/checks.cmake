@@ -12,7 +12,5 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
 set_tests_properties(layers style package PROPERTIES LABELS tree TIMEOUT 300)
 
-# Studies under a real Slurm; skipped where there is none and none can be installed. Alone, so that
-# its worlds are not starved.
-add_test(NAME slurm COMMAND bash ${PROJECT_SOURCE_DIR}/tests/slurm/run.sh $<TARGET_FILE:lilytank>)
-set_tests_properties(slurm PROPERTIES LABELS slurm SKIP_RETURN_CODE 77 TIMEOUT 900 RUN_SERIAL TRUE)
+# tests/slurm/run.sh PROGRAM tries studies under a real Slurm; it is run by hand, as it needs minutes of
+# an otherwise idle machine.
