@@ -1,0 +1,40 @@
+// Tracked motion of bodies in a tank, measured or simulated: the one type that every analysis
+// reads.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// What was tracked. A point is a body of which only the place is known.
+enum class BodyKind : std::uint8_t { lily, ball, point };
+
+/// One body seen without a break of its identity, at frames [first, first + x.size()) of its
+/// recording's clock. A frame in which it was not seen holds NaN in every array; the first and last
+/// do not. Headings are continuous (unwrapped), and empty where none was tracked.
+struct Track {
+  std::int64_t id = 0;        ///< as in the file; tracks that a check cut apart share it
+  int first = 0;              ///< frame
+  std::vector<double> x, y;   ///< m, tank centre at the origin
+  std::vector<double> theta;  ///< rad, counter-clockwise
+  int last() const { return first + static_cast<int>(x.size()) - 1; }
+};
+
+/// Tracks on one even clock: frame f was taken at start + f / rate.
+struct Recording {
+  std::string name;  ///< file or run that it came from
+  BodyKind body = BodyKind::lily;
+  double rate = 30;  ///< frames per second
+  double start = 0;  ///< s
+  int frames = 0;
+  std::vector<Track> tracks;  ///< by id, then first frame
+  bool latches = true;        ///< false: the modules' latches were off
+  bool held_out = false;      ///< kept for testing a fit
+  double time(int frame) const { return start + frame / rate; }
+  bool has_heading() const { return !tracks.empty() && !tracks.front().theta.empty(); }
+};
+
+}  // namespace lilytank
