@@ -71,8 +71,10 @@ layer world world control forces physics text
 layer analysis analysis text
 layer io io analysis text
 layer jobs jobs io analysis text
+layer recording recording io analysis text
+layer flow flow recording io analysis text
 layer study study jobs io analysis text
-layer cli cli study jobs io analysis text
+layer cli cli study jobs recording flow io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 exit "$faults"

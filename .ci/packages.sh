@@ -1,7 +1,7 @@
 # What demo.sh and test.sh need from Debian 12, and how they get it. Sourced by both.
 
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtomlplusplus-dev
-                libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev)
+                libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
 test_packages=(libgtest-dev)
 # Other engines are only measured against, never linked into the simulator.
