@@ -14,6 +14,12 @@ struct FlowSample {
   double mu_x = 0, mu_y = 0, sigma_x = 0, sigma_y = 0;
 };
 
+/// A cell's corner values for bilinear lookup, in FlowSample's order, float32: from its own centre to
+/// those at +x and +y, the field is v[0] + tx v[1] + ty v[2] + tx ty v[3], tx and ty in 0..1.
+struct alignas(64) FlowRow {
+  float v[4][4] = {};
+};
+
 enum class Interpolation { bilinear, nearest };
 
 /// Mean and deviation of the water velocity on cells x cells squares over [-extent, extent]^2.
@@ -38,16 +44,19 @@ class FlowField {
   const std::vector<FlowSample>& samples() const { return samples_; }
   /// Whether cell i came from data (true) or was filled (false).
   const std::vector<bool>& measured() const { return measured_; }
-  /// The samples as float32, four a cell in FlowSample's order: what the drag kernel reads.
-  const std::vector<float>& packed() const { return packed_; }
+  /// Every cell's row, as the cells are stored: what the drag kernel reads. Those of the last row and
+  /// column of cells stay empty.
+  const std::vector<FlowRow>& rows() const { return rows_; }
 
  private:
+  void fill_rows();
+
   int cells_ = 0;
   double extent_ = 0;
   Interpolation interpolation_ = Interpolation::bilinear;
   std::vector<FlowSample> samples_;
   std::vector<bool> measured_;
-  std::vector<float> packed_;
+  std::vector<FlowRow> rows_;
 };
 
 /// Settings of the built-in tank.

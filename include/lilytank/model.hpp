@@ -44,12 +44,20 @@ struct ContactParameters {
   double restitution_speed = 0.01;  ///< m/s, no restitution below
 };
 
-enum class Gusts { per_point, per_module };
+/// Gusts on a module's faces.
+enum class Gusts {
+  per_point,       ///< each drag point has its own [authors' simulation]
+  per_module,      ///< one for the whole module [paper, Eq. 4 read literally]
+  moment_matched,  ///< as per_point, but the wrench is drawn as a normal with its mean and covariance
+};
+/// Where the water is read for the drag on a module.
+enum class FlowAt { points, centre };
 enum class Clock { firmware, events };
 
 struct FlowParameters {
   double K_v = 1.365;  ///< factor on mean and deviation [Eq. 4]
   Gusts gusts = Gusts::per_point;
+  FlowAt at = FlowAt::points;
   double rho = 1000;  ///< kg/m^3
 };
 

@@ -14,16 +14,14 @@ constexpr Parameter kParameters[] = {
     {"segments", "1", 10, 1, kMostSegments, "segments of a face, N of Eq. 5", true},
 };
 
-// The gusts at a module's drag points: each point its own, or one for the whole module.
-void draw_gusts(const Model& model, const Moment& now, int body, PointGusts& gusts) {
-  const Draw draw{now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(body), 0};
-  if (now.gusts && model.flow.gusts == Gusts::per_point) {
-    bulk_normals(draw, false, gusts.x, gusts.y);
-    return;
-  }
-  const auto z = now.gusts ? normal_pair(draw) : std::array<double, 2>{};
-  std::fill_n(gusts.x, kDragPoints, static_cast<float>(z[0]));
-  std::fill_n(gusts.y, kDragPoints, static_cast<float>(z[1]));
+// Bodies [first, first + count) as the kernel takes them; lanes beyond stay at rest in the centre.
+void load_block(const Kinematics& k, int first, int count, bool shadowing, DragBlock& block) {
+  const auto load = [&](std::span<const double> from, float* to) {
+    for (int i = 0; i < count; ++i) to[i] = static_cast<float>(from[first + i]);
+  };
+  load(k.x, block.x), load(k.y, block.y), load(k.c, block.c), load(k.s, block.s);
+  load(k.vx, block.vx), load(k.vy, block.vy), load(k.omega, block.omega);
+  if (shadowing) std::copy_n(&k.covered[first], count, block.covered);
 }
 
 class FaceDrag final : public ForceTerm {
@@ -42,27 +40,29 @@ class FaceDrag final : public ForceTerm {
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     const int segments = static_cast<int>(p[1]);
-    const DragPoints points(segments, model.module.side);
-    const FlowField& field = *model.field;
-    const WaterView water{field.packed().data(),
-                          field.cells(),
-                          static_cast<float>(field.extent()),
-                          static_cast<float>(field.cells() / (2 * field.extent())),
-                          field.interpolation() == Interpolation::nearest,
-                          static_cast<float>(model.flow.K_v)};
+    DragSettings settings{model.field.get(),
+                          model.flow.gusts,
+                          now.gusts,
+                          model.flow.at,
+                          segments,
+                          static_cast<float>(0.5 * model.module.side),
+                          static_cast<float>(model.flow.K_v),
+                          {now.seed, Stream::gust, now.gust, 0, 0}};
     const double scale =
         p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
-    PointGusts gusts;
-    for (int i = 0; i < k.modules; ++i) {
-      draw_gusts(model, now, i, gusts);
-      const auto f = [](double x) { return static_cast<float>(x); };
-      const BodyView body{f(k.x[i]),  f(k.y[i]),  f(k.c[i]),    f(k.s[i]),
-                          f(k.vx[i]), f(k.vy[i]), f(k.omega[i])};
-      const unsigned covered = model.module.shadowing ? k.covered[i] : 0u;
-      const Wrench sum = face_drag_sum(points, water, body, covered, gusts);
-      out[i].fx += scale * sum.fx;
-      out[i].fy += scale * sum.fy;
-      out[i].torque += scale * sum.torque;
+    for (int first = 0; first < k.modules; first += kBulkBodies) {
+      const int count = std::min(kBulkBodies, k.modules - first);
+      DragBlock block{};
+      DragSums sums;
+      load_block(k, first, count, model.module.shadowing, block);
+      settings.draw.body = static_cast<std::uint32_t>(first);
+      face_drag_sums(settings, block, sums);
+      for (int i = 0; i < count; ++i) {
+        Wrench& w = out[first + i];
+        w.fx += scale * static_cast<double>(sums.fx[i]);
+        w.fy += scale * static_cast<double>(sums.fy[i]);
+        w.torque += scale * static_cast<double>(sums.torque[i]);
+      }
     }
   }
 };

@@ -1,113 +1,148 @@
 #include "face_drag_kernel.hpp"
 
-#include <algorithm>
+#include <cmath>
 
-// Compiled once for each instruction set, as bulk_normals.cpp is, with the same bits from each.
+// Compiled once for each instruction set, as bulk_normals.cpp is, with the same bits from each. A
+// lane is a module, so nothing is ever summed across lanes.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "forces/face_drag_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "face_frame_inl.hpp"
+#include "face_moments_inl.hpp"
+#include "flow_lookup_inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, 16>;
-using Four = hn::CappedTag<float, 4>;
-using Float = hn::Vec<Floats>;
-using Whole = hn::RebindToSigned<Floats>;
-
-struct Lanes {
-  alignas(64) float v[kDragPoints];
-};
-
-// Cell and place within it of some points.
-HWY_INLINE void locate(const WaterView& water, Float x, Float y, std::int32_t* cell, float* tx,
-                       float* ty) {
+// Gusts per drag point.
+template <FlowAt kAt>
+HWY_INLINE FaceSum point_face(const Task& task, const FaceFrame& f, int face) {
   const Floats d;
-  const Whole w;
-  const Float last = hn::Set(d, static_cast<float>(water.cells - 1));
-  const Float most = hn::Set(d, static_cast<float>(water.cells - 2));
-  const Float extent = hn::Set(d, water.extent), per = hn::Set(d, water.per_metre);
-  const Float half = hn::Set(d, 0.5f);
-  Float gx = hn::Sub(hn::Mul(hn::Add(x, extent), per), half);
-  Float gy = hn::Sub(hn::Mul(hn::Add(y, extent), per), half);
-  gx = hn::Min(hn::Max(gx, hn::Zero(d)), last), gy = hn::Min(hn::Max(gy, hn::Zero(d)), last);
-  if (water.nearest) {
-    gx = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gx, half)));
-    gy = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gy, half)));
+  const int segments = task.settings.segments;
+  FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  Float spread = hn::Zero(d);
+  Water water[kMostSegments];
+  water_along<kAt>(task, f, task.places, segments, water);
+  for (int k = 0; k < segments; ++k) {
+    const Water& u = water[k];
+    const Gust gust = gust_of(u, f);
+    const Float z = task.number(face * segments + k), at = hn::Set(d, task.places[k]);
+    const Float un = hn::Add(f.along_n(u.mu_x, u.mu_y), hn::Mul(gust.deviation, z));
+    const Float ut = hn::Add(f.along_t(u.mu_x, u.mu_y), hn::Mul(gust.slant, z));
+    const Float against = hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, un));
+    const Float a = hn::Max(against, hn::Zero(d));
+    const Float square = hn::Mul(a, a), rest = hn::Mul(a, gust.rest);
+    sum.n = hn::Sub(sum.n, square);
+    sum.moment = hn::Sub(sum.moment, hn::Mul(at, square));
+    sum.t = hn::Add(sum.t, hn::Mul(a, hn::Sub(hn::Mul(task.K_v, ut), f.vt)));
+    spread = hn::Add(spread, hn::Mul(rest, rest));
   }
-  const auto ix = hn::ConvertTo(w, hn::Min(gx, most)), iy = hn::ConvertTo(w, hn::Min(gy, most));
-  hn::Store(hn::Sub(gx, hn::ConvertTo(d, ix)), d, tx);
-  hn::Store(hn::Sub(gy, hn::ConvertTo(d, iy)), d, ty);
-  hn::Store(hn::Add(hn::Mul(iy, hn::Set(w, water.cells)), ix), w, cell);
+  const Float deviation = hn::Mul(spread, inverse_root(spread));
+  const Float z = task.number(4 * segments + face);
+  sum.t = hn::Add(sum.t, hn::Mul(hn::Mul(task.K_v, deviation), z));
+  return sum;
 }
 
-// Bilinear mean and deviation at a point, four floats.
-HWY_INLINE void sample(const WaterView& water, std::int32_t cell, float tx, float ty, float* out) {
-  const Four d;
-  const float* f = water.packed + 4 * static_cast<std::ptrdiff_t>(cell);
-  const auto a = hn::LoadU(d, f), b = hn::LoadU(d, f + 4);
-  const auto c = hn::LoadU(d, f + 4 * water.cells), e = hn::LoadU(d, f + 4 * water.cells + 4);
-  const auto x = hn::Set(d, tx), y = hn::Set(d, ty);
-  const auto low = hn::Add(a, hn::Mul(hn::Sub(b, a), x));
-  const auto high = hn::Add(c, hn::Mul(hn::Sub(e, c), x));
-  hn::Store(hn::Add(low, hn::Mul(hn::Sub(high, low), y)), d, out);
+// One gust for the whole module, or none.
+template <FlowAt kAt>
+HWY_INLINE FaceSum module_face(const Task& task, const FaceFrame& f) {
+  const Floats d;
+  FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  const Float zx = task.number(0), zy = task.number(1);
+  const auto flow = [&](const Water& u, Float& un, Float& wt) {
+    const Float ux = hn::Mul(task.K_v, hn::Add(u.mu_x, hn::Mul(u.sigma_x, zx)));
+    const Float uy = hn::Mul(task.K_v, hn::Add(u.mu_y, hn::Mul(u.sigma_y, zy)));
+    un = f.along_n(ux, uy), wt = hn::Sub(f.along_t(ux, uy), f.vt);
+  };
+  Float un = hn::Zero(d), wt = hn::Zero(d);
+  Water water[kMostSegments];
+  if (kAt == FlowAt::centre)
+    flow(task.centre, un, wt);
+  else
+    water_along<kAt>(task, f, task.places, task.settings.segments, water);
+  for (int k = 0; k < task.settings.segments; ++k) {
+    if (kAt == FlowAt::points) flow(water[k], un, wt);
+    const Float at = hn::Set(d, task.places[k]);
+    const Float a = hn::Max(hn::Sub(f.normal_speed(at), un), hn::Zero(d));
+    const Float square = hn::Mul(a, a);
+    sum.n = hn::Sub(sum.n, square);
+    sum.moment = hn::Sub(sum.moment, hn::Mul(at, square));
+    sum.t = hn::Add(sum.t, hn::Mul(a, wt));
+  }
+  return sum;
 }
 
-// Eight partial sums in a fixed order, whatever the vectors' width.
-HWY_INLINE float total(const Lanes& a) {
-  const Four d;
-  auto even = hn::Load(d, a.v), odd = hn::Load(d, a.v + 4);
-  for (int i = 8; i < kDragPoints; i += 8) {
-    even = hn::Add(even, hn::Load(d, a.v + i));
-    odd = hn::Add(odd, hn::Load(d, a.v + i + 4));
+template <Gusts kGusts, FlowAt kAt>
+HWY_INLINE void sum_faces(const Task& task, const Modules& m, WrenchSum& out) {
+  Spread spread;
+  if (kGusts == Gusts::moment_matched) spread.clear();
+  for (int face = 0; face < 4; ++face) {
+    const FaceFrame f = face_frame(task, m, face);
+    FaceSum sum;
+    if (kGusts == Gusts::per_point)
+      sum = point_face<kAt>(task, f, face);
+    else if (kGusts == Gusts::per_module)
+      sum = module_face<kAt>(task, f);
+    else
+      sum = matched_face<kAt>(task, f, face, spread);
+    add_face(f, sum, task.half, out);
   }
-  alignas(16) float part[4];
-  hn::Store(hn::Add(even, odd), d, part);
-  return (part[0] + part[1]) + (part[2] + part[3]);
+  if (kGusts == Gusts::moment_matched) spread.draw(task, m, out);
+}
+
+template <FlowAt kAt>
+void sum_modules(const Task& task, const Modules& m, WrenchSum& out) {
+  if (!task.settings.gusty || task.settings.gusts == Gusts::per_module)
+    sum_faces<Gusts::per_module, kAt>(task, m, out);
+  else if (task.settings.gusts == Gusts::per_point)
+    sum_faces<Gusts::per_point, kAt>(task, m, out);
+  else
+    sum_faces<Gusts::moment_matched, kAt>(task, m, out);
+}
+
+// How many numbers a module takes.
+int numbers(const DragSettings& s) {
+  switch (s.gusts) {
+    case Gusts::per_point:
+      return 4 * s.segments + 4;
+    case Gusts::per_module:
+      return 2;
+    default:
+      return 4;
+  }
 }
 
 }  // namespace
 
-void drag(const DragPoints& points, const WaterView& water, const BodyView& b, const float* open,
-          const PointGusts& gusts, float out[3]) {
+void drag(const DragSettings& settings, const std::uint32_t counter[4], const std::uint32_t key[2],
+          const DragBlock& block, DragSums& out) {
   const Floats d;
-  const int step = static_cast<int>(hn::Lanes(d)), used = 4 * points.segments;
-  Lanes rx, ry, tx, ty, fx, fy, torque;
-  alignas(64) std::int32_t cell[kDragPoints];
-  alignas(64) float flow[4 * kDragPoints];
-  const Float c = hn::Set(d, b.c), s = hn::Set(d, b.s), K_v = hn::Set(d, water.K_v);
-  const Float x = hn::Set(d, b.x), y = hn::Set(d, b.y);
-  for (int i = 0; i < kDragPoints; i += step) {
-    const Float px = hn::Load(d, points.px + i), py = hn::Load(d, points.py + i);
-    const Float dx = hn::Sub(hn::Mul(c, px), hn::Mul(s, py));
-    const Float dy = hn::Add(hn::Mul(s, px), hn::Mul(c, py));
-    hn::Store(dx, d, rx.v + i), hn::Store(dy, d, ry.v + i);
-    locate(water, hn::Add(x, dx), hn::Add(y, dy), cell + i, tx.v + i, ty.v + i);
+  const Lookup field(*settings.field);
+  alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
+  if (!settings.gusty) std::fill(z, z + 2 * kBulkBodies, 0.0f);
+  for (int i = 0; i < kBulkBodies; i += static_cast<int>(hn::Lanes(d))) {
+    if (settings.gusty)
+      normals_of(counter, key, static_cast<std::uint32_t>(i), numbers(settings), z + i);
+    const Modules m{hn::Load(d, block.x + i),  hn::Load(d, block.y + i),
+                    hn::Load(d, block.c + i),  hn::Load(d, block.s + i),
+                    hn::Load(d, block.vx + i), hn::Load(d, block.vy + i),
+                    hn::Load(d, block.omega + i)};
+    Task task(settings, field, block.covered + i, z + i);
+    WrenchSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    if (settings.at == FlowAt::centre) {
+      Spots spots;
+      locate(field, field.cells_of(m.x), field.cells_of(m.y), 0, spots);
+      read(field, spots, 1, &task.centre);
+      sum_modules<FlowAt::centre>(task, m, sum);
+    } else {
+      sum_modules<FlowAt::points>(task, m, sum);
+    }
+    hn::Store(sum.fx, d, out.fx + i), hn::Store(sum.fy, d, out.fy + i);
+    hn::Store(sum.torque, d, out.torque + i);
   }
-  for (int i = 0; i < used; ++i) sample(water, cell[i], tx.v[i], ty.v[i], flow + 4 * i);
-  std::fill(flow + 4 * used, flow + 4 * kDragPoints, 0.0f);
-  const Float vx = hn::Set(d, b.vx), vy = hn::Set(d, b.vy), omega = hn::Set(d, b.omega);
-  for (int i = 0; i < kDragPoints; i += step) {
-    Float mu_x, mu_y, sigma_x, sigma_y;
-    hn::LoadInterleaved4(d, flow + 4 * i, mu_x, mu_y, sigma_x, sigma_y);
-    const Float dx = hn::Load(d, rx.v + i), dy = hn::Load(d, ry.v + i);
-    const Float ux = hn::Mul(K_v, hn::Add(mu_x, hn::Mul(sigma_x, hn::Load(d, gusts.x + i))));
-    const Float uy = hn::Mul(K_v, hn::Add(mu_y, hn::Mul(sigma_y, hn::Load(d, gusts.y + i))));
-    const Float wx = hn::Sub(ux, hn::Sub(vx, hn::Mul(omega, dy)));
-    const Float wy = hn::Sub(uy, hn::Add(vy, hn::Mul(omega, dx)));
-    const Float px = hn::Load(d, points.nx + i), py = hn::Load(d, points.ny + i);
-    const Float nx = hn::Sub(hn::Mul(c, px), hn::Mul(s, py));
-    const Float ny = hn::Add(hn::Mul(s, px), hn::Mul(c, py));
-    const Float against = hn::Neg(hn::Add(hn::Mul(nx, wx), hn::Mul(ny, wy)));
-    const Float met = hn::Mul(hn::Max(against, hn::Zero(d)), hn::Load(d, open + i));
-    const Float force_x = hn::Mul(met, wx), force_y = hn::Mul(met, wy);
-    hn::Store(force_x, d, fx.v + i), hn::Store(force_y, d, fy.v + i);
-    hn::Store(hn::Sub(hn::Mul(dx, force_y), hn::Mul(dy, force_x)), d, torque.v + i);
-  }
-  out[0] = total(fx), out[1] = total(fy), out[2] = total(torque);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE
@@ -118,29 +153,10 @@ namespace lilytank {
 
 HWY_EXPORT(drag);
 
-DragPoints::DragPoints(int n, double side) : px{}, py{}, nx{}, ny{}, segments(n) {
-  for (int f = 0; f < 4; ++f) {
-    const Rot turn = quarter(f);
-    for (int k = 0; k < n; ++k) {
-      const int i = f * n + k;
-      const Vec2 p = rotate(turn, Vec2(side / 2, ((k + 0.5) / n - 0.5) * side));
-      px[i] = static_cast<float>(p.x()), py[i] = static_cast<float>(p.y());
-      nx[i] = static_cast<float>(turn.c), ny[i] = static_cast<float>(turn.s);
-    }
-  }
-}
-
-Wrench face_drag_sum(const DragPoints& points, const WaterView& water, const BodyView& body,
-                     unsigned covered, const PointGusts& gusts) {
-  alignas(64) float open[kDragPoints];
-  std::fill(open, open + kDragPoints, 1.0f);
-  for (int f = 0; covered != 0 && f < 4; ++f) {
-    float* first = open + f * points.segments;
-    if (covered >> f & 1u) std::fill(first, first + points.segments, 0.0f);
-  }
-  float out[3];
-  HWY_DYNAMIC_DISPATCH(drag)(points, water, body, open, gusts, out);
-  return {out[0], out[1], out[2]};
+void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out) {
+  const auto counter = counter_of(settings.draw);
+  const auto key = key_of(settings.draw.seed);
+  HWY_DYNAMIC_DISPATCH(drag)(settings, counter.data(), key.data(), block, out);
 }
 
 }  // namespace lilytank

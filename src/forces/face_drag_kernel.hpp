@@ -1,45 +1,50 @@
-// The face-segment drag of one module: the hot loop of the whole simulator.
+// The face-segment drag of sixteen modules at once: the hot loop of the whole simulator.
 #pragma once
+#include <cstdint>
+
 #include "bulk_normals.hpp"
 #include "lilytank/flow_field.hpp"
-#include "lilytank/math.hpp"
+#include "lilytank/model.hpp"
 
 namespace lilytank {
 
-/// Drag points of a module, padded to what one bulk draw serves; face f's segment k is point
-/// f * segments + k.
-constexpr int kDragPoints = kBulkBlocks * kBulkPairs;
-constexpr int kMostSegments = kDragPoints / 4;
+constexpr int kMostSegments = 24;
 
-/// What is the same for all modules and steps, float32.
-struct DragPoints {
-  DragPoints(int segments, double side);
-  alignas(64) float px[kDragPoints], py[kDragPoints];  ///< m, in the module's frame
-  alignas(64) float nx[kDragPoints], ny[kDragPoints];  ///< outward normals; 0 where padded
+/// What is the same for all modules in a step.
+struct DragSettings {
+  const FlowField* field;
+  Gusts gusts;
+  bool gusty;   ///< false: the mean flow only
+  FlowAt at;
   int segments;
-};
-
-/// The water as the kernel reads it.
-struct WaterView {
-  const float* packed;  ///< FlowField::packed()
-  int cells;
-  float extent, per_metre;  ///< m, 1/m
-  bool nearest;
+  float half;   ///< m, half the side
   float K_v;
+  Draw draw;    ///< of the gusts of body 0; `body` is the first module of the block
 };
 
-struct BodyView {
-  float x, y, c, s, vx, vy, omega;
+/// Poses and twists of up to sixteen modules (m, m/s, rad/s); `covered` as in Kinematics.
+struct DragBlock {
+  alignas(64) float x[kBulkBodies], y[kBulkBodies], c[kBulkBodies], s[kBulkBodies];
+  alignas(64) float vx[kBulkBodies], vy[kBulkBodies], omega[kBulkBodies];
+  alignas(16) std::uint8_t covered[kBulkBodies];
 };
 
-/// Gusts at a module's drag points, standard normals per axis.
-struct PointGusts {
-  alignas(64) float x[kDragPoints], y[kDragPoints];
+/// Sums over a module's segments of max(0, -n.w) w, w = u(p) - v_p (m^2/s^2), and of its torque
+/// about the centre (m^3/s^2).
+struct DragSums {
+  alignas(64) float fx[kBulkBodies], fy[kBulkBodies], torque[kBulkBodies];
 };
 
-/// Sum over the segments of max(0, -n.w) w, w = u(p) - v_p, and of its torque about the centre
-/// (m^2/s^2 and m^3/s^2 per unit segment area). Faces whose bit is set in `covered` feel nothing.
-Wrench face_drag_sum(const DragPoints& points, const WaterView& water, const BodyView& body,
-                     unsigned covered, const PointGusts& gusts);
+/// The drag of a block. With gusts per drag point, the normal gust of each segment is drawn (numbers
+/// face * segments + k of bulk_normals()), and for each face one number more (4 * segments + face)
+/// for what is left of its tangential gusts: given the normal ones, the tangential force is normal
+/// with mean sum a c and variance sum a^2 r^2 (a = max(0, -n.w), c and r the tangential flow's
+/// conditional mean and deviation), and it acts at one distance from the centre. That is exact, with
+/// half the random numbers. With gusts per module, numbers 0 and 1 are the gust.
+///
+/// Moment-matched gusts: the wrench is normal with the exact mean and covariance (over the three
+/// nodes of each face that integrate degree five over its segments exactly) and is made of numbers
+/// 0, 1 and 2.
+void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out);
 
 }  // namespace lilytank

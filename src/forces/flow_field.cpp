@@ -72,9 +72,24 @@ FlowField::FlowField(int cells, double extent, std::vector<FlowSample> samples,
       throw InputError("flow cell " + std::to_string(i) + " is not finite or has a negative sigma");
   }
   fill(cells_, samples_, measured_);
-  for (const FlowSample& f : samples_) {
-    packed_.insert(packed_.end(), {static_cast<float>(f.mu_x), static_cast<float>(f.mu_y),
-                                   static_cast<float>(f.sigma_x), static_cast<float>(f.sigma_y)});
+  fill_rows();
+}
+
+void FlowField::fill_rows() {
+  rows_.resize(samples_.size());
+  const auto numbers = [&](std::size_t i) {
+    const FlowSample& f = samples_[i];
+    return Eigen::Array4d(f.mu_x, f.mu_y, f.sigma_x, f.sigma_y);
+  };
+  for (int iy = 0; iy + 1 < cells_; ++iy) {
+    for (int ix = 0; ix + 1 < cells_; ++ix) {
+      const std::size_t i = static_cast<std::size_t>(iy) * cells_ + ix;
+      const Eigen::Array4d a = numbers(i), b = numbers(i + 1), c = numbers(i + cells_),
+                           d = numbers(i + cells_ + 1);
+      const Eigen::Array4d terms[4] = {a, b - a, c - a, a - b - c + d};
+      for (int k = 0; k < 4; ++k)
+        Eigen::Map<Eigen::Array4f>(rows_[i].v[k]) = terms[k].cast<float>();
+    }
   }
 }
 

@@ -31,14 +31,14 @@ class StochasticForce final : public ForceTerm {
            std::span<Wrench> out) const override {
     if (!now.gusts) return;
     const double sigma = p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
-    alignas(64) float x[kBulkBlocks * kBulkPairs], y[kBulkBlocks * kBulkPairs];
-    for (int first = 0; first < k.size(); first += kBulkBlocks) {
-      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0},
-                   true, x, y);
-      const int n = std::min(kBulkBlocks, k.size() - first);
+    alignas(64) float z[2 * kBulkBodies];
+    for (int first = 0; first < k.size(); first += kBulkBodies) {
+      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0}, 2,
+                   z);
+      const int n = std::min(kBulkBodies, k.size() - first);
       for (int i = 0; i < n; ++i) {
-        out[first + i].fx += sigma * static_cast<double>(x[i]);
-        out[first + i].fy += sigma * static_cast<double>(y[i]);
+        out[first + i].fx += sigma * static_cast<double>(z[i]);
+        out[first + i].fy += sigma * static_cast<double>(z[kBulkBodies + i]);
       }
     }
   }

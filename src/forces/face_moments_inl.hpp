@@ -1,0 +1,148 @@
+// Mean and covariance of the drag on a face under gusts that are independent from segment to segment,
+// and a module's wrench drawn from them: included by files that are compiled once for each
+// instruction set, with the same bits from each.
+#if defined(LILYTANK_FACE_MOMENTS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LILYTANK_FACE_MOMENTS_INL
+#undef LILYTANK_FACE_MOMENTS_INL
+#else
+#define LILYTANK_FACE_MOMENTS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "face_frame_inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace lilytank::HWY_NAMESPACE {
+
+HWY_INLINE Float at_least_zero(Float v) {
+  return hn::Max(v, hn::Zero(Floats()));
+}
+
+/// Three places on a face and their weights: sums over them equal sums over the segments for
+/// polynomials up to degree five (Gauss's rule for the segments' places as the measure).
+struct FaceNodes {
+  float place[3], weight[3];
+  explicit FaceNodes(const Task& task) {
+    const int n = task.settings.segments;
+    float second = 0, fourth = 0;
+    for (int k = 0; k < n; ++k) {
+      const float square = task.places[k] * task.places[k];
+      second += square, fourth += square * square;
+    }
+    const float square = second > 0 ? fourth / second : 0;
+    const float side = square > 0 ? 0.5f * second / square : 0;
+    const float way = std::sqrt(square);
+    place[0] = -way, place[1] = 0, place[2] = way;
+    weight[0] = weight[2] = side, weight[1] = static_cast<float>(n) - 2 * side;
+  }
+};
+
+/// Sums over a face of the covariances of one segment's forces f_n and f_t with weights 1, s, s^2.
+struct FaceCovariance {
+  Float nn, nn_s, nn_ss, nt, nt_s, tt;
+};
+
+/// Covariance of a module's wrench in its own frame.
+struct Spread {
+  Float xx, xy, yy, xq, yq, qq;  ///< q: torque
+
+  HWY_INLINE void clear() { xx = xy = yy = xq = yq = qq = hn::Zero(Floats()); }
+
+  // Force along n, t of face 0..3 is that along x, y turned by as many quarters.
+  HWY_INLINE void add(int face, const FaceCovariance& c, Float half) {
+    const Float nq = hn::Sub(hn::Mul(half, c.nt), c.nn_s);
+    const Float tq = hn::Sub(hn::Mul(half, c.tt), c.nt_s);
+    const Float twice = hn::Add(c.nt_s, c.nt_s);
+    qq = hn::Add(qq, hn::Add(hn::Mul(half, hn::Sub(hn::Mul(half, c.tt), twice)), c.nn_ss));
+    if (face % 2 == 0) {
+      xx = hn::Add(xx, c.nn), yy = hn::Add(yy, c.tt), xy = hn::Add(xy, c.nt);
+      xq = face == 0 ? hn::Add(xq, nq) : hn::Sub(xq, nq);
+      yq = face == 0 ? hn::Add(yq, tq) : hn::Sub(yq, tq);
+    } else {
+      xx = hn::Add(xx, c.tt), yy = hn::Add(yy, c.nn), xy = hn::Sub(xy, c.nt);
+      xq = face == 1 ? hn::Sub(xq, tq) : hn::Add(xq, tq);
+      yq = face == 1 ? hn::Add(yq, nq) : hn::Sub(yq, nq);
+    }
+  }
+
+  // Cholesky's factors, row by row, times three numbers.
+  HWY_INLINE void draw(const Task& task, const Modules& m, WrenchSum& out) const {
+    const Float z0 = task.number(0), z1 = task.number(1), z2 = task.number(2);
+    const Float i0 = inverse_root(xx);
+    const Float x0 = hn::Mul(xx, i0), y0 = hn::Mul(xy, i0), q0 = hn::Mul(xq, i0);
+    const Float left_y = at_least_zero(hn::Sub(yy, hn::Mul(y0, y0)));
+    const Float i1 = inverse_root(left_y);
+    const Float y1 = hn::Mul(left_y, i1);
+    const Float q1 = hn::Mul(hn::Sub(yq, hn::Mul(q0, y0)), i1);
+    const Float left_q =
+        at_least_zero(hn::Sub(hn::Sub(qq, hn::Mul(q0, q0)), hn::Mul(q1, q1)));
+    const Float q2 = hn::Mul(left_q, inverse_root(left_q));
+    const Float fx = hn::Mul(x0, z0), fy = hn::Add(hn::Mul(y0, z0), hn::Mul(y1, z1));
+    out.fx = hn::Add(out.fx, hn::Sub(hn::Mul(m.c, fx), hn::Mul(m.s, fy)));
+    out.fy = hn::Add(out.fy, hn::Add(hn::Mul(m.s, fx), hn::Mul(m.c, fy)));
+    const Float q = hn::Add(hn::Add(hn::Mul(q0, z0), hn::Mul(q1, z1)), hn::Mul(q2, z2));
+    out.torque = hn::Add(out.torque, q);
+  }
+};
+
+/// Means of f_n = -a^2 and f_t = a (A - b a + rho z), a = max(0, -n.w), and their covariances.
+struct SegmentMoments {
+  Float square;  ///< E[a^2]
+  Float t, nn, nt, tt;
+};
+
+HWY_INLINE SegmentMoments segment_moments(const Moments& m, Float A, Float b, Float rho) {
+  SegmentMoments s;
+  s.square = m.m2;
+  s.t = hn::Sub(hn::Mul(A, m.m1), hn::Mul(b, m.m2));
+  s.nn = at_least_zero(hn::Sub(m.m4, hn::Mul(m.m2, m.m2)));
+  const Float third = hn::Sub(hn::Mul(A, m.m3), hn::Mul(b, m.m4));  // E[a^2 f_t]
+  s.nt = hn::Sub(hn::Mul(m.m2, s.t), third);
+  const Float second = hn::Sub(hn::Mul(A, m.m2), hn::Mul(b, m.m3));
+  const Float all = hn::Sub(hn::Mul(A, second), hn::Mul(b, third));  // E[f_t^2] without z
+  const Float own = hn::Mul(hn::Mul(rho, rho), m.m2);
+  s.tt = at_least_zero(hn::Add(hn::Sub(all, hn::Mul(s.t, s.t)), own));
+  return s;
+}
+
+template <FlowAt kAt>
+HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, Spread& spread) {
+  const Floats d;
+  const Float zero = hn::Zero(d);
+  FaceSum sum{zero, zero, zero};
+  FaceCovariance c{zero, zero, zero, zero, zero, zero};
+  const FaceNodes nodes(task);
+  const Float per_K = hn::Div(hn::Set(d, 1.0f), hn::Max(task.K_v, hn::Set(d, 1e-6f)));
+  Water water[3];
+  water_along<kAt>(task, f, nodes.place, 3, water);
+  for (int k = 0; k < 3; ++k) {
+    const Water& u = water[k];
+    const Gust gust = gust_of(u, f);
+    const Float at = hn::Set(d, nodes.place[k]);
+    const Float weight = hn::Mul(hn::Set(d, nodes.weight[k]), f.open);
+    const Float mean =
+        hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, f.along_n(u.mu_x, u.mu_y)));
+    const Moments m = positive_moments(mean, hn::Mul(task.K_v, gust.deviation),
+                                       hn::Mul(gust.inverse, per_K));
+    const Float b = hn::Mul(gust.slant, gust.inverse);
+    const Float wt = hn::Sub(hn::Mul(task.K_v, f.along_t(u.mu_x, u.mu_y)), f.vt);
+    const SegmentMoments s = segment_moments(m, hn::Add(wt, hn::Mul(b, mean)), b,
+                                             hn::Mul(task.K_v, gust.rest));
+    const Float square = hn::Mul(weight, s.square), nn = hn::Mul(weight, s.nn);
+    const Float nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
+    sum.n = hn::Sub(sum.n, square);
+    sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
+    sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
+    c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
+    c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
+    c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
+    c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
+  }
+  spread.add(face, c, task.half);
+  return sum;
+}
+
+}  // namespace lilytank::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
