@@ -16,17 +16,16 @@ enum class FaceStatus : std::uint8_t {
   off,      ///< released, comes on again after a while and when no neighbour is there
 };
 
-/// A connector of a module and the message that waits at it.
+/// A connector of a module.
 struct Face {
   std::int64_t due = 0;  ///< tick of the next evaluation (event-driven clock, lower module's face)
   std::int32_t partner = -1;    ///< the module held, -1: none
-  std::uint32_t random = 0;     ///< the random number of a queued message
+  std::uint32_t random = 0;     ///< the random number of a message that waits here
   std::uint16_t off_ticks = 0;  ///< off: ticks since it was released; enabled: ticks that it rests
                                 ///< after a latch for which there was no room
   std::uint8_t partner_face = 0;
   FaceStatus status = FaceStatus::enabled;
-  std::uint8_t message = 0;  ///< 1: the neighbour's message waits for an answer
-  std::uint8_t spare[3] = {0, 0, 0};
+  std::uint8_t spare[4] = {0, 0, 0, 0};
 };
 
 enum class Power : std::uint8_t { on, paused, off };
@@ -38,6 +37,8 @@ struct Firmware {
   std::uint8_t next_face = 0;  ///< where the round of its faces goes on
   std::uint8_t waiting = 0;    ///< ticks until it is idle again (src/control/exchange.hpp)
   Power power = Power::on;
+  std::uint8_t mail = 0;       ///< bit f: the message of face f's neighbour waits for an answer
+  std::uint8_t spare[3] = {0, 0, 0};
 };
 
 static_assert(std::has_unique_object_representations_v<Face>);

@@ -82,12 +82,8 @@ void Docking::look_around(Tick& tick) {
 // still there; it comes on only once the neighbour has gone [authors' firmware: mean 0.49 s].
 void Docking::come_on(Tick& tick) {
   for (int i = 0; i < model_->module.count; ++i) {
+    if (tick.assemblies.resting[i] == 0 || !tick.on(i)) continue;
     Face* faces = &tick.state.faces[4 * i];
-    if ((faces[0].off_ticks | faces[1].off_ticks | faces[2].off_ticks | faces[3].off_ticks) == 0 &&
-        faces[0].status != FaceStatus::off && faces[1].status != FaceStatus::off &&
-        faces[2].status != FaceStatus::off && faces[3].status != FaceStatus::off)
-      continue;
-    if (!tick.on(i)) continue;
     const auto bits = random_bits(
         {tick.state.seed, Stream::reenable, tick.number, static_cast<std::uint32_t>(i), 0});
     for (int f = 0; f < 4; ++f) {
@@ -100,6 +96,7 @@ void Docking::come_on(Tick& tick) {
       face.status = FaceStatus::enabled;
       face.off_ticks = 0;
     }
+    tick.assemblies.resting[i] = resting_faces(tick.state, i);
   }
 }
 
@@ -136,7 +133,7 @@ bool Docking::join(Tick& tick, Connector a, Connector b) {
   }
   restore(tick);
   for (const Connector& at : {a, b}) {
-    face_of(tick.state, at) = Face{};
+    clear_face(tick.state, at);
     face_of(tick.state, at).off_ticks = kRetryTicks;
   }
   derive(tick.model, tick.state, tick.assemblies);

@@ -1,11 +1,11 @@
 #include "control/exchange.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "lilytank/math.hpp"
 #include "lilytank/random.hpp"
+#include "math/bulk_random.hpp"
 
 namespace lilytank {
 namespace {
@@ -39,12 +39,15 @@ void Exchange::run(Tick& tick) {
 void Exchange::firmware(Tick& tick) {
   answers_.clear();
   senders_.clear();
-  std::array<std::uint32_t, 4> bits{};
+  alignas(64) std::uint32_t bits[kBulkBodies];
   for (int i = 0; i < model_->module.count; ++i) {
-    if (i % 4 == 0)
-      bits = random_bits(
-          {tick.state.seed, Stream::initiative, tick.number, static_cast<std::uint32_t>(i / 4), 0});
-    act(tick, i, bits[i % 4] < begins_below_);
+    if (i % kBulkBodies == 0)
+      bulk_words(
+          {tick.state.seed, Stream::initiative, tick.number, static_cast<std::uint32_t>(i), 0},
+          bits);
+    const bool begins = bits[i % kBulkBodies] < begins_below_;
+    const Firmware& firmware = tick.state.firmware[i];
+    if (begins || firmware.waiting > 0 || firmware.mail != 0) act(tick, i, begins);
   }
   // An initiator waits and a responder was idle, so these pairs have no module in common.
   for (const Connector& responder : answers_) {
@@ -85,13 +88,15 @@ void Exchange::act(Tick& tick, int module, bool initiative) {
 
 // Takes the messages off a module's faces; those of a sender that was switched off do not count.
 int Exchange::heard(Tick& tick, int module, std::uint32_t (&faces)[4]) const {
+  std::uint8_t& mail = tick.state.firmware[module].mail;
+  if (mail == 0) return 0;
   int count = 0;
   for (std::uint32_t f = 0; f < 4; ++f) {
-    Face& face = tick.state.faces[4 * module + f];
-    if (face.message == 0) continue;
-    face.message = 0;
+    if ((mail >> f & 1) == 0) continue;
+    const Face& face = tick.state.faces[4 * module + f];
     if (holds(face) && tick.on(face.partner)) faces[count++] = f;
   }
+  mail = 0;
   return count;
 }
 
@@ -104,8 +109,9 @@ void Exchange::send(Tick& tick, int module) {
   const auto bits = random_bits(
       {tick.state.seed, Stream::message, tick.number, static_cast<std::uint32_t>(module), 0});
   Face& neighbour = face_of(tick.state, {face.partner, face.partner_face});
-  neighbour.message = 1;
   neighbour.random = bits[0];
+  std::uint8_t& mail = tick.state.firmware[face.partner].mail;
+  mail = static_cast<std::uint8_t>(mail | 1u << face.partner_face);
 }
 
 void Exchange::events(Tick& tick) {

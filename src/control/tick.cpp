@@ -23,11 +23,17 @@ void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule) {
   tick.events.push_back(event);
 }
 
+void clear_face(State& state, Connector at) {
+  face_of(state, at) = Face{};
+  std::uint8_t& mail = state.firmware[at.module].mail;
+  mail = static_cast<std::uint8_t>(mail & ~(1u << at.face));
+}
+
 namespace {
 
 void set_face(State& state, Connector at, Connector partner, FaceStatus status) {
+  clear_face(state, at);
   Face& face = face_of(state, at);
-  face = Face{};
   face.status = status;
   face.partner = partner.module;
   face.partner_face = static_cast<std::uint8_t>(partner.face);

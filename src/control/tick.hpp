@@ -35,6 +35,8 @@ inline bool holds(const Face& face) {
   return face.partner >= 0;
 }
 
+/// A face as new: enabled, free, no message.
+void clear_face(State& state, Connector at);
 /// Makes two faces hold each other as a new latch. No event, and the assemblies stay as they are.
 void hold(State& state, Connector a, Connector b);
 /// Two faces that hold each other let go: both are off from now on, and the assembly falls into

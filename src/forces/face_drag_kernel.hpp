@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "bulk_normals.hpp"
+#include "math/bulk_random.hpp"
 #include "lilytank/flow_field.hpp"
 #include "lilytank/model.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "bulk_normals_inl.hpp"
+#include "math/bulk_random_inl.hpp"
 #include "lilytank/flow_field.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bulk_normals.hpp"
+#include "math/bulk_random.hpp"
 #include "library.hpp"
 #include "lilytank/model.hpp"
 

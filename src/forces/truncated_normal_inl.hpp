@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "bulk_normals_inl.hpp"
+#include "math/bulk_random_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {

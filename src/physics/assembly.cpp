@@ -50,6 +50,7 @@ void derive_body_pose(const Model& model, const State& state, int slot, int body
 
 void clear_slot(int slot, Assemblies& out) {
   out.mass[slot] = out.inertia[slot] = out.own_inertia[slot] = out.reach[slot] = 0;
+  out.inverse_mass[slot] = out.inverse_inertia[slot] = 0;
   out.centre_x[slot] = out.centre_y[slot] = 0;
   out.first[slot] = -1;
 }
@@ -57,6 +58,7 @@ void clear_slot(int slot, Assemblies& out) {
 void derive_ball(const Model& model, int slot, Assemblies& out) {
   clear_slot(slot, out);
   out.mass[slot] = model.ball.mass;
+  out.inverse_mass[slot] = 1 / model.ball.mass;
   out.reach[slot] = model.ball.radius;
   out.first[slot] = slot;
 }
@@ -79,6 +81,8 @@ void derive_properties(const Model& model, const State& state, int slot, Assembl
   out.mass[slot] = n * model.module.mass;
   out.own_inertia[slot] = n * model.module.inertia();
   out.inertia[slot] = out.own_inertia[slot] + model.module.mass * spread;
+  out.inverse_mass[slot] = 1 / out.mass[slot];
+  out.inverse_inertia[slot] = 1 / out.inertia[slot];
   out.reach[slot] = std::sqrt(reach2);
   out.centre_x[slot] = centre_x;
   out.centre_y[slot] = centre_y;
@@ -93,35 +97,46 @@ void derive_sides(const State& state, int slot, Assemblies& out) {
       for (int k = 0; k < 4; ++k) inner |= dx == kStepX[k] && dy == kStepY[k] ? 1u << k : 0u;
     }
     out.covered[i] = static_cast<std::uint8_t>(covered);
+    out.resting[i] = resting_faces(state, i);
     out.inner[i] = static_cast<std::uint8_t>(inner);
   }
 }
 
-void set_live(int slot, bool live, Assemblies& out) {
-  const auto at = std::lower_bound(out.live.begin(), out.live.end(), slot);
-  const bool found = at != out.live.end() && *at == slot;
-  if (live && !found) out.live.insert(at, slot);
-  if (!live && found) out.live.erase(at);
+// Puts a slot into a sorted list, or takes it out.
+void set_listed(int slot, bool listed, std::vector<int>& list) {
+  const auto at = std::lower_bound(list.begin(), list.end(), slot);
+  const bool found = at != list.end() && *at == slot;
+  if (listed && !found) list.insert(at, slot);
+  if (!listed && found) list.erase(at);
 }
 
 }  // namespace
 
+std::uint8_t resting_faces(const State& state, int module) {
+  unsigned bits = 0;
+  for (int f = 0; f < 4; ++f) {
+    const Face& face = state.faces[4 * module + f];
+    bits |= face.status == FaceStatus::off || face.off_ticks > 0 ? 1u << f : 0u;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
 void Assemblies::resize(const Model& model) {
   const auto n = static_cast<std::size_t>(model.bodies());
-  live.clear();
-  live.reserve(n);
-  for (auto* a : {&mass, &inertia, &own_inertia, &reach, &centre_x, &centre_y, &x, &y, &c, &s, &vx,
+  for (auto* a : {&live, &groups}) a->clear(), a->reserve(n);
+  for (auto* a : {&mass, &inertia, &inverse_mass, &inverse_inertia, &own_inertia, &reach, &centre_x, &centre_y, &x, &y, &c, &s, &vx,
                   &vy, &omega})
     a->assign(n, 0.0);
   for (auto* a : {&first, &next}) a->assign(n, -1);
   work.assign(2 * n, 0);
   covered.assign(n, 0);
+  resting.assign(n, 0);
   inner.assign(n, 0);
 }
 
 void derive(const Model& model, const State& state, Assemblies& out) {
   const int n = model.bodies();
-  out.live.clear();
+  out.live.clear(), out.groups.clear();
   for (int slot = 0; slot < n; ++slot) clear_slot(slot, out);
   for (int i = n - 1; i >= 0; --i) {  // backwards, so that lists ascend
     const int slot = state.assembly[i];
@@ -131,6 +146,7 @@ void derive(const Model& model, const State& state, Assemblies& out) {
   for (int slot = 0; slot < n; ++slot) {
     if (state.assembly[slot] != slot) continue;
     out.live.push_back(slot);
+    if (out.next[slot] >= 0) out.groups.push_back(slot);
     if (slot >= model.module.count) {
       derive_ball(model, slot, out);
     } else {
@@ -152,7 +168,8 @@ void derive_poses(const Model& model, const State& state, int slot, Assemblies& 
 
 void derive_slot(const Model& model, const State& state, int slot, Assemblies& out) {
   const bool live = state.assembly[slot] == slot;
-  set_live(slot, live, out);
+  set_listed(slot, live, out.live);
+  set_listed(slot, false, out.groups);
   clear_slot(slot, out);
   if (!live) return;
   if (slot >= model.module.count) {
@@ -163,6 +180,7 @@ void derive_slot(const Model& model, const State& state, int slot, Assemblies& o
       out.next[i] = out.first[slot];
       out.first[slot] = i;
     }
+    set_listed(slot, out.next[slot] >= 0, out.groups);
     derive_properties(model, state, slot, out);
     derive_sides(state, slot, out);
   }

@@ -11,8 +11,11 @@ namespace lilytank {
 /// it, never saved. Arrays are indexed by assembly slot; slots not in use hold zeros.
 struct Assemblies {
   std::vector<int> live;                   ///< slots in use, ascending
+  std::vector<int> groups;                 ///< those of more than one module, ascending
   std::vector<double> mass;                ///< kg
   std::vector<double> inertia;             ///< kg m^2, about the centre of mass; 0 for a ball
+  std::vector<double> inverse_mass;        ///< 1/kg
+  std::vector<double> inverse_inertia;     ///< 1/(kg m^2); 0 for a ball
   std::vector<double> own_inertia;         ///< kg m^2, sum of the members' own inertias
   std::vector<double> reach;               ///< m, from the centre of mass to the farthest corner
   std::vector<double> centre_x, centre_y;  ///< m, centre of mass in the lattice frame
@@ -21,6 +24,7 @@ struct Assemblies {
   // Bodies [bodies]: poses in the tank, derived from assembly pose and lattice cell.
   std::vector<double> x, y, c, s, vx, vy, omega;
   std::vector<std::uint8_t> covered;  ///< bit f: face f is latched or bonded
+  std::vector<std::uint8_t> resting;  ///< bit f: face f is off, or rests (Face::off_ticks)
   /// Bit k: the lattice cell in direction k of the assembly's frame (0..3: +x, +y, -x, -y) holds
   /// another member, latched or not. Nothing can touch a face there.
   std::vector<std::uint8_t> inner;
@@ -28,6 +32,8 @@ struct Assemblies {
   void resize(const Model& model);
 };
 
+/// Assemblies::resting of one module.
+std::uint8_t resting_faces(const State& state, int module);
 /// Rebuilds everything in `out` from the state. `out` must have been resized for `model`.
 void derive(const Model& model, const State& state, Assemblies& out);
 /// Rebuilds only the bodies' poses and twists (after assemblies moved or were pushed).

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "broadphase.hpp"
+#include "fly.hpp"
 #include "island_builder.hpp"
 #include "island_stepper.hpp"
+#include "neighbours.hpp"
 #include "settle.hpp"
-#include "small_turn.hpp"
 
 namespace lilytank {
 namespace {
@@ -19,6 +19,9 @@ constexpr double kPushShare = 1.2;     // how much of a closing speed a push may
 constexpr double kPushSpare = 3e-4;    // m
 constexpr int kCrowd = 12;             // links of an island in which a push surely reaches others
 constexpr double kNoPromise = 1e9;     // m
+constexpr double kStraySpare = 4e-3;   // m, straying that the search for neighbours allows for
+constexpr double kUsualWay = 8e-3;     // m, seldom exceeded in a step: what a search for latches
+                                       // allows for, so that contacts can use it too
 
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
@@ -48,21 +51,25 @@ enum class Way : std::uint8_t {
 // Results are written to the state when all is done, so every island starts from the same moment.
 struct Motion::Impl {
   const Model* model;
-  Broadphase broadphase, latch_range;
+  Neighbours neighbours;
+  bool searched = false;  // neighbours are those of the poses as they are
   IslandBuilder builder;
   IslandStepper stepper;
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
-  double extra = 0;       // m, a push moves a body by so much more at most
-  double turn_slack = 0;  // m, no body's size + own exceeds its reach by more
+  double largest;  // m, radius of the circle about the largest body
+  double way = 0;  // m, no point moves farther by itself in the slice
+  double extra = 0;  // m, a push moves a body by so much more at most
   struct Link {
     int i, j;  // bodies; j = -1: the wall
     int next;  // of the same island
   };
   std::vector<Link> links;
+  std::vector<double> bound;  // [slot] m, no point of it moves farther by itself in the step
   std::vector<double> reach;  // [body] m, radius of the circle that it stays in
   std::vector<double> arc;    // [body] m, how far its path leaves a straight line
   struct Slot {
+    std::int64_t seen = 0;                // the slice in which the rest was set
     Way way = Way::free;
     bool gathered = false;                // by the search in progress
     int root = 0;                         // the island's lowest slot, or on the way there
@@ -73,74 +80,87 @@ struct Motion::Impl {
     Twist twist;
   };
   std::vector<Slot> slots;
+  std::vector<int> roots, moved;  // slots with links, and those that an island moved
+  std::int64_t number = 0;        // of slices so far
+  double most_strayed = 0;        // m, in this slice
   std::vector<std::pair<int, int>> found;
 
   explicit Impl(const Model& m);
-  double fastest_way() const;
+  double bound_ways(double h);
   void slice(double h, Tallies& tallies);
-  void measure(double h);
+  void search(double distance);
+  void look_at(int slot, double h);
   double widening(int body, double h) const;
   double clearance(int i, int j, double h) const;
+  double clearance(int i, int j, const Gap& gap, double h) const;
   double wall_clearance(int body, double h) const;
   void find_links(double h);
+  void link_walls(double h);
+  void link_pair(int i, int j, double h);
+  void chain_links();
   int root_of(int slot);
   void gather_course(int root);
   void gather_wide(int slot, double h);
   void gather_around(int body, double h);
-  void run(double h, Way way, Tallies& tallies);
+  void run(double h, Way taken, Tallies& tallies);
   bool kept_clear(double h);
-  Pose flown(int slot, double h) const;
+  bool kept_clear(int body, double h);
   void finish(double h);
 };
 
 Motion::Impl::Impl(const Model& m)
-    : model(&m),
-      broadphase(m.bodies(), m.tank.radius, 0.01 + m.module.side),
-      latch_range(m.bodies(), m.tank.radius, 0.01 + m.module.side),
-      builder(m),
-      stepper(m) {
+    : model(&m), neighbours(m.bodies(), m.tank.radius), builder(m), stepper(m) {
   const auto n = static_cast<std::size_t>(m.bodies());
-  reach.assign(n, 0), arc.assign(n, 0);
+  largest = 0;
+  for (int i = 0; i < m.bodies(); ++i) largest = std::max(largest, builder.size_of(i));
+  bound.assign(n, 0), reach.assign(n, 0), arc.assign(n, 0);
   slots.assign(n, {});
+  roots.reserve(n), moved.reserve(n);
   links.reserve(std::min(n * (n + 1) / 2, 10 * n));
   found.reserve(std::min(n * n / 2, 8 * n));
 }
 
-// Upper bound on how far any point moves in a step, m; more than kTooFast allows, or NaN, if
-// anything is too fast.
-double Motion::Impl::fastest_way() const {
+// Upper bounds on how far any point moves in h seconds, m; returns the largest: more than kTooFast
+// allows, or NaN, if anything is too fast.
+double Motion::Impl::bound_ways(double h) {
   double most = 0;
   for (const int slot : assemblies->live) {
     const double speed = std::fabs(state->vx[slot]) + std::fabs(state->vy[slot]) +
                          assemblies->reach[slot] * std::fabs(state->omega[slot]);
-    if (!(speed < kTooFast)) return speed * model->dt;
-    most = std::max(most, speed);
+    if (!(speed < kTooFast)) return h * speed;
+    bound[slot] = h * speed;
+    most = std::max(most, bound[slot]);
   }
-  return most * model->dt;
+  return most;
 }
 
-// Twists of the bodies, and how far they may get within h seconds.
-void Motion::Impl::measure(double h) {
+void Motion::Impl::search(double distance) {
+  neighbours.search(assemblies->x, assemblies->y, distance);
+  searched = true;
+}
+
+// Twists of an assembly's bodies, and how far they may get within h seconds. Most assemblies are far
+// from everything, so this is done for those that are not.
+void Motion::Impl::look_at(int slot, double h) {
+  Slot& s = slots[slot];
+  if (s.seen == number) return;
   Assemblies& a = *assemblies;
-  turn_slack = 0;
-  for (const int slot : a.live) {
-    const double vx = state->vx[slot], vy = state->vy[slot], omega = state->omega[slot];
-    const double turn = h * std::fabs(omega), way = h * length(vx, vy);
-    Slot& s = slots[slot];
-    s.way = Way::free, s.gathered = false;
-    s.root = slot, s.head = -1, s.count = 0;
-    s.own = way + turn * a.reach[slot];
-    turn_slack = std::max(turn_slack, 2 * turn * a.reach[slot]);
-    s.strayed = 0;
-    for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
-      a.vx[i] = vx, a.vy[i] = vy, a.omega[i] = omega;
-      arc[i] = 0, reach[i] = builder.size_of(i) + way;
-      if (i == slot && a.next[i] < 0) break;
-      const double rx = a.x[i] - state->x[slot], ry = a.y[i] - state->y[slot];
-      a.vx[i] -= omega * ry, a.vy[i] += omega * rx;
-      arc[i] = 0.5 * turn * turn * length(rx, ry);
-      reach[i] = builder.size_of(i) + arc[i] + h * length(a.vx[i], a.vy[i]);
-    }
+  const double vx = state->vx[slot], vy = state->vy[slot], omega = state->omega[slot];
+  const double turn = h * std::fabs(omega), straight = h * length(vx, vy);
+  s.seen = number;
+  s.way = Way::free, s.gathered = false;
+  s.root = slot, s.head = -1, s.count = 0;
+  s.own = straight + turn * a.reach[slot];
+  s.strayed = 0;
+  for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
+    a.vx[i] = vx, a.vy[i] = vy, a.omega[i] = omega;
+    arc[i] = 0, reach[i] = builder.size_of(i) + straight;
+    if (i == slot && a.next[i] < 0) break;
+    const double rx = a.x[i] - state->x[slot], ry = a.y[i] - state->y[slot];
+    a.vx[i] -= omega * ry, a.vy[i] += omega * rx;
+    arc[i] = 0.5 * turn * turn * length(rx, ry);
+    const double path = arc[i] + h * length(a.vx[i], a.vy[i]);
+    reach[i] = builder.size_of(i) + std::min(path, s.own);
   }
 }
 
@@ -154,8 +174,11 @@ double Motion::Impl::widening(int i, double h) const {
 // No less than this is between bodies i and j, of different assemblies, on their courses, m: the
 // gap along a fixed normal closes by their motion along it, and as they turn.
 double Motion::Impl::clearance(int i, int j, double h) const {
+  return clearance(i, j, builder.gap(i, j), h);
+}
+
+double Motion::Impl::clearance(int i, int j, const Gap& gap, double h) const {
   const Assemblies& a = *assemblies;
-  const Gap gap = builder.gap(i, j);
   const double along = gap.nx * (a.vx[j] - a.vx[i]) + gap.ny * (a.vy[j] - a.vy[i]);
   return gap.size - std::max(0.0, widening(i, h) + widening(j, h) + arc[i] + arc[j] - h * along);
 }
@@ -173,14 +196,13 @@ int Motion::Impl::root_of(int slot) {
   return slot;
 }
 
-// Links what would meet, or nearly, on its course, and bounds how much a push can add to a motion.
-void Motion::Impl::find_links(double h) {
+void Motion::Impl::link_walls(double h) {
   const Assemblies& a = *assemblies;
-  extra = 0;
-  links.clear();
   for (const int slot : a.live) {
-    const double rim = model->tank.radius - kLinkSpare - a.reach[slot] - slots[slot].own;
-    if (within(state->x[slot], state->y[slot], rim)) continue;
+    const double nearest = model->tank.radius - kLinkSpare - a.reach[slot];
+    if (within(state->x[slot], state->y[slot], nearest - bound[slot])) continue;
+    look_at(slot, h);
+    if (within(state->x[slot], state->y[slot], nearest - slots[slot].own)) continue;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
       if (wall_clearance(i, h) > kLinkSpare) continue;
       links.push_back({i, -1, -1});
@@ -188,27 +210,59 @@ void Motion::Impl::find_links(double h) {
           std::max(extra, kPushShare * slots[slot].own - std::min(0.0, 2 * wall_clearance(i, 0)));
     }
   }
-  broadphase.build(a.x, a.y, reach);
-  broadphase.pairs(kLinkSpare, [&](int i, int j) {
-    const int p = builder.slot_of(i), q = builder.slot_of(j);
-    if (p == q || clearance(i, j, h) > kLinkSpare) return;
-    links.push_back({i, j, -1});
-    const double most =
-        h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + 1.5 * (widening(i, h) + widening(j, h));
-    extra = std::max(extra, kPushShare * most - std::min(0.0, 2 * builder.gap(i, j).size));
-    const int root_p = root_of(p), root_q = root_of(q);
-    slots[std::max(root_p, root_q)].root = std::min(root_p, root_q);
-  });
-  extra += kPushSpare;
+}
+
+void Motion::Impl::link_pair(int i, int j, double h) {
+  const Assemblies& a = *assemblies;
+  const int p = builder.slot_of(i), q = builder.slot_of(j);
+  look_at(p, h), look_at(q, h);
+  if (!within(a.x[j] - a.x[i], a.y[j] - a.y[i], reach[i] + reach[j] + kLinkSpare)) return;
+  const Gap gap = builder.gap(i, j);
+  if (clearance(i, j, gap, h) > kLinkSpare) return;
+  links.push_back({i, j, -1});
+  const double most =
+      h * length(a.vx[j] - a.vx[i], a.vy[j] - a.vy[i]) + 1.5 * (widening(i, h) + widening(j, h));
+  extra = std::max(extra, kPushShare * most - std::min(0.0, 2 * gap.size));
+  const int root_p = root_of(p), root_q = root_of(q);
+  slots[std::max(root_p, root_q)].root = std::min(root_p, root_q);
+}
+
+// Strings the links of each island together; notes the islands' roots, ascending.
+void Motion::Impl::chain_links() {
   for (std::size_t k = 0; k < links.size(); ++k) {
-    Slot& root = slots[root_of(builder.slot_of(links[k].i))];
-    if (root.head < 0)
-      root.head = static_cast<int>(k);
+    const int root = root_of(builder.slot_of(links[k].i));
+    Slot& s = slots[root];
+    if (s.head < 0)
+      s.head = static_cast<int>(k), roots.push_back(root);
     else
-      links[root.tail].next = static_cast<int>(k);
-    root.tail = static_cast<int>(k);
-    ++root.count;
+      links[s.tail].next = static_cast<int>(k);
+    s.tail = static_cast<int>(k);
+    ++s.count;
   }
+  std::sort(roots.begin(), roots.end());
+}
+
+// Links what would meet, or nearly, on its course, and bounds how much a push can add to a motion.
+void Motion::Impl::find_links(double h) {
+  extra = 0;
+  links.clear(), roots.clear();
+  link_walls(h);
+  const double needed = 2 * (largest + way) + kStraySpare;
+  if (!searched || needed > neighbours.distance()) search(needed);
+  const Assemblies& a = *assemblies;
+  for (int i = 0; i < model->bodies(); ++i) {
+    const int slot = builder.slot_of(i);
+    const double own = builder.size_of(i) + bound[slot] + kLinkSpare;
+    neighbours.above(i, [&](int j) {
+      const int other = builder.slot_of(j);
+      if (other == slot) return;
+      if (within(a.x[j] - a.x[i], a.y[j] - a.y[i], own + builder.size_of(j) + bound[other]))
+        link_pair(i, j, h);
+    });
+  }
+  if (links.empty()) return;
+  extra += kPushSpare;
+  chain_links();
 }
 
 // The island of what is linked with an assembly.
@@ -235,9 +289,13 @@ void Motion::Impl::gather_around(int i, double h) {
   const double promise = slots[slot].own + extra, size = builder.size_of(i);
   const double room = std::max(size + promise, reach[i] + kLinkSpare);
   if (!within(a.x[i], a.y[i], model->tank.radius - room)) builder.link_wall(i);
-  broadphase.around(i, room + extra + turn_slack, [&](int j) {
+  const double needed = room + extra + 3 * way + largest;
+  if (needed > neighbours.distance()) search(needed);
+  neighbours.around(i, [&](int j) {
     const int other = builder.slot_of(j);
-    if (other == slot || slots[other].gathered) return;
+    if (other == slot) return;
+    look_at(other, h);
+    if (slots[other].gathered) return;
     const double apart = builder.gap(i, j).size - promise - slots[other].own - extra;
     if (apart > 0 && clearance(i, j, h) > kLinkSpare) return;
     if (!builder.has(other)) builder.enter(other, slots[other].own + extra);
@@ -258,13 +316,35 @@ void Motion::Impl::gather_wide(int slot, double h) {
 }
 
 // Moves the island by h seconds and notes where its members end.
-void Motion::Impl::run(double h, Way way, Tallies& tallies) {
+void Motion::Impl::run(double h, Way taken, Tallies& tallies) {
   stepper.run(builder.island(), h, tallies);
   for (const Mover& m : builder.island().movers()) {
     if (m.slot < 0) continue;
     Slot& s = slots[m.slot];
-    s.way = way, s.pose = m.pose, s.twist = m.twist, s.strayed = m.strayed;
+    s.way = taken, s.pose = m.pose, s.twist = m.twist, s.strayed = m.strayed;
+    most_strayed = std::max(most_strayed, m.strayed);
+    moved.push_back(m.slot);
   }
+}
+
+// The same for one body of it.
+bool Motion::Impl::kept_clear(int i, double h) {
+  const Assemblies& a = *assemblies;
+  const int slot = builder.slot_of(i);
+  const double strayed = slots[slot].strayed, from_wall = wall_clearance(i, h);
+  if (from_wall > kLinkSpare && from_wall <= strayed) return false;
+  bool clear = true;
+  neighbours.around(i, [&](int j) {
+    const int other = builder.slot_of(j);
+    const double sizes = builder.size_of(i) + builder.size_of(j) + bound[slot] + bound[other];
+    if (other == slot || !within(a.x[j] - a.x[i], a.y[j] - a.y[i], sizes + strayed + most_strayed))
+      return;
+    look_at(other, h);
+    if (slots[other].way == Way::wide) return;
+    const double spare = clearance(i, j, h);
+    if (spare > kLinkSpare && spare <= strayed + slots[other].strayed) clear = false;
+  });
+  return clear;
 }
 
 // True if no member of the island that was run last strayed so far that it could have met something
@@ -275,54 +355,41 @@ bool Motion::Impl::kept_clear(double h) {
     const double strayed = slots[slot].strayed;
     if (strayed == 0) continue;
     if (strayed > extra) return false;
-    bool clear = true;
-    for (int i = a.first[slot]; i >= 0 && clear; i = a.next[i]) {
-      const double from_wall = wall_clearance(i, h);
-      clear = from_wall <= kLinkSpare || from_wall > strayed;
-      broadphase.around(i, reach[i] + strayed + extra, [&](int j) {
-        const int other = builder.slot_of(j);
-        if (other == slot || slots[other].way == Way::wide) return;
-        const double spare = clearance(i, j, h);
-        if (spare > kLinkSpare && spare <= strayed + slots[other].strayed) clear = false;
-      });
+    if (2 * (largest + way) + strayed + most_strayed > neighbours.distance()) return false;
+    for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
+      if (!kept_clear(i, h)) return false;
     }
-    if (!clear) return false;
   }
   return true;
 }
 
-// An assembly's pose after h seconds on its course.
-Pose Motion::Impl::flown(int slot, double h) const {
-  const Rot r{state->c[slot], state->s[slot]};
-  const double omega = state->omega[slot];
-  return {state->x[slot] + h * state->vx[slot], state->y[slot] + h * state->vy[slot],
-          omega == 0 ? r : turned_by(r, h * omega)};
-}
-
-// Writes the end of the slice to the state and the bodies.
+// Writes the end of the slice to the state and the bodies: everything flies, and what was in an
+// island is put where that left it.
 void Motion::Impl::finish(double h) {
   Assemblies& a = *assemblies;
-  for (const int slot : a.live) {
-    const Slot& s = slots[slot];
-    const Pose pose = s.way == Way::free ? flown(slot, h) : s.pose;
-    state->x[slot] = pose.x, state->y[slot] = pose.y;
-    state->c[slot] = pose.r.c, state->s[slot] = pose.r.s;
-    if (s.way != Way::free) {
-      state->vx[slot] = s.twist.vx, state->vy[slot] = s.twist.vy;
-      state->omega[slot] = s.twist.omega;
-    } else if (a.next[slot] < 0 && state->turn[slot] == 0) {  // alone: its twist is there already
-      a.x[slot] = pose.x, a.y[slot] = pose.y, a.c[slot] = pose.r.c, a.s[slot] = pose.r.s;
-      continue;
-    }
-    derive_poses(*model, *state, slot, a);
+  State& s = *state;
+  fly({s.x.data(), s.y.data(), s.c.data(), s.s.data(), s.vx.data(), s.vy.data(), s.omega.data(),
+       model->bodies(), a.x.data(), a.y.data(), a.c.data(), a.s.data()},
+      h);
+  for (const int slot : moved) {
+    const Slot& end = slots[slot];
+    a.x[slot] = end.pose.x, a.y[slot] = end.pose.y;
+    a.c[slot] = end.pose.r.c, a.s[slot] = end.pose.r.s;
+    s.vx[slot] = end.twist.vx, s.vy[slot] = end.twist.vy, s.omega[slot] = end.twist.omega;
   }
+  s.x = a.x, s.y = a.y, s.c = a.c, s.s = a.s;
+  a.vx = s.vx, a.vy = s.vy, a.omega = s.omega;
+  for (const int slot : a.groups) derive_poses(*model, s, slot, a);
+  searched = false;
 }
 
 void Motion::Impl::slice(double h, Tallies& tallies) {
-  measure(h);
+  ++number;
+  moved.clear();
+  most_strayed = 0;
   find_links(h);
-  for (const int root : assemblies->live) {
-    if (slots[root].head < 0 || slots[root].gathered) continue;
+  for (const int root : roots) {
+    if (slots[root].gathered) continue;
     if (slots[root].count <= kCrowd) {
       Tallies trial = tallies;
       gather_course(root);
@@ -347,10 +414,14 @@ void Motion::advance(State& state, Assemblies& assemblies, Tallies& tallies) {
   m.state = &state, m.assemblies = &assemblies;
   m.builder.begin(state, assemblies);
   for (int ball = m.model->module.count; ball < m.model->bodies(); ++ball) state.omega[ball] = 0;
-  const double way = m.fastest_way(), dt = m.model->dt;
-  if (!(way < kTooFast * dt)) return;
-  const int slices = 1 + static_cast<int>(way / kSliceMotion);
-  for (int k = 0; k < slices; ++k) m.slice(dt / slices, tallies);
+  const double dt = m.model->dt;
+  m.way = m.bound_ways(dt);
+  if (!(m.way < kTooFast * dt)) return;
+  const int slices = 1 + static_cast<int>(m.way / kSliceMotion);
+  for (int k = 0; k < slices; ++k) {
+    if (slices > 1) m.way = m.bound_ways(dt / slices);
+    m.slice(dt / slices, tallies);
+  }
 }
 
 bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
@@ -363,19 +434,30 @@ bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
     state.c[m.slot] = m.pose.r.c, state.s[m.slot] = m.pose.r.s;
   }
   derive_poses(*impl_->model, state, assemblies);
+  poses_changed();
   return true;
 }
 
 std::span<const std::pair<int, int>> Motion::near_pairs(const Assemblies& assemblies,
                                                         double distance) {
   Impl& m = *impl_;
-  const auto n = static_cast<std::size_t>(m.model->module.count);
-  std::fill(m.reach.begin(), m.reach.end(), 0.5 * distance);
+  m.neighbours.search(assemblies.x, assemblies.y,
+                      std::max(distance, 2 * (m.largest + kUsualWay) + kStraySpare));
+  m.searched = true;
   m.found.clear();
-  const std::span<const double> x = assemblies.x, y = assemblies.y, radius = m.reach;
-  m.latch_range.build(x.first(n), y.first(n), radius.first(n));
-  m.latch_range.pairs(0, [&](int i, int j) { m.found.emplace_back(i, j); });
+  const int n = m.model->module.count;
+  for (int i = 0; i < n; ++i) {
+    m.neighbours.above(i, [&](int j) {
+      if (j < n &&
+          within(assemblies.x[j] - assemblies.x[i], assemblies.y[j] - assemblies.y[i], distance))
+        m.found.emplace_back(i, j);
+    });
+  }
   return m.found;
+}
+
+void Motion::poses_changed() {
+  impl_->searched = false;
 }
 
 }  // namespace lilytank

@@ -21,6 +21,7 @@ struct World::Impl {
   std::vector<Event> events;
   Kinematics kinematics;
   Decay decay;
+  double linear_to_angular = 1;  // decay.linear / decay.angular
   RunStatus status = RunStatus::ok;
   Divergence divergence;
   Tallies tallies;
@@ -36,6 +37,7 @@ struct World::Impl {
       const Decay d = force.term->decay(force.p, m.dt);
       decay.linear *= d.linear, decay.angular *= d.angular;
     }
+    linear_to_angular = decay.linear / decay.angular;
   }
 
   Moment now() const {
@@ -44,6 +46,7 @@ struct World::Impl {
 
   void add_forces();
   void kick();
+  Wrench sum_of_members(int slot) const;
   void damp();
   bool healthy() const;
   void blame();
@@ -59,33 +62,44 @@ void World::Impl::add_forces() {
 
 // Members' wrenches become their assembly's change of twist.
 void World::Impl::kick() {
+  const double dt = model->dt;
   for (const int slot : assemblies.live) {
-    double fx = 0, fy = 0, torque = 0;
-    for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
-      const Wrench& w = wrenches[i];
-      const double dx = assemblies.x[i] - state.x[slot], dy = assemblies.y[i] - state.y[slot];
-      fx += w.fx, fy += w.fy;
-      torque += w.torque + (dx * w.fy - dy * w.fx);
-    }
-    const double per_mass = model->dt / assemblies.mass[slot];
-    state.vx[slot] += per_mass * fx;
-    state.vy[slot] += per_mass * fy;
-    // Balls do not turn: their inertia is 0.
-    if (assemblies.inertia[slot] > 0)
-      state.omega[slot] += model->dt * torque / assemblies.inertia[slot];
+    Wrench sum = wrenches[slot];
+    if (assemblies.next[slot] >= 0) sum = sum_of_members(slot);
+    const double per_mass = dt * assemblies.inverse_mass[slot];
+    state.vx[slot] += per_mass * sum.fx;
+    state.vy[slot] += per_mass * sum.fy;
+    // Balls do not turn: their inverse inertia is 0.
+    state.omega[slot] += dt * assemblies.inverse_inertia[slot] * sum.torque;
   }
+}
+
+// About the assembly's centre of mass.
+Wrench World::Impl::sum_of_members(int slot) const {
+  Wrench sum;
+  for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
+    const Wrench& w = wrenches[i];
+    const double dx = assemblies.x[i] - state.x[slot], dy = assemblies.y[i] - state.y[slot];
+    sum.fx += w.fx, sum.fy += w.fy;
+    sum.torque += w.torque + (dx * w.fy - dy * w.fx);
+  }
+  return sum;
 }
 
 // Every member is damped as if alone; the assembly keeps the sum of their momenta.
 void World::Impl::damp() {
-  for (const int slot : assemblies.live) {
-    state.vx[slot] *= decay.linear;
-    state.vy[slot] *= decay.linear;
-    const double inertia = assemblies.inertia[slot];
-    if (inertia > 0) {
-      const double own = assemblies.own_inertia[slot];
-      state.omega[slot] *= (own * decay.angular + (inertia - own) * decay.linear) / inertia;
-    }
+  const std::size_t n = state.x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    assemblies.vx[i] = state.vx[i] *= decay.linear;
+    assemblies.vy[i] = state.vy[i] *= decay.linear;
+  }
+  for (const int slot : assemblies.groups) {
+    const double own = assemblies.own_inertia[slot] * assemblies.inverse_inertia[slot];
+    // Below, this is multiplied by decay.angular as all others are.
+    state.omega[slot] *= own + (1 - own) * linear_to_angular;
+  }
+  for (std::size_t i = 0; i < n; ++i) assemblies.omega[i] = state.omega[i] *= decay.angular;
+  for (const int slot : assemblies.groups) {
     const double vx = state.vx[slot], vy = state.vy[slot], omega = state.omega[slot];
     for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
       assemblies.vx[i] = vx - omega * (assemblies.y[i] - state.y[slot]);

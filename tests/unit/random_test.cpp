@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "forces/bulk_normals.hpp"
+#include "math/bulk_random.hpp"
 #include "lilytank/math.hpp"
 
 namespace lilytank {

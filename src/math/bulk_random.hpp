@@ -1,5 +1,5 @@
-// Many standard normals at once, for gusts and kicks: vector code with the same bits whatever the
-// vectors' width.
+// Random numbers for many bodies at once: vector code with the same bits whatever the vectors'
+// width.
 #pragma once
 #include <cstdint>
 
@@ -17,5 +17,9 @@ constexpr int kBulkBodies = 16;
 /// direction, the lowest byte of w[j] above byte j of w[3]. Box and Muller; lengths reach 5.9.
 /// `out` must be aligned to 64 bytes.
 void bulk_normals(const Draw& draw, int count, float* out);
+
+/// The first word of random_bits() for each of the bodies draw.body + 0 .. 15; `out` must be aligned
+/// to 64 bytes.
+void bulk_words(const Draw& draw, std::uint32_t* out);
 
 }  // namespace lilytank

@@ -1,12 +1,12 @@
-#include "bulk_normals.hpp"
+#include "bulk_random.hpp"
 
 // Compiled once for each instruction set; the best that the machine has is chosen at run time.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "forces/bulk_normals.cpp"
+#define HWY_TARGET_INCLUDE "math/bulk_random.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "bulk_normals_inl.hpp"
+#include "bulk_random_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
@@ -17,6 +17,16 @@ void normals(const std::uint32_t counter[4], const std::uint32_t key[2], int cou
     normals_of(counter, key, static_cast<std::uint32_t>(i), count, out + i);
 }
 
+void words(const std::uint32_t counter[4], const std::uint32_t key[2], std::uint32_t* out) {
+  const Words w;
+  const int lanes = static_cast<int>(hn::Lanes(w));
+  for (int i = 0; i < kBulkBodies; i += lanes) {
+    Blocks blocks[1] = {counters(counter, static_cast<std::uint32_t>(i), 0)};
+    philox(blocks, key);
+    hn::Store(word_of(blocks[0], 0), w, out + i);
+  }
+}
+
 }  // namespace lilytank::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -24,11 +34,18 @@ HWY_AFTER_NAMESPACE();
 namespace lilytank {
 
 HWY_EXPORT(normals);
+HWY_EXPORT(words);
 
 void bulk_normals(const Draw& draw, int count, float* out) {
   const auto counter = counter_of(draw);
   const auto key = key_of(draw.seed);
   HWY_DYNAMIC_DISPATCH(normals)(counter.data(), key.data(), count, out);
+}
+
+void bulk_words(const Draw& draw, std::uint32_t* out) {
+  const auto counter = counter_of(draw);
+  const auto key = key_of(draw.seed);
+  HWY_DYNAMIC_DISPATCH(words)(counter.data(), key.data(), out);
 }
 
 }  // namespace lilytank

@@ -1,15 +1,15 @@
 // Philox, and Box and Muller, on vectors: included by files that are compiled once for each
 // instruction set. Only integer arithmetic and IEEE + - * sqrt, so all sets give the same bits.
-#if defined(LILYTANK_BULK_NORMALS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef LILYTANK_BULK_NORMALS_INL
-#undef LILYTANK_BULK_NORMALS_INL
+#if defined(LILYTANK_BULK_RANDOM_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef LILYTANK_BULK_RANDOM_INL
+#undef LILYTANK_BULK_RANDOM_INL
 #else
-#define LILYTANK_BULK_NORMALS_INL
+#define LILYTANK_BULK_RANDOM_INL
 #endif
 
 #include <hwy/highway.h>
 
-#include "bulk_normals.hpp"
+#include "bulk_random.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
@@ -64,8 +64,9 @@ HWY_INLINE Blocks counters(const std::uint32_t counter[4], std::uint32_t first,
   Blocks b;
   for (int k = 0; k < 4; ++k) b.low[k] = b.high[k] = hn::Set(w, counter[k]);
   b.low[0] = b.high[0] = hn::Set(w, counter[0] + block);
-  const auto half = static_cast<std::uint32_t>(hn::Lanes(w));
-  b.low[1] = hn::Iota(w, counter[1] + first), b.high[1] = hn::Iota(w, counter[1] + first + half);
+  // An Iota from a number that is not a constant would go through memory.
+  b.low[1] = hn::Add(hn::Iota(w, 0), hn::Set(w, counter[1] + first));
+  b.high[1] = hn::Add(b.low[1], hn::Set(w, static_cast<std::uint32_t>(hn::Lanes(w))));
   return b;
 }
 
