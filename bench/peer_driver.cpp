@@ -53,8 +53,8 @@ Options read(const std::vector<std::string>& words) {
       // The other reading, |w| w on every segment, is not a force of this library.
       if (text != "facing") throw InputError("--drag = '" + text + "': only facing is known");
     } else if (name == "--variant") {
-      if (text != "" && text != "per_point" && text != "per_module")
-        throw InputError("--variant = '" + text + "' is not per_module or per_point");
+      if (text != "" && text != "per_point" && text != "per_module" && text != "moment_matched")
+        throw InputError("--variant = '" + text + "' is not per_module, per_point or moment_matched");
       options.variant = text;
     } else {
       throw InputError("unknown option " + name);
@@ -99,7 +99,10 @@ Model driver_model(const Options& options) {
   model.module = {.count = options.modules, .side = 0.030, .mass = 0.030, .draught = 0.025};
   model.dt = kTick / options.substeps;
   model.steps_per_tick = options.substeps;
-  model.flow.gusts = options.variant == "per_point" ? Gusts::per_point : Gusts::per_module;
+  model.flow.gusts = options.variant == "per_point"        ? Gusts::per_point
+                     : options.variant == "moment_matched" ? Gusts::moment_matched
+                                                           : Gusts::per_module;
+  model.flow.at = FlowAt::centre;
   model.field = std::make_shared<const FlowField>(swirl(model.tank.radius));
   model.control.latches = options.latch;
   model.start.radius = model.tank.radius - 0.025;

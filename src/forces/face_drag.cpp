@@ -40,14 +40,7 @@ class FaceDrag final : public ForceTerm {
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     const int segments = static_cast<int>(p[1]);
-    DragSettings settings{model.field.get(),
-                          model.flow.gusts,
-                          now.gusts,
-                          model.flow.at,
-                          segments,
-                          static_cast<float>(0.5 * model.module.side),
-                          static_cast<float>(model.flow.K_v),
-                          {now.seed, Stream::gust, now.gust, 0, 0}};
+    DragSettings settings(model, segments, now);
     const double scale =
         p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
     for (int first = 0; first < k.modules; first += kBulkBodies) {

@@ -17,6 +17,26 @@ HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
 namespace {
 
+// The water at a place with the module's one gust: its speed along n, and along t relative to the
+// face.
+struct Drift {
+  Float un, wt;
+};
+
+HWY_INLINE Drift drift_of(const Task& task, const FaceFrame& f, const Water& u) {
+  const Float ux = hn::Mul(task.K_v, hn::Add(u.mu_x, hn::Mul(u.sigma_x, task.number(0))));
+  const Float uy = hn::Mul(task.K_v, hn::Add(u.mu_y, hn::Mul(u.sigma_y, task.number(1))));
+  return {f.along_n(ux, uy), hn::Sub(f.along_t(ux, uy), f.vt)};
+}
+
+HWY_INLINE void add_segment(const FaceFrame& f, const Drift& drift, Float at, FaceSum& sum) {
+  const Float a = hn::Max(hn::Sub(f.normal_speed(at), drift.un), hn::Zero(Floats()));
+  const Float square = hn::Mul(a, a);
+  sum.n = hn::Sub(sum.n, square);
+  sum.moment = hn::Sub(sum.moment, hn::Mul(at, square));
+  sum.t = hn::Add(sum.t, hn::Mul(a, drift.wt));
+}
+
 // Gusts per drag point.
 template <FlowAt kAt>
 HWY_INLINE FaceSum point_face(const Task& task, const FaceFrame& f, int face) {
@@ -25,11 +45,11 @@ HWY_INLINE FaceSum point_face(const Task& task, const FaceFrame& f, int face) {
   FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Float spread = hn::Zero(d);
   Water water[kMostSegments];
-  water_along<kAt>(task, f, task.places, segments, water);
+  water_along<kAt>(task, f, task.settings.places, segments, water);
   for (int k = 0; k < segments; ++k) {
     const Water& u = water[k];
     const Gust gust = gust_of(u, f);
-    const Float z = task.number(face * segments + k), at = hn::Set(d, task.places[k]);
+    const Float z = task.number(face * segments + k), at = hn::Set(d, task.settings.places[k]);
     const Float un = hn::Add(f.along_n(u.mu_x, u.mu_y), hn::Mul(gust.deviation, z));
     const Float ut = hn::Add(f.along_t(u.mu_x, u.mu_y), hn::Mul(gust.slant, z));
     const Float against = hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, un));
@@ -46,33 +66,43 @@ HWY_INLINE FaceSum point_face(const Task& task, const FaceFrame& f, int face) {
   return sum;
 }
 
-// One gust for the whole module, or none.
-template <FlowAt kAt>
+// One gust for the whole module, or none; water read at each segment.
 HWY_INLINE FaceSum module_face(const Task& task, const FaceFrame& f) {
   const Floats d;
   FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  const Float zx = task.number(0), zy = task.number(1);
-  const auto flow = [&](const Water& u, Float& un, Float& wt) {
-    const Float ux = hn::Mul(task.K_v, hn::Add(u.mu_x, hn::Mul(u.sigma_x, zx)));
-    const Float uy = hn::Mul(task.K_v, hn::Add(u.mu_y, hn::Mul(u.sigma_y, zy)));
-    un = f.along_n(ux, uy), wt = hn::Sub(f.along_t(ux, uy), f.vt);
-  };
-  Float un = hn::Zero(d), wt = hn::Zero(d);
   Water water[kMostSegments];
-  if (kAt == FlowAt::centre)
-    flow(task.centre, un, wt);
-  else
-    water_along<kAt>(task, f, task.places, task.settings.segments, water);
+  water_along<FlowAt::points>(task, f, task.settings.places, task.settings.segments, water);
   for (int k = 0; k < task.settings.segments; ++k) {
-    if (kAt == FlowAt::points) flow(water[k], un, wt);
-    const Float at = hn::Set(d, task.places[k]);
-    const Float a = hn::Max(hn::Sub(f.normal_speed(at), un), hn::Zero(d));
-    const Float square = hn::Mul(a, a);
-    sum.n = hn::Sub(sum.n, square);
-    sum.moment = hn::Sub(sum.moment, hn::Mul(at, square));
-    sum.t = hn::Add(sum.t, hn::Mul(a, wt));
+    const Drift drift = drift_of(task, f, water[k]);
+    add_segment(f, drift, hn::Set(d, task.settings.places[k]), sum);
   }
   return sum;
+}
+
+// The same with the water of the module's centre, where -n.w = a - omega s along a face. Where that
+// has one sign, the sums over the segments are closed: N a^2 + omega^2 sum s^2 and so on. Few faces
+// meet the flow on one side only; a lane's bits must not depend on its neighbours', so each lane
+// takes the way that is its own.
+HWY_INLINE FaceSum uniform_face(const Task& task, const FaceFrame& f) {
+  const Floats d;
+  const Drift drift = drift_of(task, f, task.centre);
+  const Float a = hn::Sub(f.vn, drift.un), zero = hn::Zero(d);
+  const Float turning = hn::Mul(hn::Abs(f.omega), hn::Set(d, -task.settings.places[0]));
+  const Float count = hn::Set(d, static_cast<float>(task.settings.segments));
+  const Float spin = hn::Mul(f.omega, hn::Set(d, task.settings.squares));
+  const auto met = hn::Gt(a, zero);
+  FaceSum sum;
+  sum.n = hn::Neg(hn::IfThenElseZero(
+      met, hn::Add(hn::Mul(hn::Mul(a, a), count), hn::Mul(f.omega, spin))));
+  sum.moment = hn::IfThenElseZero(met, hn::Mul(hn::Add(a, a), spin));
+  sum.t = hn::IfThenElseZero(met, hn::Mul(hn::Mul(a, count), drift.wt));
+  const auto mixed = hn::Lt(hn::Abs(a), turning);
+  if (hn::AllFalse(d, mixed)) return sum;
+  FaceSum each{zero, zero, zero};
+  for (int k = 0; k < task.settings.segments; ++k)
+    add_segment(f, drift, hn::Set(d, task.settings.places[k]), each);
+  return {hn::IfThenElse(mixed, each.n, sum.n), hn::IfThenElse(mixed, each.t, sum.t),
+          hn::IfThenElse(mixed, each.moment, sum.moment)};
 }
 
 template <Gusts kGusts, FlowAt kAt>
@@ -85,7 +115,7 @@ HWY_INLINE void sum_faces(const Task& task, const Modules& m, WrenchSum& out) {
     if (kGusts == Gusts::per_point)
       sum = point_face<kAt>(task, f, face);
     else if (kGusts == Gusts::per_module)
-      sum = module_face<kAt>(task, f);
+      sum = kAt == FlowAt::centre ? uniform_face(task, f) : module_face(task, f);
     else
       sum = matched_face<kAt>(task, f, face, spread);
     add_face(f, sum, task.half, out);
@@ -152,6 +182,30 @@ HWY_AFTER_NAMESPACE();
 namespace lilytank {
 
 HWY_EXPORT(drag);
+
+DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
+    : field(model.field.get()),
+      gusts(model.flow.gusts),
+      gusty(now.gusts),
+      at(model.flow.at),
+      segments(segments_),
+      half(static_cast<float>(0.5 * model.module.side)),
+      K_v(static_cast<float>(model.flow.K_v)),
+      draw{now.seed, Stream::gust, now.gust, 0, 0} {
+  const double side = model.module.side;
+  double second = 0, fourth = 0;
+  for (int k = 0; k < segments; ++k) {
+    const double place = ((k + 0.5) / segments - 0.5) * side, square = place * place;
+    places[k] = static_cast<float>(place);
+    second += square, fourth += square * square;
+  }
+  squares = static_cast<float>(second);
+  const double square = second > 0 ? fourth / second : 0;
+  const double beside = square > 0 ? 0.5 * second / square : 0, way = std::sqrt(square);
+  nodes[0] = static_cast<float>(-way), nodes[1] = 0, nodes[2] = static_cast<float>(way);
+  weights[0] = weights[2] = static_cast<float>(beside);
+  weights[1] = static_cast<float>(segments - 2 * beside);
+}
 
 void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out) {
   const auto counter = counter_of(settings.draw);

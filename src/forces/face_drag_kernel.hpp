@@ -12,14 +12,21 @@ constexpr int kMostSegments = 24;
 
 /// What is the same for all modules in a step.
 struct DragSettings {
+  DragSettings(const Model& model, int segments_, const Moment& now);
+
   const FlowField* field;
   Gusts gusts;
   bool gusty;   ///< false: the mean flow only
   FlowAt at;
   int segments;
-  float half;   ///< m, half the side
+  float half;  ///< m, half the side
   float K_v;
-  Draw draw;    ///< of the gusts of body 0; `body` is the first module of the block
+  Draw draw;   ///< of the gusts; `body` is the first module of the block
+  float places[kMostSegments];  ///< m, where segments lie: from a face's middle along its tangent
+  float squares;                ///< m^2, sum of their squares
+  /// m; three places and their weights, whose sums over polynomials up to degree five equal those
+  /// over the segments (Gauss's rule with the segments' places as the measure).
+  float nodes[3], weights[3];
 };
 
 /// Poses and twists of up to sixteen modules (m, m/s, rad/s); `covered` as in Kinematics.

@@ -30,11 +30,7 @@ struct Task {
         covered(covered_),
         numbers(numbers_),
         K_v(hn::Set(Floats(), settings_.K_v)),
-        half(hn::Set(Floats(), settings_.half)) {
-    const float segment = 2 * settings.half / static_cast<float>(settings.segments);
-    for (int k = 0; k < settings.segments; ++k)
-      places[k] = (static_cast<float>(k) + 0.5f) * segment - settings.half;
-  }
+        half(hn::Set(Floats(), settings_.half)) {}
 
   const DragSettings& settings;
   const Lookup& field;
@@ -43,7 +39,6 @@ struct Task {
   Water centre;          ///< at the modules' centres, where FlowAt says so
   Float K_v, half;
 
-  float places[kMostSegments];  ///< m, where segments lie: from a face's middle along its tangent
   HWY_INLINE Float number(int k) const { return hn::Load(Floats(), numbers + k * kBulkBodies); }
 };
 

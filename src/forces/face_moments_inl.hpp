@@ -19,25 +19,6 @@ HWY_INLINE Float at_least_zero(Float v) {
   return hn::Max(v, hn::Zero(Floats()));
 }
 
-/// Three places on a face and their weights: sums over them equal sums over the segments for
-/// polynomials up to degree five (Gauss's rule for the segments' places as the measure).
-struct FaceNodes {
-  float place[3], weight[3];
-  explicit FaceNodes(const Task& task) {
-    const int n = task.settings.segments;
-    float second = 0, fourth = 0;
-    for (int k = 0; k < n; ++k) {
-      const float square = task.places[k] * task.places[k];
-      second += square, fourth += square * square;
-    }
-    const float square = second > 0 ? fourth / second : 0;
-    const float side = square > 0 ? 0.5f * second / square : 0;
-    const float way = std::sqrt(square);
-    place[0] = -way, place[1] = 0, place[2] = way;
-    weight[0] = weight[2] = side, weight[1] = static_cast<float>(n) - 2 * side;
-  }
-};
-
 /// Sums over a face of the covariances of one segment's forces f_n and f_t with weights 1, s, s^2.
 struct FaceCovariance {
   Float nn, nn_s, nn_ss, nt, nt_s, tt;
@@ -106,38 +87,58 @@ HWY_INLINE SegmentMoments segment_moments(const Moments& m, Float A, Float b, Fl
   return s;
 }
 
+/// What is known at a node before its moments are taken.
+struct Node {
+  Float mean, deviation, inverse;  ///< of -n.w
+  Float wt, b, rho;                ///< f_t = a (wt + b mean - b a + rho z)
+};
+
+HWY_INLINE Node node_of(const Task& task, const FaceFrame& f, const Water& u, Float at,
+                        Float per_K) {
+  const Gust gust = gust_of(u, f);
+  Node n;
+  n.mean = hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, f.along_n(u.mu_x, u.mu_y)));
+  n.deviation = hn::Mul(task.K_v, gust.deviation), n.inverse = hn::Mul(gust.inverse, per_K);
+  n.wt = hn::Sub(hn::Mul(task.K_v, f.along_t(u.mu_x, u.mu_y)), f.vt);
+  n.b = hn::Mul(gust.slant, gust.inverse), n.rho = hn::Mul(task.K_v, gust.rest);
+  return n;
+}
+
+HWY_INLINE void add_node(const SegmentMoments& s, Float at, Float weight, FaceSum& sum,
+                         FaceCovariance& c) {
+  const Float square = hn::Mul(weight, s.square), nn = hn::Mul(weight, s.nn);
+  const Float nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
+  sum.n = hn::Sub(sum.n, square);
+  sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
+  sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
+  c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
+  c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
+  c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
+  c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
+}
+
+// In stages over the three nodes, whose chains the processor can then overlap.
 template <FlowAt kAt>
 HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, Spread& spread) {
   const Floats d;
   const Float zero = hn::Zero(d);
   FaceSum sum{zero, zero, zero};
   FaceCovariance c{zero, zero, zero, zero, zero, zero};
-  const FaceNodes nodes(task);
+  const float* places = task.settings.nodes;
   const Float per_K = hn::Div(hn::Set(d, 1.0f), hn::Max(task.K_v, hn::Set(d, 1e-6f)));
   Water water[3];
-  water_along<kAt>(task, f, nodes.place, 3, water);
+  water_along<kAt>(task, f, places, 3, water);
+  Node node[3];
+  for (int k = 0; k < 3; ++k)
+    node[k] = node_of(task, f, water[k], hn::Set(d, places[k]), per_K);
+  Moments moments[3];
+  for (int k = 0; k < 3; ++k)
+    moments[k] = positive_moments(node[k].mean, node[k].deviation, node[k].inverse);
   for (int k = 0; k < 3; ++k) {
-    const Water& u = water[k];
-    const Gust gust = gust_of(u, f);
-    const Float at = hn::Set(d, nodes.place[k]);
-    const Float weight = hn::Mul(hn::Set(d, nodes.weight[k]), f.open);
-    const Float mean =
-        hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, f.along_n(u.mu_x, u.mu_y)));
-    const Moments m = positive_moments(mean, hn::Mul(task.K_v, gust.deviation),
-                                       hn::Mul(gust.inverse, per_K));
-    const Float b = hn::Mul(gust.slant, gust.inverse);
-    const Float wt = hn::Sub(hn::Mul(task.K_v, f.along_t(u.mu_x, u.mu_y)), f.vt);
-    const SegmentMoments s = segment_moments(m, hn::Add(wt, hn::Mul(b, mean)), b,
-                                             hn::Mul(task.K_v, gust.rest));
-    const Float square = hn::Mul(weight, s.square), nn = hn::Mul(weight, s.nn);
-    const Float nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
-    sum.n = hn::Sub(sum.n, square);
-    sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
-    sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
-    c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
-    c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
-    c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
-    c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
+    const Node& n = node[k];
+    const Float A = hn::Add(n.wt, hn::Mul(n.b, n.mean));
+    const Float weight = hn::Mul(hn::Set(d, task.settings.weights[k]), f.open);
+    add_node(segment_moments(moments[k], A, n.b, n.rho), hn::Set(d, places[k]), weight, sum, c);
   }
   spread.add(face, c, task.half);
   return sum;

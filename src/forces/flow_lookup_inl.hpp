@@ -63,33 +63,45 @@ HWY_INLINE void transpose(Float& a, Float& b, Float& c, Float& e) {
   e = hn::BitCast(d, hn::InterleaveUpper(w, u0, u1));
 }
 
-// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, summed as (a + ty c) + (tx b + tx ty e)
-// from the row of its cell.
+// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, (a + ty c) + tx (b + ty e) from the row
+// of its cell.
 #if HWY_MAX_BYTES == 64
-HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
+HWY_INLINE Float spread(Float v, const std::int32_t (&lanes)[16]) {
+  return hn::TableLookupLanes(v, hn::SetTableIndices(Floats(), lanes));
+}
+
+// Points j, 4 + j, 8 + j and 12 + j, one in each block of the result.
+template <int j>
+HWY_INLINE Float read_four(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
+  alignas(64) static constexpr std::int32_t kFirst[16] = {
+      j, j, j, j, j, j, j, j, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4};
+  alignas(64) static constexpr std::int32_t kSecond[16] = {
+      j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,
+      j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12};
+  alignas(64) static constexpr std::int32_t kAll[16] = {
+      j, j, j, j, j + 4, j + 4, j + 4, j + 4, j + 8, j + 8, j + 8, j + 8, j + 12, j + 12, j + 12,
+      j + 12};
   const Floats d;
-  Float weights[4] = {hn::Set(d, 1.0f), tx, ty, hn::Mul(tx, ty)};
-  transpose(weights[0], weights[1], weights[2], weights[3]);
-  // Weights of point 4b + j are block b of weights[j]; each goes to a block of its own.
-  alignas(64) static constexpr std::int32_t kSpread[4][16] = {
-      {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3},
-      {4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7},
-      {8, 8, 8, 8, 9, 9, 9, 9, 10, 10, 10, 10, 11, 11, 11, 11},
-      {12, 12, 12, 12, 13, 13, 13, 13, 14, 14, 14, 14, 15, 15, 15, 15}};
-  Float all[4];
-  for (int j = 0; j < 4; ++j) {
-    const auto product = [&](int b) {
-      const auto row = hn::Load(d, reinterpret_cast<const float*>(rows + offset[4 * b + j]));
-      return hn::Mul(row, hn::TableLookupLanes(weights[j], hn::SetTableIndices(d, kSpread[b])));
-    };
-    const auto halves = [&](Float p, Float q) {
-      return hn::Add(hn::ConcatLowerLower(d, q, p), hn::ConcatUpperUpper(d, q, p));
-    };
-    const Float p = halves(product(0), product(2)), q = halves(product(1), product(3));
-    all[j] = hn::Add(hn::OddEvenBlocks(q, p), hn::SwapAdjacentBlocks(hn::OddEvenBlocks(p, q)));
-  }
-  transpose(all[0], all[1], all[2], all[3]);
-  return {all[0], all[1], all[2], all[3]};
+  const hn::Half<Floats> half;
+  const auto row = [&](int k) { return reinterpret_cast<const float*>(rows + offset[k]); };
+  // [a b] + ty [c e] of two points.
+  const auto along_y = [&](int p, int q, Float y) {
+    const auto low = hn::Combine(d, hn::Load(half, row(q)), hn::Load(half, row(p)));
+    const auto high = hn::Combine(d, hn::Load(half, row(q) + 8), hn::Load(half, row(p) + 8));
+    return hn::Add(low, hn::Mul(high, y));
+  };
+  const Float one = along_y(j, j + 4, spread(ty, kFirst));
+  const Float two = along_y(j + 8, j + 12, spread(ty, kSecond));
+  const Float even{_mm512_shuffle_f32x4(one.raw, two.raw, 0x88)};
+  const Float odd{_mm512_shuffle_f32x4(one.raw, two.raw, 0xDD)};
+  return hn::Add(even, hn::Mul(odd, spread(tx, kAll)));
+}
+
+HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
+  Float a = read_four<0>(rows, offset, tx, ty), b = read_four<1>(rows, offset, tx, ty);
+  Float c = read_four<2>(rows, offset, tx, ty), e = read_four<3>(rows, offset, tx, ty);
+  transpose(a, b, c, e);
+  return {a, b, c, e};
 }
 #else
 HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
@@ -101,11 +113,9 @@ HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float t
   for (int i = 0; i < static_cast<int>(hn::Lanes(d)); ++i) {
     const float* row = reinterpret_cast<const float*>(rows + offset[i]);
     const auto wx = hn::Set(four, x[i]), wy = hn::Set(four, y[i]);
-    const auto wxy = hn::Mul(wx, wy);
-    const auto even = hn::Add(hn::Load(four, row), hn::Mul(hn::Load(four, row + 8), wy));
-    const auto odd =
-        hn::Add(hn::Mul(hn::Load(four, row + 4), wx), hn::Mul(hn::Load(four, row + 12), wxy));
-    hn::Store(hn::Add(even, odd), four, out + 4 * i);
+    const auto low = hn::Add(hn::Load(four, row), hn::Mul(hn::Load(four, row + 8), wy));
+    const auto high = hn::Add(hn::Load(four, row + 4), hn::Mul(hn::Load(four, row + 12), wy));
+    hn::Store(hn::Add(low, hn::Mul(high, wx)), four, out + 4 * i);
   }
   Water u;
   hn::LoadInterleaved4(d, out, u.mu_x, u.mu_y, u.sigma_x, u.sigma_y);

@@ -21,9 +21,9 @@ void words(const std::uint32_t counter[4], const std::uint32_t key[2], std::uint
   const Words w;
   const int lanes = static_cast<int>(hn::Lanes(w));
   for (int i = 0; i < kBulkBodies; i += lanes) {
-    Blocks blocks[1] = {counters(counter, static_cast<std::uint32_t>(i), 0)};
-    philox(blocks, key);
-    hn::Store(word_of(blocks[0], 0), w, out + i);
+    Blocks set = counters(counter, static_cast<std::uint32_t>(i), 0);
+    philox<1>(&set, key);
+    hn::Store(word_of<0>(set), w, out + i);
   }
 }
 

@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr int kSweeps = 100;
-constexpr double kConverged = 1e-7;  // m/s, change of velocity in a sweep
+constexpr double kConverged = 1e-6;  // m/s, change of velocity in a sweep
 constexpr double kUnchanged = 1e-6;  // m/s, targets nearer than this need no second solution
 
 double energy(const std::vector<Mover>& movers) {

@@ -66,15 +66,13 @@ struct Motion::Impl {
   };
   std::vector<Link> links;
   std::vector<double> bound;  // [slot] m, no point of it moves farther by itself in the step
-  std::vector<double> reach;  // [body] m, radius of the circle that it stays in
-  std::vector<double> arc;    // [body] m, how far its path leaves a straight line
   struct Slot {
     std::int64_t seen = 0;                // the slice in which the rest was set
     Way way = Way::free;
     bool gathered = false;                // by the search in progress
     int root = 0;                         // the island's lowest slot, or on the way there
     int head = -1, tail = -1, count = 0;  // links of the island with this root
-    double own = 0;                       // m, farthest that a point moves by itself
+    double arc = 0;                       // m, no member's path leaves a straight line by more
     double strayed = 0;                   // m
     Pose pose;                            // at the end of the slice
     Twist twist;
@@ -90,6 +88,7 @@ struct Motion::Impl {
   void slice(double h, Tallies& tallies);
   void search(double distance);
   void look_at(int slot, double h);
+  double arc(int body) const { return slots[builder.slot_of(body)].arc; }
   double widening(int body, double h) const;
   double clearance(int i, int j, double h) const;
   double clearance(int i, int j, const Gap& gap, double h) const;
@@ -113,7 +112,7 @@ Motion::Impl::Impl(const Model& m)
   const auto n = static_cast<std::size_t>(m.bodies());
   largest = 0;
   for (int i = 0; i < m.bodies(); ++i) largest = std::max(largest, builder.size_of(i));
-  bound.assign(n, 0), reach.assign(n, 0), arc.assign(n, 0);
+  bound.assign(n, 0);
   slots.assign(n, {});
   roots.reserve(n), moved.reserve(n);
   links.reserve(std::min(n * (n + 1) / 2, 10 * n));
@@ -139,28 +138,25 @@ void Motion::Impl::search(double distance) {
   searched = true;
 }
 
-// Twists of an assembly's bodies, and how far they may get within h seconds. Most assemblies are far
-// from everything, so this is done for those that are not.
+// Twists of an assembly's bodies, and how far they leave straight lines within h seconds. Most
+// assemblies are far from everything, so this is done for those that are not.
 void Motion::Impl::look_at(int slot, double h) {
   Slot& s = slots[slot];
   if (s.seen == number) return;
   Assemblies& a = *assemblies;
   const double vx = state->vx[slot], vy = state->vy[slot], omega = state->omega[slot];
-  const double turn = h * std::fabs(omega), straight = h * length(vx, vy);
   s.seen = number;
   s.way = Way::free, s.gathered = false;
   s.root = slot, s.head = -1, s.count = 0;
-  s.own = straight + turn * a.reach[slot];
-  s.strayed = 0;
-  for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
-    a.vx[i] = vx, a.vy[i] = vy, a.omega[i] = omega;
-    arc[i] = 0, reach[i] = builder.size_of(i) + straight;
-    if (i == slot && a.next[i] < 0) break;
-    const double rx = a.x[i] - state->x[slot], ry = a.y[i] - state->y[slot];
-    a.vx[i] -= omega * ry, a.vy[i] += omega * rx;
-    arc[i] = 0.5 * turn * turn * length(rx, ry);
-    const double path = arc[i] + h * length(a.vx[i], a.vy[i]);
-    reach[i] = builder.size_of(i) + std::min(path, s.own);
+  s.strayed = s.arc = 0;
+  a.vx[slot] = vx, a.vy[slot] = vy, a.omega[slot] = omega;
+  if (a.next[slot] < 0) return;
+  const double turn = h * omega;
+  s.arc = 0.5 * turn * turn * a.reach[slot];
+  for (int i = slot; i >= 0; i = a.next[i]) {
+    a.vx[i] = vx - omega * (a.y[i] - state->y[slot]);
+    a.vy[i] = vy + omega * (a.x[i] - state->x[slot]);
+    a.omega[i] = omega;
   }
 }
 
@@ -180,7 +176,7 @@ double Motion::Impl::clearance(int i, int j, double h) const {
 double Motion::Impl::clearance(int i, int j, const Gap& gap, double h) const {
   const Assemblies& a = *assemblies;
   const double along = gap.nx * (a.vx[j] - a.vx[i]) + gap.ny * (a.vy[j] - a.vy[i]);
-  return gap.size - std::max(0.0, widening(i, h) + widening(j, h) + arc[i] + arc[j] - h * along);
+  return gap.size - std::max(0.0, widening(i, h) + widening(j, h) + arc(i) + arc(j) - h * along);
 }
 
 // The same between body i and the wall: distance from the centre is greatest at an end of a
@@ -188,7 +184,7 @@ double Motion::Impl::clearance(int i, int j, const Gap& gap, double h) const {
 double Motion::Impl::wall_clearance(int i, double h) const {
   const double end = builder.wall_gap(i, h * assemblies->vx[i], h * assemblies->vy[i]);
   const double turn = builder.is_module(i) ? h * std::fabs(assemblies->omega[i]) : 0;
-  return std::min(builder.wall_gap(i, 0, 0), end) - turn * builder.size_of(i) - arc[i];
+  return std::min(builder.wall_gap(i, 0, 0), end) - turn * builder.size_of(i) - arc(i);
 }
 
 int Motion::Impl::root_of(int slot) {
@@ -202,12 +198,11 @@ void Motion::Impl::link_walls(double h) {
     const double nearest = model->tank.radius - kLinkSpare - a.reach[slot];
     if (within(state->x[slot], state->y[slot], nearest - bound[slot])) continue;
     look_at(slot, h);
-    if (within(state->x[slot], state->y[slot], nearest - slots[slot].own)) continue;
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
       if (wall_clearance(i, h) > kLinkSpare) continue;
       links.push_back({i, -1, -1});
       extra =
-          std::max(extra, kPushShare * slots[slot].own - std::min(0.0, 2 * wall_clearance(i, 0)));
+          std::max(extra, kPushShare * bound[slot] - std::min(0.0, 2 * wall_clearance(i, 0)));
     }
   }
 }
@@ -216,7 +211,6 @@ void Motion::Impl::link_pair(int i, int j, double h) {
   const Assemblies& a = *assemblies;
   const int p = builder.slot_of(i), q = builder.slot_of(j);
   look_at(p, h), look_at(q, h);
-  if (!within(a.x[j] - a.x[i], a.y[j] - a.y[i], reach[i] + reach[j] + kLinkSpare)) return;
   const Gap gap = builder.gap(i, j);
   if (clearance(i, j, gap, h) > kLinkSpare) return;
   links.push_back({i, j, -1});
@@ -286,8 +280,8 @@ void Motion::Impl::gather_course(int root) {
 void Motion::Impl::gather_around(int i, double h) {
   const Assemblies& a = *assemblies;
   const int slot = builder.slot_of(i);
-  const double promise = slots[slot].own + extra, size = builder.size_of(i);
-  const double room = std::max(size + promise, reach[i] + kLinkSpare);
+  const double promise = bound[slot] + extra, size = builder.size_of(i);
+  const double room = size + promise + kLinkSpare;
   if (!within(a.x[i], a.y[i], model->tank.radius - room)) builder.link_wall(i);
   const double needed = room + extra + 3 * way + largest;
   if (needed > neighbours.distance()) search(needed);
@@ -296,9 +290,9 @@ void Motion::Impl::gather_around(int i, double h) {
     if (other == slot) return;
     look_at(other, h);
     if (slots[other].gathered) return;
-    const double apart = builder.gap(i, j).size - promise - slots[other].own - extra;
+    const double apart = builder.gap(i, j).size - promise - bound[other] - extra;
     if (apart > 0 && clearance(i, j, h) > kLinkSpare) return;
-    if (!builder.has(other)) builder.enter(other, slots[other].own + extra);
+    if (!builder.has(other)) builder.enter(other, bound[other] + extra);
     builder.link(i, j);
   });
 }
@@ -306,7 +300,7 @@ void Motion::Impl::gather_around(int i, double h) {
 // The island of all that an assembly, and in turn what it meets, could reach.
 void Motion::Impl::gather_wide(int slot, double h) {
   builder.clear();
-  builder.enter(slot, slots[slot].own + extra);
+  builder.enter(slot, bound[slot] + extra);
   for (std::size_t k = 0; k < builder.slots().size(); ++k) {
     const int from = builder.slots()[k];
     for (int i = assemblies->first[from]; i >= 0; i = assemblies->next[i]) gather_around(i, h);
