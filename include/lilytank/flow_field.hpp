@@ -14,8 +14,8 @@ struct FlowSample {
   double mu_x = 0, mu_y = 0, sigma_x = 0, sigma_y = 0;
 };
 
-/// A cell's corner values for bilinear lookup, in FlowSample's order, float32: from its own centre to
-/// those at +x and +y, the field is v[0] + tx v[1] + ty v[2] + tx ty v[3], tx and ty in 0..1.
+/// A cell's corner values for bilinear lookup, in FlowSample's order, float32: from its own centre
+/// to those at +x and +y, the field is v[0] + tx v[1] + ty v[2] + tx ty v[3], tx and ty in 0..1.
 struct alignas(64) FlowRow {
   float v[4][4] = {};
 };
@@ -44,8 +44,8 @@ class FlowField {
   const std::vector<FlowSample>& samples() const { return samples_; }
   /// Whether cell i came from data (true) or was filled (false).
   const std::vector<bool>& measured() const { return measured_; }
-  /// Every cell's row, as the cells are stored: what the drag kernel reads. Those of the last row and
-  /// column of cells stay empty.
+  /// Every cell's row, as the cells are stored: what the drag kernel reads. Those of the last row
+  /// and column of cells stay empty.
   const std::vector<FlowRow>& rows() const { return rows_; }
 
  private:

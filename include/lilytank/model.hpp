@@ -48,7 +48,8 @@ struct ContactParameters {
 enum class Gusts {
   per_point,       ///< each drag point has its own [authors' simulation]
   per_module,      ///< one for the whole module [paper, Eq. 4 read literally]
-  moment_matched,  ///< as per_point, but the wrench is drawn as a normal with its mean and covariance
+  moment_matched,  ///< as per_point, but the wrench is drawn as a normal with its mean and
+                   ///< covariance
 };
 /// Where the water is read for the drag on a module.
 enum class FlowAt { points, centre };

@@ -37,7 +37,7 @@ struct Firmware {
   std::uint8_t next_face = 0;  ///< where the round of its faces goes on
   std::uint8_t waiting = 0;    ///< ticks until it is idle again (src/control/exchange.hpp)
   Power power = Power::on;
-  std::uint8_t mail = 0;       ///< bit f: the message of face f's neighbour waits for an answer
+  std::uint8_t mail = 0;  ///< bit f: the message of face f's neighbour waits for an answer
   std::uint8_t spare[3] = {0, 0, 0};
 };
 

@@ -46,8 +46,14 @@ void Exchange::firmware(Tick& tick) {
           {tick.state.seed, Stream::initiative, tick.number, static_cast<std::uint32_t>(i), 0},
           bits);
     const bool begins = bits[i % kBulkBodies] < begins_below_;
-    const Firmware& firmware = tick.state.firmware[i];
-    if (begins || firmware.waiting > 0 || firmware.mail != 0) act(tick, i, begins);
+    Firmware& firmware = tick.state.firmware[i];
+    const bool idle = firmware.waiting == 0;
+    const bool acts = (begins & idle) | (firmware.waiting == begins_at_) | (firmware.mail != 0) |
+                      (firmware.power != Power::on);
+    if (acts)
+      act(tick, i, begins);
+    else
+      firmware.waiting = static_cast<std::uint8_t>(firmware.waiting - (idle ? 0 : 1));
   }
   // An initiator waits and a responder was idle, so these pairs have no module in common.
   for (const Connector& responder : answers_) {

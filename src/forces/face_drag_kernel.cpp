@@ -92,8 +92,8 @@ HWY_INLINE FaceSum uniform_face(const Task& task, const FaceFrame& f) {
   const Float spin = hn::Mul(f.omega, hn::Set(d, task.settings.squares));
   const auto met = hn::Gt(a, zero);
   FaceSum sum;
-  sum.n = hn::Neg(hn::IfThenElseZero(
-      met, hn::Add(hn::Mul(hn::Mul(a, a), count), hn::Mul(f.omega, spin))));
+  sum.n = hn::Neg(
+      hn::IfThenElseZero(met, hn::Add(hn::Mul(hn::Mul(a, a), count), hn::Mul(f.omega, spin))));
   sum.moment = hn::IfThenElseZero(met, hn::Mul(hn::Add(a, a), spin));
   sum.t = hn::IfThenElseZero(met, hn::Mul(hn::Mul(a, count), drift.wt));
   const auto mixed = hn::Lt(hn::Abs(a), turning);
@@ -156,9 +156,9 @@ void drag(const DragSettings& settings, const std::uint32_t counter[4], const st
   for (int i = 0; i < kBulkBodies; i += static_cast<int>(hn::Lanes(d))) {
     if (settings.gusty)
       normals_of(counter, key, static_cast<std::uint32_t>(i), numbers(settings), z + i);
-    const Modules m{hn::Load(d, block.x + i),  hn::Load(d, block.y + i),
-                    hn::Load(d, block.c + i),  hn::Load(d, block.s + i),
-                    hn::Load(d, block.vx + i), hn::Load(d, block.vy + i),
+    const Modules m{hn::Load(d, block.x + i),    hn::Load(d, block.y + i),
+                    hn::Load(d, block.c + i),    hn::Load(d, block.s + i),
+                    hn::Load(d, block.vx + i),   hn::Load(d, block.vy + i),
                     hn::Load(d, block.omega + i)};
     Task task(settings, field, block.covered + i, z + i);
     WrenchSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
@@ -192,10 +192,10 @@ DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
       half(static_cast<float>(0.5 * model.module.side)),
       K_v(static_cast<float>(model.flow.K_v)),
       draw{now.seed, Stream::gust, now.gust, 0, 0} {
-  const double side = model.module.side;
+  const double side = model.module.side, pitch = side / segments;
   double second = 0, fourth = 0;
   for (int k = 0; k < segments; ++k) {
-    const double place = ((k + 0.5) / segments - 0.5) * side, square = place * place;
+    const double place = (k + 0.5) * pitch - 0.5 * side, square = place * place;
     places[k] = static_cast<float>(place);
     second += square, fourth += square * square;
   }

@@ -2,9 +2,9 @@
 #pragma once
 #include <cstdint>
 
-#include "math/bulk_random.hpp"
 #include "lilytank/flow_field.hpp"
 #include "lilytank/model.hpp"
+#include "math/bulk_random.hpp"
 
 namespace lilytank {
 
@@ -16,12 +16,12 @@ struct DragSettings {
 
   const FlowField* field;
   Gusts gusts;
-  bool gusty;   ///< false: the mean flow only
+  bool gusty;  ///< false: the mean flow only
   FlowAt at;
   int segments;
   float half;  ///< m, half the side
   float K_v;
-  Draw draw;   ///< of the gusts; `body` is the first module of the block
+  Draw draw;                    ///< of the gusts; `body` is the first module of the block
   float places[kMostSegments];  ///< m, where segments lie: from a face's middle along its tangent
   float squares;                ///< m^2, sum of their squares
   /// m; three places and their weights, whose sums over polynomials up to degree five equal those
@@ -42,12 +42,12 @@ struct DragSums {
   alignas(64) float fx[kBulkBodies], fy[kBulkBodies], torque[kBulkBodies];
 };
 
-/// The drag of a block. With gusts per drag point, the normal gust of each segment is drawn (numbers
-/// face * segments + k of bulk_normals()), and for each face one number more (4 * segments + face)
-/// for what is left of its tangential gusts: given the normal ones, the tangential force is normal
-/// with mean sum a c and variance sum a^2 r^2 (a = max(0, -n.w), c and r the tangential flow's
-/// conditional mean and deviation), and it acts at one distance from the centre. That is exact, with
-/// half the random numbers. With gusts per module, numbers 0 and 1 are the gust.
+/// The drag of a block. With gusts per drag point, the normal gust of each segment is drawn
+/// (numbers face * segments + k of bulk_normals()), and for each face one number more (4 * segments
+/// + face) for what is left of its tangential gusts: given the normal ones, the tangential force is
+/// normal with mean sum a c and variance sum a^2 r^2 (a = max(0, -n.w), c and r the tangential
+/// flow's conditional mean and deviation), and it acts at one distance from the centre. That is
+/// exact, with half the random numbers. With gusts per module, numbers 0 and 1 are the gust.
 ///
 /// Moment-matched gusts: the wrench is normal with the exact mean and covariance (over the three
 /// nodes of each face that integrate degree five over its segments exactly) and is made of numbers

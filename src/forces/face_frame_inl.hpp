@@ -65,8 +65,7 @@ HWY_INLINE Float open_of(const std::uint8_t* covered, int face) {
   const hn::Rebind<std::uint8_t, Words> bytes;
   const Word bits = hn::PromoteTo(w, hn::LoadU(bytes, covered));
   const Word bit = hn::And(bits, hn::Set(w, 1u << face));
-  return hn::IfThenElse(hn::RebindMask(d, hn::Eq(bit, hn::Zero(w))), hn::Set(d, 1.0f),
-                        hn::Zero(d));
+  return hn::IfThenElse(hn::RebindMask(d, hn::Eq(bit, hn::Zero(w))), hn::Set(d, 1.0f), hn::Zero(d));
 }
 
 HWY_INLINE FaceFrame face_frame(const Task& task, const Modules& m, int face) {

@@ -1,5 +1,5 @@
-// Mean and covariance of the drag on a face under gusts that are independent from segment to segment,
-// and a module's wrench drawn from them: included by files that are compiled once for each
+// Mean and covariance of the drag on a face under gusts that are independent from segment to
+// segment, and a module's wrench drawn from them: included by files that are compiled once for each
 // instruction set, with the same bits from each.
 #if defined(LILYTANK_FACE_MOMENTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef LILYTANK_FACE_MOMENTS_INL
@@ -56,8 +56,7 @@ struct Spread {
     const Float i1 = inverse_root(left_y);
     const Float y1 = hn::Mul(left_y, i1);
     const Float q1 = hn::Mul(hn::Sub(yq, hn::Mul(q0, y0)), i1);
-    const Float left_q =
-        at_least_zero(hn::Sub(hn::Sub(qq, hn::Mul(q0, q0)), hn::Mul(q1, q1)));
+    const Float left_q = at_least_zero(hn::Sub(hn::Sub(qq, hn::Mul(q0, q0)), hn::Mul(q1, q1)));
     const Float q2 = hn::Mul(left_q, inverse_root(left_q));
     const Float fx = hn::Mul(x0, z0), fy = hn::Add(hn::Mul(y0, z0), hn::Mul(y1, z1));
     out.fx = hn::Add(out.fx, hn::Sub(hn::Mul(m.c, fx), hn::Mul(m.s, fy)));
@@ -129,8 +128,7 @@ HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, 
   Water water[3];
   water_along<kAt>(task, f, places, 3, water);
   Node node[3];
-  for (int k = 0; k < 3; ++k)
-    node[k] = node_of(task, f, water[k], hn::Set(d, places[k]), per_K);
+  for (int k = 0; k < 3; ++k) node[k] = node_of(task, f, water[k], hn::Set(d, places[k]), per_K);
   Moments moments[3];
   for (int k = 0; k < 3; ++k)
     moments[k] = positive_moments(node[k].mean, node[k].deviation, node[k].inverse);

@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
-#include "math/bulk_random_inl.hpp"
 #include "lilytank/flow_field.hpp"
+#include "math/bulk_random_inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
@@ -63,8 +63,8 @@ HWY_INLINE void transpose(Float& a, Float& b, Float& c, Float& e) {
   e = hn::BitCast(d, hn::InterleaveUpper(w, u0, u1));
 }
 
-// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, (a + ty c) + tx (b + ty e) from the row
-// of its cell.
+// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, (a + ty c) + tx (b + ty e) from the
+// row of its cell.
 #if HWY_MAX_BYTES == 64
 HWY_INLINE Float spread(Float v, const std::int32_t (&lanes)[16]) {
   return hn::TableLookupLanes(v, hn::SetTableIndices(Floats(), lanes));
@@ -78,9 +78,9 @@ HWY_INLINE Float read_four(const char* rows, const std::int32_t* offset, Float t
   alignas(64) static constexpr std::int32_t kSecond[16] = {
       j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,
       j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12};
-  alignas(64) static constexpr std::int32_t kAll[16] = {
-      j, j, j, j, j + 4, j + 4, j + 4, j + 4, j + 8, j + 8, j + 8, j + 8, j + 12, j + 12, j + 12,
-      j + 12};
+  alignas(64) static constexpr std::int32_t kAll[16] = {j,      j,      j,      j,     j + 4, j + 4,
+                                                        j + 4,  j + 4,  j + 8,  j + 8, j + 8, j + 8,
+                                                        j + 12, j + 12, j + 12, j + 12};
   const Floats d;
   const hn::Half<Floats> half;
   const auto row = [&](int k) { return reinterpret_cast<const float*>(rows + offset[k]); };

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/bulk_random.hpp"
 #include "library.hpp"
 #include "lilytank/model.hpp"
+#include "math/bulk_random.hpp"
 
 namespace lilytank {
 namespace {
@@ -33,8 +33,8 @@ class StochasticForce final : public ForceTerm {
     const double sigma = p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
     alignas(64) float z[2 * kBulkBodies];
     for (int first = 0; first < k.size(); first += kBulkBodies) {
-      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0}, 2,
-                   z);
+      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0},
+                   2, z);
       const int n = std::min(kBulkBodies, k.size() - first);
       for (int i = 0; i < n; ++i) {
         out[first + i].fx += sigma * static_cast<double>(z[i]);

@@ -29,7 +29,7 @@ HWY_INLINE Float inverse_root(Float v) {
 
 /// e^-x for 0 <= x <= 80, relative error under 2e-7.
 HWY_INLINE Float exp_minus(Float x) {
-  static constexpr float kExp[7] = {1.0f,      1.0f,       0.5f,        0.16666667f,
+  static constexpr float kExp[7] = {1.0f,         1.0f,          0.5f,         0.16666667f,
                                     0.041666668f, 0.0083333338f, 0.0013888889f};
   const Floats d;
   const Words w;
@@ -45,7 +45,7 @@ HWY_INLINE Float exp_minus(Float x) {
 /// Standard normal density and distribution function at x; absolute errors under 2e-7 [Abramowitz
 /// and Stegun, 26.2.17].
 HWY_INLINE void normal_at(Float x, Float& density, Float& below) {
-  static constexpr float kTail[6] = {0.0f,         0.31938153f,  -0.356563782f,
+  static constexpr float kTail[6] = {0.0f,         0.31938153f,   -0.356563782f,
                                      1.781477937f, -1.821255978f, 1.330274429f};
   const Floats d;
   const Float one = hn::Set(d, 1.0f), size = hn::Abs(x);

@@ -53,8 +53,12 @@ void flow_keys(ScenarioDraft& d, Keys& keys) {
                   "CSV file of the field; naming one sets flow.source = \"file\""});
   keys.push_back({"flow.interpolation", choice(d.interpolation, {"bilinear", "nearest"}), "", 0, 0,
                   "how the field is read between cell centres; the paper takes the nearest"});
-  keys.push_back({"flow.gusts", choice(f.gusts, {"per_point", "per_module"}), "", 0, 0,
-                  "whether each drag point or each module has its own gust"});
+  keys.push_back(
+      {"flow.gusts", choice(f.gusts, {"per_point", "per_module", "moment_matched"}), "", 0, 0,
+       "gusts of each drag point, of each module, or a wrench with the points' moments"});
+  keys.push_back(
+      {"flow.at", choice(f.at, {"points", "centre"}), "", 0, 0,
+       "where the water is read for the drag: at each drag point, or the module's centre"});
   keys.push_back(
       {"flow.K_v", &f.K_v, "1", 0, 10, "factor on mean and deviation of the flow, Eq. 4"});
   keys.push_back({"flow.rho", &f.rho, "kg/m^3", 1, 20000, "density of the water"});

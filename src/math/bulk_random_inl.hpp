@@ -23,8 +23,8 @@ using Float = hn::Vec<Floats>;
 using Word = hn::Vec<Words>;
 using WideWord = hn::Vec<Wide>;
 
-// Four words for each of as many blocks as there are 64-bit lanes, in their low halves: a product of
-// 32-bit words then needs no shuffle. The upper halves hold rubbish.
+// Four words for each of as many blocks as there are 64-bit lanes, in their low halves: a product
+// of 32-bit words then needs no shuffle. The upper halves hold rubbish.
 struct Chain {
   WideWord c0, c1, c2, c3;
 };
@@ -71,7 +71,9 @@ HWY_INLINE void philox(Blocks* sets, const std::uint32_t key[2]) {
 template <int k>
 HWY_INLINE Word word_of(const Blocks& b) {
   const Words d;
-  const auto pick = [](const Chain& c) { return k == 0 ? c.c0 : k == 1 ? c.c1 : k == 2 ? c.c2 : c.c3; };
+  const auto pick = [](const Chain& c) {
+    return k == 0 ? c.c0 : k == 1 ? c.c1 : k == 2 ? c.c2 : c.c3;
+  };
   return hn::ConcatEven(d, hn::BitCast(d, pick(b.high)), hn::BitCast(d, pick(b.low)));
 }
 
@@ -126,9 +128,8 @@ HWY_INLINE void box_muller(Word length_bits, Word direction_bits, Float& x, Floa
   const Float length = hn::Sqrt(hn::Mul(log_of(u), hn::Set(d, -2.0f)));
   // The low 14 bits are a place in a quarter turn about 0, the upper two say which quarter.
   const Word place = hn::And(direction_bits, hn::Set(w, 0x3fffu));
-  const Float t =
-      hn::Mul(hn::Sub(hn::ConvertTo(d, hn::BitCast(s, place)), hn::Set(d, 8191.5f)),
-              hn::Set(d, static_cast<float>(3.14159265358979 / 32768)));
+  const Float t = hn::Mul(hn::Sub(hn::ConvertTo(d, hn::BitCast(s, place)), hn::Set(d, 8191.5f)),
+                          hn::Set(d, static_cast<float>(3.14159265358979 / 32768)));
   const Float q = hn::Mul(t, t);
   const Float sine = hn::Mul(t, poly<2>(q, kSine)), cosine = poly<2>(q, kCosine);
   const Word quarter = hn::ShiftRight<14>(direction_bits);

@@ -26,7 +26,7 @@ bool holds(const Face& face) {
   return face.status == FaceStatus::latched || face.status == FaceStatus::bonded;
 }
 
-void derive_body_pose(const Model& model, const State& state, int slot, int body, Assemblies& out) {
+void derive_body_pose(const State& state, int slot, int body, Assemblies& out) {
   const Rot r{state.c[slot], state.s[slot]};
   if (body == slot && out.next[slot] < 0 && state.turn[slot] == 0) {  // alone: nothing to turn
     out.x[slot] = state.x[slot], out.y[slot] = state.y[slot];
@@ -35,8 +35,7 @@ void derive_body_pose(const Model& model, const State& state, int slot, int body
     out.omega[slot] = state.omega[slot];
     return;
   }
-  const double ox = state.cell_x[body] * model.module.side - out.centre_x[slot];
-  const double oy = state.cell_y[body] * model.module.side - out.centre_y[slot];
+  const double ox = out.offset_x[body], oy = out.offset_y[body];
   const double rx = r.c * ox - r.s * oy, ry = r.s * ox + r.c * oy;
   const Rot heading = compose(r, quarter(state.turn[body]));
   out.x[body] = state.x[slot] + rx;
@@ -72,8 +71,9 @@ void derive_properties(const Model& model, const State& state, int slot, Assembl
   const double centre_x = sum_x / n * side, centre_y = sum_y / n * side;
   double spread = 0, reach2 = 0;
   for (int i = out.first[slot]; i >= 0; i = out.next[i]) {
-    const double dx = std::fabs(state.cell_x[i] * side - centre_x);
-    const double dy = std::fabs(state.cell_y[i] * side - centre_y);
+    out.offset_x[i] = state.cell_x[i] * side - centre_x;
+    out.offset_y[i] = state.cell_y[i] * side - centre_y;
+    const double dx = std::fabs(out.offset_x[i]), dy = std::fabs(out.offset_y[i]);
     const double far_x = dx + side / 2, far_y = dy + side / 2;
     spread += dx * dx + dy * dy;
     reach2 = std::fmax(reach2, far_x * far_x + far_y * far_y);
@@ -124,8 +124,8 @@ std::uint8_t resting_faces(const State& state, int module) {
 void Assemblies::resize(const Model& model) {
   const auto n = static_cast<std::size_t>(model.bodies());
   for (auto* a : {&live, &groups}) a->clear(), a->reserve(n);
-  for (auto* a : {&mass, &inertia, &inverse_mass, &inverse_inertia, &own_inertia, &reach, &centre_x, &centre_y, &x, &y, &c, &s, &vx,
-                  &vy, &omega})
+  for (auto* a : {&mass, &inertia, &inverse_mass, &inverse_inertia, &own_inertia, &reach, &centre_x,
+                  &centre_y, &x, &y, &c, &s, &vx, &vy, &omega, &offset_x, &offset_y})
     a->assign(n, 0.0);
   for (auto* a : {&first, &next}) a->assign(n, -1);
   work.assign(2 * n, 0);
@@ -161,9 +161,8 @@ void derive_poses(const Model& model, const State& state, Assemblies& out) {
   for (const int slot : out.live) derive_poses(model, state, slot, out);
 }
 
-void derive_poses(const Model& model, const State& state, int slot, Assemblies& out) {
-  for (int i = out.first[slot]; i >= 0; i = out.next[i])
-    derive_body_pose(model, state, slot, i, out);
+void derive_poses(const Model&, const State& state, int slot, Assemblies& out) {
+  for (int i = out.first[slot]; i >= 0; i = out.next[i]) derive_body_pose(state, slot, i, out);
 }
 
 void derive_slot(const Model& model, const State& state, int slot, Assemblies& out) {

@@ -23,8 +23,9 @@ struct Assemblies {
   std::vector<int> work;                   ///< scratch of merge and split
   // Bodies [bodies]: poses in the tank, derived from assembly pose and lattice cell.
   std::vector<double> x, y, c, s, vx, vy, omega;
-  std::vector<std::uint8_t> covered;  ///< bit f: face f is latched or bonded
-  std::vector<std::uint8_t> resting;  ///< bit f: face f is off, or rests (Face::off_ticks)
+  std::vector<double> offset_x, offset_y;  ///< m, in the assembly's frame, from its centre of mass
+  std::vector<std::uint8_t> covered;       ///< bit f: face f is latched or bonded
+  std::vector<std::uint8_t> resting;       ///< bit f: face f is off, or rests (Face::off_ticks)
   /// Bit k: the lattice cell in direction k of the assembly's frame (0..3: +x, +y, -x, -y) holds
   /// another member, latched or not. Nothing can touch a face there.
   std::vector<std::uint8_t> inner;

@@ -71,9 +71,7 @@ void IslandBuilder::enter(int slot, double promise) {
 
 // A body's centre in its assembly's frame; returns how far that is from the centre of mass.
 double IslandBuilder::place(int body, double& x, double& y) const {
-  const int slot = state_->assembly[body];
-  x = state_->cell_x[body] * model_->module.side - assemblies_->centre_x[slot];
-  y = state_->cell_y[body] * model_->module.side - assemblies_->centre_y[slot];
+  x = assemblies_->offset_x[body], y = assemblies_->offset_y[body];
   return x == 0 && y == 0 ? 0 : std::sqrt(x * x + y * y);
 }
 

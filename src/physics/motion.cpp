@@ -57,8 +57,8 @@ struct Motion::Impl {
   IslandStepper stepper;
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
-  double largest;  // m, radius of the circle about the largest body
-  double way = 0;  // m, no point moves farther by itself in the slice
+  double largest;    // m, radius of the circle about the largest body
+  double way = 0;    // m, no point moves farther by itself in the slice
   double extra = 0;  // m, a push moves a body by so much more at most
   struct Link {
     int i, j;  // bodies; j = -1: the wall
@@ -67,7 +67,7 @@ struct Motion::Impl {
   std::vector<Link> links;
   std::vector<double> bound;  // [slot] m, no point of it moves farther by itself in the step
   struct Slot {
-    std::int64_t seen = 0;                // the slice in which the rest was set
+    std::int64_t seen = 0;  // the slice in which the rest was set
     Way way = Way::free;
     bool gathered = false;                // by the search in progress
     int root = 0;                         // the island's lowest slot, or on the way there
@@ -201,8 +201,7 @@ void Motion::Impl::link_walls(double h) {
     for (int i = a.first[slot]; i >= 0; i = a.next[i]) {
       if (wall_clearance(i, h) > kLinkSpare) continue;
       links.push_back({i, -1, -1});
-      extra =
-          std::max(extra, kPushShare * bound[slot] - std::min(0.0, 2 * wall_clearance(i, 0)));
+      extra = std::max(extra, kPushShare * bound[slot] - std::min(0.0, 2 * wall_clearance(i, 0)));
     }
   }
 }

@@ -23,7 +23,8 @@ class Motion {
   /// Solves contacts for the velocities in `state`, then moves every assembly by dt. On entry
   /// the poses in `assemblies` must be those of `state` (its twists may be older); on return poses
   /// and twists in both are those at the end of the step. Deterministic; keeps nothing from call to
-  /// call but near_pairs()'s search. A state in which something moves at more than 100 m/s, or is not finite, is left alone.
+  /// call but near_pairs()'s search. A state in which something moves at more than 100 m/s, or is
+  /// not finite, is left alone.
   void advance(State& state, Assemblies& assemblies, Tallies& tallies);
 
   /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction
@@ -34,8 +35,8 @@ class Motion {
   /// Pairs (i < j, ascending) of modules whose centres are closer than `distance`, for latches.
   /// The span is valid until the next call.
   std::span<const std::pair<int, int>> near_pairs(const Assemblies& assemblies, double distance);
-  /// To be told if poses change between near_pairs() and advance() other than by settle(): the search
-  /// of the former otherwise serves the latter.
+  /// To be told if poses change between near_pairs() and advance() other than by settle(): the
+  /// search of the former otherwise serves the latter.
   void poses_changed();
 
  private:

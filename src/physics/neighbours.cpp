@@ -37,6 +37,18 @@ HWY_INLINE hn::Mask<Floats> near(const NeighbourQuery& q, float x, float y, int 
   return hn::Lt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Set(d, q.distance2));
 }
 
+HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
+#if HWY_MAX_BYTES == 64
+  return mask.raw;
+#else
+  std::uint8_t part[8] = {};
+  hn::StoreMaskBits(Floats(), mask, part);
+  std::uint64_t word = 0;
+  std::memcpy(&word, part, sizeof word);
+  return word;
+#endif
+}
+
 // Bits of the bodies near each of up to 64, those beyond the last included.
 void all_bits(const NeighbourQuery& q, int bodies, std::uint64_t* bits) {
   const Floats d;
@@ -44,11 +56,7 @@ void all_bits(const NeighbourQuery& q, int bodies, std::uint64_t* bits) {
   for (int i = 0; i < bodies; ++i) {
     std::uint64_t sum = 0;
     for (int k = 0; k < bodies; k += lanes) {
-      std::uint8_t part[8] = {};
-      hn::StoreMaskBits(d, near(q, q.x[i], q.y[i], k), part);
-      std::uint64_t word = 0;
-      std::memcpy(&word, part, sizeof word);
-      sum |= word << k;
+      sum |= bits_of(near(q, q.x[i], q.y[i], k)) << k;
     }
     bits[i] = sum;
   }
@@ -130,7 +138,8 @@ void Neighbours::search(std::span<const double> x, std::span<const double> y, do
     to_x[i] = static_cast<float>(x[i]), to_y[i] = static_cast<float>(y[i]);
   if (!few) return search_grid();
   const float reach = static_cast<float>(distance) + kRounding;
-  HWY_DYNAMIC_DISPATCH(all_bits)({x_.data(), y_.data(), nullptr, reach * reach}, bodies_, bits_.data());
+  HWY_DYNAMIC_DISPATCH(all_bits)
+  ({x_.data(), y_.data(), nullptr, reach * reach}, bodies_, bits_.data());
   const std::uint64_t real = bodies_ < 64 ? (std::uint64_t{1} << bodies_) - 1 : ~std::uint64_t{0};
   for (int i = 0; i < bodies_; ++i) bits_[i] &= real & ~(std::uint64_t{1} << i);
 }
@@ -154,8 +163,7 @@ void Neighbours::search_grid() {
     }
     const auto end = who_.begin() + size;
     std::sort(who_.begin() + begin_[i], end);
-    above_[i] =
-        static_cast<int>(std::upper_bound(who_.begin() + begin_[i], end, i) - who_.begin());
+    above_[i] = static_cast<int>(std::upper_bound(who_.begin() + begin_[i], end, i) - who_.begin());
   }
   begin_[bodies_] = size;
 }

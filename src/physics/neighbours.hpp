@@ -8,8 +8,9 @@
 namespace lilytank {
 
 /// For every body, the bodies whose centres are nearer than a distance: bits for few bodies, lists
-/// from a uniform grid for many, with the same result. Float32 and vector code; a pair that misses the
-/// distance by a few micrometres may be listed too, so users test what they need for themselves.
+/// from a uniform grid for many, with the same result. Float32 and vector code; a pair that misses
+/// the distance by a few micrometres may be listed too, so users test what they need for
+/// themselves.
 class Neighbours {
  public:
   static constexpr int kFew = 64;  ///< up to so many bodies the grid does not pay
@@ -51,12 +52,12 @@ class Neighbours {
   int bodies_;
   float extent_;
   double distance_ = 0;
-  int cells_ = 1;           // per side
-  float per_cell_ = 0;      // cells per metre
-  std::vector<float> own_x_, own_y_;  // in order of bodies
-  std::vector<float> x_, y_;          // in order of cells, padded by one vector
-  std::vector<int> id_;               // the bodies in that order
-  std::vector<int> cell_, start_;     // cell of each body; where each cell starts in that order
+  int cells_ = 1;                         // per side
+  float per_cell_ = 0;                    // cells per metre
+  std::vector<float> own_x_, own_y_;      // in order of bodies
+  std::vector<float> x_, y_;              // in order of cells, padded by one vector
+  std::vector<int> id_;                   // the bodies in that order
+  std::vector<int> cell_, start_;         // cell of each body; where each cell starts in that order
   std::vector<int> begin_, above_, who_;  // body i: [begin_[i], begin_[i + 1]); from above_[i], > i
   std::vector<std::uint64_t> bits_;
 };

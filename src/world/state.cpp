@@ -7,7 +7,7 @@
 namespace lilytank {
 namespace {
 
-constexpr char kMagic[8] = {'L', 'T', 'S', 'T', 'A', 'T', 'E', '1'};
+constexpr char kMagic[8] = {'L', 'T', 'S', 'T', 'A', 'T', 'E', '2'};
 
 template <class T>
 struct IsVector : std::false_type {};

@@ -86,19 +86,24 @@ Wrench World::Impl::sum_of_members(int slot) const {
   return sum;
 }
 
+// Multiplies `values` and leaves a copy.
+void scale(std::vector<double>& values, double factor, std::vector<double>& copy) {
+  double* __restrict to = copy.data();
+  double* __restrict v = values.data();
+  const std::size_t n = values.size();
+  for (std::size_t i = 0; i < n; ++i) to[i] = v[i] = v[i] * factor;
+}
+
 // Every member is damped as if alone; the assembly keeps the sum of their momenta.
 void World::Impl::damp() {
-  const std::size_t n = state.x.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    assemblies.vx[i] = state.vx[i] *= decay.linear;
-    assemblies.vy[i] = state.vy[i] *= decay.linear;
-  }
+  scale(state.vx, decay.linear, assemblies.vx);
+  scale(state.vy, decay.linear, assemblies.vy);
   for (const int slot : assemblies.groups) {
     const double own = assemblies.own_inertia[slot] * assemblies.inverse_inertia[slot];
     // Below, this is multiplied by decay.angular as all others are.
     state.omega[slot] *= own + (1 - own) * linear_to_angular;
   }
-  for (std::size_t i = 0; i < n; ++i) assemblies.omega[i] = state.omega[i] *= decay.angular;
+  scale(state.omega, decay.angular, assemblies.omega);
   for (const int slot : assemblies.groups) {
     const double vx = state.vx[slot], vy = state.vy[slot], omega = state.omega[slot];
     for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {

@@ -1,5 +1,6 @@
 // The same binary, scenario and seed give the same bits, whatever runs beside them.
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <vector>
 
@@ -19,10 +20,13 @@ struct Scene {
 };
 
 std::vector<Scene> scenes() {
-  return {{"chain, firmware clock", test::chain_scene(Clock::firmware), 120, "b6e7fa91d6fa0ae2"},
-          {"chain, event clock", test::chain_scene(Clock::events), 120, "915fc650cbdff899"},
-          {"balls and modules", test::mixed_scene(), 60, "4265bb8655b247b4"},
-          {"packed", test::packed_scene(), 5, "35e81c73b73c1551"}};
+  return {
+      {"chain, firmware clock", test::chain_scene(Clock::firmware), 120, "b6e7fa91d6fa0ae2"},
+      {"chain, event clock", test::chain_scene(Clock::events), 120, "915fc650cbdff899"},
+      {"balls and modules", test::mixed_scene(), 60, "4265bb8655b247b4"},
+      {"packed", test::packed_scene(), 5, "35e81c73b73c1551"},
+      {"moment-matched gusts", test::drawn_scene(Gusts::moment_matched, FlowAt::points), 30, "1"},
+      {"one gust a module", test::drawn_scene(Gusts::per_module, FlowAt::centre), 30, "2"}};
 }
 
 std::string final_hash(const Model& model, std::uint64_t seed, double seconds) {
@@ -34,6 +38,23 @@ std::string final_hash(const Model& model, std::uint64_t seed, double seconds) {
 TEST(Determinism, GoldenFingerprints) {
   for (const Scene& scene : scenes())
     EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden) << scene.name;
+}
+
+// The instruction sets that this machine has, down to the one that every x86-64 has: the best is
+// taken unless it is told that there is none better.
+TEST(Determinism, EveryInstructionSetGivesTheSameBits) {
+  int sets = 0;
+  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
+    hwy::GetChosenTarget().DeInit();
+    for (const Scene& scene : scenes())
+      EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden)
+          << scene.name << ", " << hwy::TargetName(left & -left);
+    ++sets;
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
+  EXPECT_GE(sets, 1);
 }
 
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {

@@ -35,4 +35,13 @@ inline Model packed_scene() {
   return model;
 }
 
+/// 40 modules that build chains, in gusts drawn by their moments, and one gust a module.
+inline Model drawn_scene(Gusts gusts, FlowAt at) {
+  Model model = chain_scene(Clock::firmware);
+  model.module.count = 40;
+  model.start.radius = 0.25;
+  model.flow.gusts = gusts, model.flow.at = at;
+  return model;
+}
+
 }  // namespace lilytank::test

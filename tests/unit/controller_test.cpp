@@ -375,7 +375,8 @@ TEST(Commands, QueryReportsEveryModulesState) {
 }
 
 TEST(Commands, ANewRulesetKeepsLabelsAndBonds) {
-  Model model = quiet_model(2, {chain(), with_p(chain(), RuleKind::unlink, 1)});
+  Model model =
+      quiet_model(2, {with_p(chain(), RuleKind::unlink, 0), with_p(chain(), RuleKind::unlink, 1)});
   model.commands = {{100, CommandKind::replace_ruleset, {}, 1}};
   Rig rig(std::move(model), 1);
   rig.place(0, 0, 0);
@@ -411,6 +412,7 @@ TEST(OffTime, MeanIsHalfASecond) {
   const int modules = 400;
   Rig rig(quiet_model(modules, {chain()}), 5);
   for (Face& face : rig.state.faces) face.status = FaceStatus::off;
+  derive(rig.model, rig.state, rig.bodies);
   double mean = 0, square = 0, survive = 1;
   for (int c = 1; c <= 256; ++c) {
     const double here = survive * c / 256;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "math/bulk_random.hpp"
 #include "lilytank/math.hpp"
+#include "math/bulk_random.hpp"
 
 namespace lilytank {
 namespace {
@@ -51,55 +51,72 @@ TEST(Random, UniformAndNormalHaveTheirMoments) {
   EXPECT_NEAR(both / n, 0, 4 * sigma);
 }
 
+// Number k of a body by the rule in bulk_random.hpp, in double precision.
+double bulk_number(Draw draw, int body, int k) {
+  draw.body += static_cast<std::uint32_t>(body), draw.index += static_cast<std::uint32_t>(k / 6);
+  const auto bits = random_bits(draw);
+  const int lot = k % 6 / 2;
+  const double length = std::sqrt(-2 * std::log(((bits[lot] >> 8) + 0.5) * 0x1p-24));
+  const unsigned way = (bits[lot] & 0xff) << 8 | (bits[3] >> (8 * lot) & 0xff);
+  const double angle = ((way & 0x3fff) - 8191.5) * kPi / 32768 + (way >> 14) * kPi / 2;
+  return length * (k % 2 == 0 ? std::cos(angle) : std::sin(angle));
+}
+
+// The polynomials' errors, 1e-5 each, and float32's rounding of u near 1, where the length is the
+// root of a small number.
 TEST(Random, BulkNormalsFollowTheScalarGenerator) {
-  alignas(64) float x[kBulkBlocks * kBulkPairs], y[kBulkBlocks * kBulkPairs];
-  for (const bool along_bodies : {false, true}) {
-    for (int step = 0; step < 200; ++step) {
+  alignas(64) float z[50 * kBulkBodies];
+  for (const int count : {2, 4, 6, 10, 12, 44, 50}) {
+    for (int step = 0; step < 100; ++step) {
       const Draw draw{99, Stream::gust, step, 4, 2};
-      bulk_normals(draw, along_bodies, x, y);
-      for (int i = 0; i < kBulkBlocks; ++i) {
-        Draw one = draw;
-        (along_bodies ? one.body : one.index) += static_cast<std::uint32_t>(i);
-        const auto bits = random_bits(one);
-        for (int j = 0; j < kBulkPairs; ++j) {
-          const double u = ((bits[j] >> 8) + 0.5) * 0x1p-24;
-          const double length = std::sqrt(-2 * std::log(u));
-          const unsigned way = (bits[j] & 0xff) << 8 | (bits[3] >> (8 * j) & 0xff);
-          const double angle = ((way & 0x3fff) - 8191.5) * kPi / 32768 + (way >> 14) * kPi / 2;
-          // float32 rounds u near 1, where the length is the root of a small number.
-          const double allowed = 2e-6 + 0x1p-24 / std::fmax(length, 0x1p-12);
-          EXPECT_NEAR(x[j * kBulkBlocks + i], length * std::cos(angle), allowed);
-          EXPECT_NEAR(y[j * kBulkBlocks + i], length * std::sin(angle), allowed);
+      bulk_normals(draw, count, z);
+      for (int i = 0; i < kBulkBodies; ++i) {
+        for (int k = 0; k < count; ++k) {
+          const double x = bulk_number(draw, i, k), y = bulk_number(draw, i, k ^ 1);
+          const double length = std::hypot(x, y);
+          const double allowed = 3e-5 * length + 0x1p-24 / std::fmax(length, 0x1p-12);
+          EXPECT_NEAR(z[k * kBulkBodies + i], x, allowed);
         }
       }
     }
   }
 }
 
-TEST(Random, BulkNormalsAreNormalAndIsotropic) {
-  alignas(64) float x[kBulkBlocks * kBulkPairs], y[kBulkBlocks * kBulkPairs];
-  const int calls = 40000, n = calls * kBulkBlocks;
-  for (int j = 0; j < kBulkPairs; ++j) {
-    double sum[2] = {}, square[2] = {}, fourth[2] = {}, both = 0, beyond = 0;
-    for (int step = 0; step < calls; ++step) {
-      bulk_normals({5, Stream::gust, step, 0, 0}, false, x, y);
-      for (int i = j * kBulkBlocks; i < (j + 1) * kBulkBlocks; ++i) {
-        const double v[2] = {x[i], y[i]};
-        for (int a = 0; a < 2; ++a) {
-          sum[a] += v[a], square[a] += v[a] * v[a], fourth[a] += v[a] * v[a] * v[a] * v[a];
-          beyond += std::fabs(v[a]) > 1.959964;
-        }
-        both += v[0] * v[1];
+TEST(Random, BulkWordsAreTheScalarGenerators) {
+  alignas(64) std::uint32_t words[kBulkBodies];
+  for (int step = 0; step < 100; ++step) {
+    const Draw draw{7, Stream::initiative, step, 48, 0};
+    bulk_words(draw, words);
+    for (std::uint32_t i = 0; i < kBulkBodies; ++i) {
+      Draw one = draw;
+      one.body += i;
+      EXPECT_EQ(words[i], random_bits(one)[0]);
+    }
+  }
+}
+
+TEST(Random, BulkNormalsAreNormalAndIndependent) {
+  constexpr int kCount = 12, kCalls = 40000, n = kCalls * kBulkBodies;
+  alignas(64) float z[kCount * kBulkBodies];
+  double sum[kCount] = {}, square[kCount] = {}, fourth[kCount] = {}, next[kCount] = {};
+  double beyond[kCount] = {};
+  for (int step = 0; step < kCalls; ++step) {
+    bulk_normals({5, Stream::gust, step, 0, 0}, kCount, z);
+    for (int k = 0; k < kCount; ++k) {
+      for (int i = 0; i < kBulkBodies; ++i) {
+        const double v = z[k * kBulkBodies + i], w = z[(k + 1) % kCount * kBulkBodies + i];
+        sum[k] += v, square[k] += v * v, fourth[k] += v * v * v * v, next[k] += v * w;
+        beyond[k] += std::fabs(v) > 1.959964;
       }
     }
-    const double sigma = 1 / std::sqrt(n);  // all bounds are 4 standard errors
-    for (int a = 0; a < 2; ++a) {
-      EXPECT_NEAR(sum[a] / n, 0, 4 * sigma);
-      EXPECT_NEAR(square[a] / n, 1, 4 * sigma * std::sqrt(2));
-      EXPECT_NEAR(fourth[a] / n, 3, 4 * sigma * std::sqrt(96));
-    }
-    EXPECT_NEAR(both / n, 0, 4 * sigma);
-    EXPECT_NEAR(beyond / (2.0 * n), 0.05, 4 * std::sqrt(0.05 * 0.95 / (2.0 * n)));
+  }
+  const double sigma = 1 / std::sqrt(n);  // all bounds are 4 standard errors
+  for (int k = 0; k < kCount; ++k) {
+    EXPECT_NEAR(sum[k] / n, 0, 4 * sigma);
+    EXPECT_NEAR(square[k] / n, 1, 4 * sigma * std::sqrt(2));
+    EXPECT_NEAR(fourth[k] / n, 3, 4 * sigma * std::sqrt(96));
+    EXPECT_NEAR(next[k] / n, 0, 4 * sigma);
+    EXPECT_NEAR(beyond[k] / n, 0.05, 4 * std::sqrt(0.05 * 0.95 / n));
   }
 }
 

@@ -281,7 +281,8 @@ TEST_F(ScenarioTest, RefusesWithPlaceAndAdvice) {
        "s.toml:2:13: module.shadowing is a switch, true or false, not a whole number"},
       {"title = 1979-05-27\n", "s.toml:1:9: title is text in quotes, not a date or time"},
       {"[flow]\ngusts = \"per_modul\"\n",
-       "s.toml:2:9: flow.gusts = \"per_modul\" is none of per_point, per_module - did you mean "
+       "s.toml:2:9: flow.gusts = \"per_modul\" is none of per_point, per_module, moment_matched - "
+       "did you mean "
        "'per_module'?"},
       {"[forces.stochastic]\nsigma_stoch = 126.82\n",
        "s.toml:2:15: forces.stochastic.sigma_stoch = 126.82 N is outside 0 .. 1 N - the paper's "
