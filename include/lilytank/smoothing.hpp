@@ -4,9 +4,10 @@
 //
 // `kalman`: a Kalman filter and a Rauch-Tung-Striebel pass back [Rauch, Tung and Striebel, AIAA J.
 // 3, 1965] for a body whose acceleration along each axis wanders about zero with some deviation and
-// memory [Singer, IEEE Trans. AES 6, 1970], seen with white noise. Deviation, memory and noise are
-// those under which the tracks themselves are most likely, so nothing has to be chosen. Long
-// memories make it a quintic smoothing spline, short ones a cubic one.
+// memory [Singer, IEEE Trans. AES 6, 1970], which random jolts push on top of that, and which is
+// seen with white noise. All four numbers are those under which the tracks themselves are most
+// likely, so nothing has to be chosen. Without jolts and with a long memory it is a quintic
+// smoothing spline, with jolts only a cubic one.
 //
 // `polynomial`: in a window about each frame, the polynomial that fits best [Savitzky and Golay,
 // Anal. Chem. 36, 1964]. Its transfer function depends on nothing but window, degree and rate; its
@@ -24,8 +25,10 @@ enum class SmoothingMethod : std::uint8_t { kalman, polynomial };
 /// How a coordinate moves and how well it was seen. Units are those of the coordinate: m, or rad.
 struct MotionModel {
   double noise = 0;         ///< deviation of one measurement
-  double acceleration = 0;  ///< deviation of the acceleration along one axis, per s^2
-  double memory = 0;        ///< s, in which a deviation of the acceleration falls to 1/e
+  double acceleration = 0;  ///< deviation of the lasting acceleration along one axis, per s^2
+  double memory = 0;        ///< s, in which that falls to 1/e; at least two frames
+  double jolts = 0;  ///< deviation of the velocity's change by forces too short to be seen as an
+                     ///< acceleration, in one second: per s^(3/2)
   double log_likelihood = 0;
   std::int64_t samples = 0;  ///< frames that the estimate rests on; 0: it was given, or there is
                              ///< nothing to estimate from
@@ -41,7 +44,10 @@ struct SmoothingOptions {
 
 /// One coordinate or two that are seen together, frame by frame. Frames in which nothing was seen
 /// are filled by what the frames around them say, with the larger uncertainty that this has; where
-/// they say nothing (polynomials with too few frames in the window), every value is NaN.
+/// they say nothing (polynomials with too few frames in the window), every value is NaN. Under
+/// jolts a body has no acceleration at an instant: the Kalman smoother's is the change of velocity
+/// from the frame before to the frame after, by the time between them (at the ends of a track, on
+/// one side).
 struct SmoothTrack {
   std::int64_t id = 0;
   int first = 0;                               ///< frame, as in the track

@@ -24,9 +24,8 @@ MotionMatrix state_matrix(double memory, double s) {
 
 // What the filter knows of a frame: all coordinates share it.
 struct Stage {
-  MotionMatrix filtered;   // covariance with this frame's measurement
-  MotionMatrix predicted;  // of the next frame without its own
-  MotionMatrix back;       // gain of the backward pass from the next frame
+  MotionMatrix filtered;  // covariance with this frame's measurement
+  MotionMatrix back;      // gain of the backward pass from the next frame
 };
 
 // Kalman's recursion of covariances. After some frames without a gap they no longer change; then
@@ -34,8 +33,7 @@ struct Stage {
 class Covariance {
  public:
   Covariance(const MotionModel& model, double interval)
-      : step_(transition(model.acceleration, model.memory, interval)),
-        noise_(model.noise * model.noise) {
+      : step_(transition(model, interval)), noise_(model.noise * model.noise) {
     // Place and velocity are unknown at first: far more than noise and acceleration explain.
     const double a = model.acceleration * model.acceleration;
     const double speed =
@@ -103,10 +101,8 @@ MotionState loaded(const AxisEstimate& axis, std::size_t f) {
   return {axis.value[f], axis.velocity[f], axis.acceleration[f]};
 }
 
-void store_deviations(AxesEstimate& out, std::size_t f, const MotionMatrix& P) {
-  out.sd_value[f] = std::sqrt(std::max(0.0, P(0, 0)));
-  out.sd_velocity[f] = std::sqrt(std::max(0.0, P(1, 1)));
-  out.sd_acceleration[f] = std::sqrt(std::max(0.0, P(2, 2)));
+double root(double variance) {
+  return std::sqrt(std::max(0.0, variance));
 }
 
 // The pass forward: filtered states into `out`; stages, and which one each frame has.
@@ -128,16 +124,74 @@ std::vector<Stage> filter(const Axes& axes, Covariance& covariance, AxesEstimate
     if (covariance.predict(seen)) {
       const MotionMatrix& P = covariance.filtered();
       const MotionMatrix& next = covariance.predicted();
-      stages.push_back({P, next, P * F.transpose() * next.inverse()});
+      stages.push_back({P, P * F.transpose() * next.inverse()});
     }
     stage_of[f] = stages.size() - 1;
   }
   return stages;
 }
 
+// The pass back. What is known of a frame given all measurements is P; of the frame after, P1.
+class BackwardPass {
+ public:
+  BackwardPass(const Axes& axes, const Transition& step, double interval, AxesEstimate& out)
+      : axes_(axes), step_(step), interval_(interval), out_(out) {}
+
+  void begin(std::size_t f, const Stage& stage) {
+    P_ = stage.filtered;
+    for (int k = 0; k < axes_.count(); ++k) later_[k] = loaded(out_.axis[k], f);
+    store_deviations(f);
+  }
+  void step(std::size_t f, const Stage& stage) {
+    const MotionMatrix& C = stage.back;
+    for (int k = 0; k < axes_.count(); ++k) {
+      const MotionState filtered = loaded(out_.axis[k], f);
+      later_[k] = filtered + C * (later_[k] - step_.F * filtered);
+      store(out_.axis[k], f, later_[k]);
+    }
+    const MotionMatrix P2 = P1_;
+    P1_ = P_;
+    // A sum of squares, unlike the shorter P + C (P1 - predicted) C', which can fall below zero.
+    const MotionMatrix keep = MotionMatrix::Identity() - C * step_.F;
+    P_ = keep * stage.filtered * keep.transpose() + C * (P1_ + step_.Q) * C.transpose();
+    store_deviations(f);
+    const MotionMatrix shared1 = C * P1_;  // of this frame and the next
+    if (f + 2 == axes_.frames()) {
+      accelerate(f + 1, f, f + 1, P_(1, 1) + P1_(1, 1) - 2 * shared1(1, 1));
+    } else {
+      const MotionMatrix shared2 = C * (back_ * P2);
+      accelerate(f + 1, f, f + 2, P_(1, 1) + P2(1, 1) - 2 * shared2(1, 1));
+    }
+    if (f == 0) accelerate(0, 0, 1, P_(1, 1) + P1_(1, 1) - 2 * shared1(1, 1));
+    back_ = C;
+  }
+
+ private:
+  void store_deviations(std::size_t f) {
+    out_.sd_value[f] = root(P_(0, 0));
+    out_.sd_velocity[f] = root(P_(1, 1));
+    out_.sd_acceleration[f] = root(P_(2, 2));
+  }
+  void accelerate(std::size_t f, std::size_t from, std::size_t to, double variance) {
+    const double time = static_cast<double>(to - from) * interval_;
+    for (int k = 0; k < axes_.count(); ++k) {
+      AxisEstimate& axis = out_.axis[k];
+      axis.acceleration[f] = (axis.velocity[to] - axis.velocity[from]) / time;
+    }
+    out_.sd_acceleration[f] = root(variance) / time;
+  }
+  const Axes& axes_;
+  const Transition& step_;
+  double interval_;
+  AxesEstimate& out_;
+  MotionState later_[2];
+  MotionMatrix P_, P1_ = MotionMatrix::Zero(), back_ = MotionMatrix::Zero();
+};
+
 }  // namespace
 
-Transition transition(double acceleration, double memory, double interval) {
+Transition transition(const MotionModel& model, double interval) {
+  const double memory = model.memory;
   // Gauss-Legendre over a part of the interval that is short against the memory, then doubling.
   int doublings = 0;
   double s = interval;
@@ -150,12 +204,16 @@ Transition transition(double acceleration, double memory, double interval) {
     const MotionState g = answer(memory, s * (1 + node) / 2);
     t.Q += kWeight[n / 2] * s / 2 * g * g.transpose();
   }
-  t.Q *= 2 * acceleration * acceleration / memory;
+  t.Q *= 2 * model.acceleration * model.acceleration / memory;
   for (; doublings > 0; --doublings) {
-    t.Q += t.F * t.Q * t.F.transpose();
+    t.Q += (t.F * t.Q * t.F.transpose()).eval();
     s *= 2;
     t.F = state_matrix(memory, s);
   }
+  const double q = model.jolts * model.jolts * interval;
+  t.Q(0, 0) += q * interval * interval / 3;
+  t.Q(0, 1) += q * interval / 2, t.Q(1, 0) += q * interval / 2;
+  t.Q(1, 1) += q;
   return t;
 }
 
@@ -166,22 +224,10 @@ AxesEstimate smooth_kalman(const Axes& axes, const MotionModel& model, double in
   Covariance covariance(model, interval);
   std::vector<std::size_t> stage_of(axes.frames());
   const std::vector<Stage> stages = filter(axes, covariance, out, stage_of);
-  const MotionMatrix F = covariance.step().F;
   std::size_t f = axes.frames() - 1;
-  MotionMatrix P = stages[stage_of[f]].filtered;
-  store_deviations(out, f, P);
-  MotionState later[2] = {loaded(out.axis[0], f), MotionState::Zero()};
-  if (axes.count() > 1) later[1] = loaded(out.axis[1], f);
-  while (f-- > 0) {
-    const Stage& stage = stages[stage_of[f]];
-    for (int k = 0; k < axes.count(); ++k) {
-      const MotionState filtered = loaded(out.axis[k], f);
-      later[k] = filtered + stage.back * (later[k] - F * filtered);
-      store(out.axis[k], f, later[k]);
-    }
-    P = (stage.filtered + stage.back * (P - stage.predicted) * stage.back.transpose()).eval();
-    store_deviations(out, f, P);
-  }
+  BackwardPass pass(axes, covariance.step(), interval, out);
+  pass.begin(f, stages[stage_of[f]]);
+  while (f-- > 0) pass.step(f, stages[stage_of[f]]);
   return out;
 }
 

@@ -7,16 +7,14 @@
 namespace lilytank {
 namespace {
 
-// What is searched over: acceleration against noise, and memory against the interval, as decimal
-// logarithms.
-struct Point {
-  double ratio = 0, memory = 0;
-};
-constexpr double kRatioLow = -7, kRatioHigh = 6, kMemoryLow = -0.5, kMemoryHigh = 3;
+// What is searched over, as decimal logarithms: [0] acceleration and [1] jolts against the noise,
+// by what they move a body in a frame; [2] memory in frames.
+using Point = std::array<double, 3>;
+constexpr Point kLow{-7, -6, 0.3}, kHigh{6, 6, 3};
 
 Point held(Point p) {
-  return {std::clamp(p.ratio, kRatioLow, kRatioHigh),
-          std::clamp(p.memory, kMemoryLow, kMemoryHigh)};
+  for (std::size_t i = 0; i < p.size(); ++i) p[i] = std::clamp(p[i], kLow[i], kHigh[i]);
+  return p;
 }
 
 class Likelihood {
@@ -25,102 +23,126 @@ class Likelihood {
       : pieces_(pieces), interval_(interval), noise_(noise) {}
 
   // -2 log L a sample, but for a constant. Where the noise is not given, the best one for the
-  // point is taken: all variances then only scale with it.
-  double operator()(const Point& p) {
-    const MotionModel unit = scaled(p, noise_ > 0 ? noise_ : 1);
-    Innovations sums;
-    for (const Axes& piece : pieces_) add_innovations(piece, unit, interval_, sums);
+  // point is taken: all variances then only scale with it. Every `stride`-th piece is looked at.
+  double operator()(const Point& p, std::size_t stride = 1) const {
+    const Innovations sums = innovations(p, stride);
     const auto n = static_cast<double>(sums.count);
-    count_ = sums.count;
-    const double square = sums.squares / n;
-    if (noise_ > 0) return square + sums.log_variance / n;
-    return 1 + std::log(square) + sums.log_variance / n;
+    if (noise_ > 0) return (sums.squares + sums.log_variance) / n;
+    return 1 + std::log(sums.squares / n) + sums.log_variance / n;
   }
-  MotionModel model(const Point& p) {
-    double noise = noise_;
-    if (!(noise > 0)) {
-      Innovations sums;
-      for (const Axes& piece : pieces_) add_innovations(piece, scaled(p, 1), interval_, sums);
-      noise = std::sqrt(sums.squares / static_cast<double>(sums.count));
-    }
-    MotionModel m = scaled(p, noise);
-    m.log_likelihood = -0.5 * static_cast<double>(count_) * ((*this)(p) + std::log(2 * kPi));
-    m.samples = count_;
+  MotionModel model(const Point& p) const {
+    const Innovations sums = innovations(p, 1);
+    const auto n = static_cast<double>(sums.count);
+    MotionModel m = scaled(p, noise_ > 0 ? noise_ : std::sqrt(sums.squares / n));
+    constexpr double kLogTwoPi = 1.8378770664093453;
+    m.log_likelihood = -0.5 * n * ((*this)(p) + kLogTwoPi);
+    m.samples = sums.count;
     return m;
   }
 
  private:
-  static constexpr double kPi = 3.14159265358979323846;
   MotionModel scaled(const Point& p, double noise) const {
     MotionModel m;
     m.noise = noise;
-    m.acceleration = noise * std::pow(10.0, p.ratio) / (interval_ * interval_);
-    m.memory = interval_ * std::pow(10.0, p.memory);
+    m.acceleration = noise * std::pow(10.0, p[0]) / (interval_ * interval_);
+    m.jolts = noise * std::pow(10.0, p[1]) / std::pow(interval_, 1.5);
+    m.memory = interval_ * std::pow(10.0, p[2]);
     return m;
+  }
+  Innovations innovations(const Point& p, std::size_t stride) const {
+    const MotionModel m = scaled(p, noise_ > 0 ? noise_ : 1);
+    Innovations sums;
+    for (std::size_t i = 0; i < pieces_.size(); i += stride) {
+      add_innovations(pieces_[i], m, interval_, sums);
+    }
+    return sums;
   }
   const std::vector<Axes>& pieces_;
   double interval_, noise_;
-  std::int64_t count_ = 0;
 };
 
 struct Vertex {
-  Point at;
+  Point at{};
   double value = 0;
+  bool operator<(const Vertex& other) const { return value < other.value; }
 };
 
-Vertex best_on_grid(Likelihood& likelihood) {
+Point best_on_grid(const Likelihood& likelihood, std::size_t stride) {
   Vertex best{{}, HUGE_VAL};
-  for (double memory = kMemoryLow; memory <= kMemoryHigh; memory += 1) {
-    for (double ratio = kRatioLow; ratio <= kRatioHigh; ratio += 1.3) {
-      const Point p{ratio, memory};
-      const double value = likelihood(p);
-      if (value < best.value) best = {p, value};
-    }
-  }
-  return best;
-}
-
-// Nelder and Mead's simplex search in two dimensions.
-Point refined(Likelihood& likelihood, const Vertex& start) {
-  const auto at = [&](Point p) {
-    p = held(p);
-    return Vertex{p, likelihood(p)};
-  };
-  const auto step = [](double v, double by, double high) {
-    return v + by > high ? v - by : v + by;
-  };
-  std::array<Vertex, 3> s{start, at({step(start.at.ratio, 0.5, kRatioHigh), start.at.memory}),
-                          at({start.at.ratio, step(start.at.memory, 0.4, kMemoryHigh)})};
-  for (int round = 0; round < 60; ++round) {
-    std::sort(s.begin(), s.end(), [](auto& a, auto& b) { return a.value < b.value; });
-    const auto size =
-        std::fabs(s[2].at.ratio - s[0].at.ratio) + std::fabs(s[2].at.memory - s[0].at.memory);
-    if (s[2].value - s[0].value < 1e-7 && size < 1e-2) break;
-    const Point middle{(s[0].at.ratio + s[1].at.ratio) / 2, (s[0].at.memory + s[1].at.memory) / 2};
-    const auto along = [&](double k) {
-      return at({middle.ratio + k * (s[2].at.ratio - middle.ratio),
-                 middle.memory + k * (s[2].at.memory - middle.memory)});
-    };
-    const Vertex mirrored = along(-1);
-    if (mirrored.value < s[0].value) {
-      const Vertex further = along(-2);
-      s[2] = further.value < mirrored.value ? further : mirrored;
-    } else if (mirrored.value < s[1].value) {
-      s[2] = mirrored;
-    } else {
-      const Vertex nearer = along(mirrored.value < s[2].value ? -0.5 : 0.5);
-      if (nearer.value < std::min(mirrored.value, s[2].value)) {
-        s[2] = nearer;
-      } else {
-        for (int i = 1; i < 3; ++i) {
-          s[i] = at({(s[i].at.ratio + s[0].at.ratio) / 2, (s[i].at.memory + s[0].at.memory) / 2});
-        }
+  for (const double memory : {0.6, 1.3, 2.2}) {
+    for (double acceleration = kLow[0]; acceleration <= kHigh[0]; acceleration += 1.3) {
+      for (const double jolts : {kLow[1], -2.0, -1.0, 0.0, 1.0, 2.5, 4.0}) {
+        const Point p{acceleration, jolts, memory};
+        best = std::min(best, Vertex{p, likelihood(p, stride)});
       }
     }
   }
-  return std::min_element(s.begin(), s.end(), [](auto& a, auto& b) { return a.value < b.value; })
-      ->at;
+  return best.at;
 }
+
+// Nelder and Mead's simplex search [Comput. J. 7, 1965], held within the bounds.
+class Simplex {
+ public:
+  Simplex(const Likelihood& likelihood, const Point& start) : likelihood_(likelihood) {
+    corners_[0] = vertex(start);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      Point p = start;
+      p[i] += p[i] + 0.5 > kHigh[i] ? -0.5 : 0.5;
+      corners_[i + 1] = vertex(p);
+    }
+  }
+  Point minimum() {
+    constexpr int kRounds = 150;
+    for (int round = 0; round < kRounds; ++round) {
+      std::sort(corners_.begin(), corners_.end());
+      if (corners_.back().value - corners_[0].value < 1e-7 && size() < 0.02) break;
+      replace_worst();
+    }
+    return std::min_element(corners_.begin(), corners_.end())->at;
+  }
+
+ private:
+  Vertex vertex(const Point& p) const { return {held(p), likelihood_(held(p))}; }
+  double size() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += std::fabs(corners_[3].at[i] - corners_[0].at[i]);
+    return sum;
+  }
+  // The point on the line from the middle of the better corners to the worst, k times as far.
+  Vertex along(double k) const {
+    Point p{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double middle = (corners_[0].at[i] + corners_[1].at[i] + corners_[2].at[i]) / 3;
+      p[i] = middle + k * (corners_[3].at[i] - middle);
+    }
+    return vertex(p);
+  }
+  void replace_worst() {
+    Vertex& worst = corners_[3];
+    const Vertex mirrored = along(-1);
+    if (mirrored < corners_[0]) {
+      worst = std::min(along(-2), mirrored);
+    } else if (mirrored < corners_[2]) {
+      worst = mirrored;
+    } else {
+      const Vertex nearer = along(mirrored < worst ? -0.5 : 0.5);
+      if (nearer < std::min(mirrored, worst)) {
+        worst = nearer;
+      } else {
+        shrink();
+      }
+    }
+  }
+  void shrink() {
+    for (std::size_t c = 1; c < corners_.size(); ++c) {
+      Point p{};
+      for (std::size_t i = 0; i < 3; ++i) p[i] = (corners_[c].at[i] + corners_[0].at[i]) / 2;
+      corners_[c] = vertex(p);
+    }
+  }
+  const Likelihood& likelihood_;
+  std::array<Vertex, 4> corners_;
+};
 
 }  // namespace
 
@@ -130,9 +152,13 @@ MotionModel fit_motion(const std::vector<Axes>& pieces, double interval, double 
     add_innovations(piece, {1, 1 / (interval * interval), interval}, interval, any);
   }
   // Nothing seen, or nothing that ever moves: no variance to divide between motion and noise.
-  if (any.count < 8 || !(any.squares > 0)) return {noise, 0, interval, 0, 0};
-  Likelihood likelihood(pieces, interval, noise);
-  return likelihood.model(refined(likelihood, best_on_grid(likelihood)));
+  if (any.count < 8 || !(any.squares > 0)) return {noise, 0, interval};
+  const Likelihood likelihood(pieces, interval, noise);
+  const std::size_t stride = pieces.size() >= 8 ? 4 : 1;
+  const Point start = best_on_grid(likelihood, stride);
+  // A second search from where the first one ended gets out of a simplex that fell flat.
+  const Point found = Simplex(likelihood, start).minimum();
+  return likelihood.model(Simplex(likelihood, found).minimum());
 }
 
 }  // namespace lilytank

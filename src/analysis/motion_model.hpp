@@ -16,8 +16,8 @@ using MotionMatrix = Eigen::Matrix3d;
 struct Transition {
   MotionMatrix F, Q;
 };
-/// Over `interval` seconds, for an acceleration of the given deviation and memory.
-Transition transition(double acceleration, double memory, double interval);
+/// Over `interval` seconds.
+Transition transition(const MotionModel& model, double interval);
 
 /// Measurements of one or two coordinates that are seen in the same frames (NaN: not seen).
 struct Axes {
