@@ -57,6 +57,37 @@ struct Plot {
 };
 void draw_plot(const Plot& plot, const std::string& file);
 
+/// Colours for numbers: from dark to light, or from blue over white at 0 to red.
+enum class ColourScale { rising, diverging };
+
+/// A map of cells x cells squares over [-extent, extent]^2, stored as in FlowField: row by row from
+/// the lowest y, iy * cells + ix. Values that are NaN are cells without data, drawn in grey.
+struct MapPanel {
+  std::string title;
+  int cells = 0;
+  double extent = 0;  ///< m
+  std::vector<double> values;
+  std::string label;  ///< beside the colour bar, as "mean speed (m/s)"
+  ColourScale scale = ColourScale::rising;
+  double low = 0, high = 0;  ///< of the colour bar; equal: from the data (diverging: about 0)
+  /// Values are then 0, 1, ...: the classes of these names, with a legend instead of a bar.
+  std::vector<std::string> classes;
+  std::vector<bool> hatched;             ///< cells to mark, as filled or doubtful; may be empty
+  std::vector<double> arrow_x, arrow_y;  ///< a vector a cell, NaN: none; may be empty
+  std::string arrow_unit = "m/s";        ///< beside the arrow that shows the scale
+};
+/// Maps of one tank side by side, `columns` in a row; panels of a row with equal scales share a
+/// colour bar.
+struct Map {
+  std::string title;
+  double tank_radius = 0;  ///< m, drawn as a circle
+  int columns = 1;
+  std::vector<MapPanel> panels;
+  int panel_size = 340;  ///< pixels, of one map (PNG: twice that)
+};
+/// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.
+void draw_map(const Map& map, const std::string& file);
+
 /// Copies standing over time, from a run's metrics.
 Plot yield_plot(const StoredRun& run);
 
