@@ -67,7 +67,7 @@ enum class Treatment : std::uint8_t {
   keep,    ///< named, and left as it is
   mark,    ///< named, and the sighting counts as not seen: NaN in the track
   split,   ///< named, and the track is cut there in two
-  refuse,  ///< the recording is not read: InputError
+  refuse,  ///< named, and the recording is not used
 };
 std::string treatment_word(Treatment treatment);
 
@@ -89,10 +89,10 @@ struct CheckRules {
 struct Finding {
   Check check = Check::gap;
   Treatment treatment = Treatment::keep;
-  SourcePlace place;     ///< file, and line where there is one
-  int frame = -1;        ///< -1: the whole file
-  std::int64_t id = -1;  ///< -1: all bodies
-  std::string what;      ///< "not seen for 12 frames (0.4 s)"
+  SourcePlace place;        ///< file, and line where there is one
+  std::int64_t frame = -1;  ///< the file's number; -1: the whole file
+  std::int64_t id = -1;     ///< -1: all bodies
+  std::string what;         ///< "not seen for 12 frames (0.4 s)"
   /// "balls.csv:120: frame 4, id 3: gap: not seen for 12 frames (0.4 s); track cut"
   std::string text() const;
 };
@@ -113,18 +113,26 @@ struct RecordingOptions {
 
 /// A recording and all that was found in it.
 struct CheckedRecording {
-  Recording recording;
+  Recording recording;  ///< without tracks if it was refused
   RecordingFormat format = RecordingFormat::tidy;
   std::vector<std::string> files;
-  std::vector<Finding> findings;
-  std::int64_t sightings = 0;  ///< in the recording's tracks
+  std::int64_t rows = 0;                    ///< sightings in the files
+  std::vector<Finding> findings;            ///< by frame and id
+  std::vector<std::string> names;           ///< of bodies, by id, where the file has words for ids
+  std::vector<std::string> unused_columns;  ///< of the last file
+  bool refused() const;
+  /// Throws InputError with the first finding that refuses the recording, if there is one.
+  void throw_if_refused() const;
 };
 
 /// Reads and checks one recording: a file (.gz or not), a directory with one file a track, or
-/// such files by a pattern ("track*.csv"). Throws InputError with file and line: unreadable,
-/// malformed, or refused by a check.
+/// such files by a pattern ("track*.csv"). Throws InputError with file and line: unreadable or
+/// malformed.
 CheckedRecording check_recording(const std::string& file, const RecordingOptions& options = {});
-/// The same without the findings.
+/// The same from several files that together are one recording.
+CheckedRecording check_recording(const std::vector<std::string>& files,
+                                 const RecordingOptions& options = {});
+/// The recording alone. Throws InputError also where a check refuses it.
 Recording read_recording(const std::string& file, const RecordingOptions& options = {});
 
 /// Writes a recording in a format, compressed if the name ends in .gz: positions to 0.1 um,

@@ -22,6 +22,7 @@ Experiment load_experiment(const std::vector<std::string>& files,
   for (const RecordingSource& source : out.sources) {
     if (wanted && !wanted(source)) continue;
     CheckedRecording checked = check_recording(source.file, source.options);
+    checked.throw_if_refused();
     out.recordings.push_back(std::move(checked.recording));
     for (Finding& finding : checked.findings) out.findings.push_back(std::move(finding));
   }

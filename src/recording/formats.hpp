@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "recording/columns.hpp"
 #include "recording/line_source.hpp"
 #include "recording/sightings.hpp"
 
@@ -11,9 +12,6 @@ namespace lilytank {
 /// The format of a file by its first line, which is given again by `lines`. Throws InputError if it
 /// is none that is known.
 RecordingFormat detect_format(LineSource& lines);
-/// Whether the format has one file a track.
-bool one_file_a_track(RecordingFormat format);
-
 /// All rows of a recording's files, in the files' units. Throws InputError.
 Sightings read_sightings(const std::vector<std::string>& files, const RecordingOptions& options);
 /// The same for one open file, added to `out`; out.format is known.
