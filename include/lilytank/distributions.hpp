@@ -41,10 +41,13 @@ BodySums circulation(const SmoothRecording& recording);
 BodySums radial_density(const SmoothRecording& recording, double tank_radius, const Bins& bins);
 /// Pairs at a distance (m), relative to pairs of the same bodies at different times, which know
 /// nothing of each other: 1 without correlation, whatever the tank's shape and the uneven density.
-/// Half of each pair belongs to either body.
+/// Looks at ten frames a second, as more would tell little more; so do the next two.
 BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins);
 /// Probability density (1/m) of the distance to the nearest other body seen in the same frame.
 BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins);
+
+/// Mean distance to the nearest other body (m), one bin.
+BodySums nearest_distance(const SmoothRecording& recording);
 
 /// When two bodies touch.
 struct ContactRule {

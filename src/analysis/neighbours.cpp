@@ -45,6 +45,31 @@ void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, co
   }
 }
 
+// Every how many frames one is looked at, for ten a second.
+std::size_t stride_of(const SmoothRecording& recording) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(recording.rate / 10)));
+}
+
+// Calls act(body, distance to the nearest other one) for frames with two bodies or more.
+template <class Act>
+void for_each_nearest(const SmoothRecording& recording, const FramesView& frames, const Act& act) {
+  std::vector<double> nearest;  // squared
+  for (std::size_t f = 0; f < frames.frames(); f += stride_of(recording)) {
+    const SeenBody* const first = frames.begin(f);
+    const auto seen = static_cast<std::size_t>(frames.end(f) - first);
+    if (seen < 2) continue;
+    nearest.assign(seen, HUGE_VAL);
+    for (std::size_t i = 0; i < seen; ++i) {
+      for (std::size_t j = i + 1; j < seen; ++j) {
+        const double dx = first[i].x - first[j].x, dy = first[i].y - first[j].y;
+        const double square = dx * dx + dy * dy;
+        nearest[i] = std::min(nearest[i], square), nearest[j] = std::min(nearest[j], square);
+      }
+    }
+    for (std::size_t i = 0; i < seen; ++i) act(first[i].body, std::sqrt(nearest[i]));
+  }
+}
+
 // Gap of two equal squares along the axes of the first.
 double gap_along(const SeenBody& a, const SeenBody& b, double side) {
   const double c = std::cos(a.theta), s = std::sin(a.theta), turn = b.theta - a.theta;
@@ -143,9 +168,10 @@ BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
   // Shifts that are far from each other and from whole turns of each other.
   const std::size_t n = frames.frames();
   constexpr std::array kShifts{0.2137, 0.3819, 0.5393};
-  for (std::size_t f = 0; f < n; ++f) {
+  const std::size_t stride = stride_of(recording);
+  for (std::size_t f = 0; f < n; f += stride) {
     count_pairs(frames.begin(f), frames.end(f), frames.begin(f), frames.end(f), bins, same);
-    const double shift = kShifts[f % kShifts.size()];
+    const double shift = kShifts[f / stride % kShifts.size()];
     const std::size_t g = (f + static_cast<std::size_t>(shift * static_cast<double>(n))) % n;
     count_pairs(frames.begin(f), frames.end(f), frames.begin(g), frames.end(g), bins, other);
   }
@@ -162,27 +188,22 @@ BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins) 
   BodySums sums = empty_sums(recording, frames, bins.count);
   const auto n = static_cast<std::size_t>(bins.count);
   std::vector<double> samples(frames.bodies(), 0.0);
-  std::vector<double> nearest;
-  for (std::size_t f = 0; f < frames.frames(); ++f) {
-    const SeenBody* const first = frames.begin(f);
-    const auto seen = static_cast<std::size_t>(frames.end(f) - first);
-    if (seen < 2) continue;
-    nearest.assign(seen, HUGE_VAL);
-    for (std::size_t i = 0; i < seen; ++i) {
-      for (std::size_t j = i + 1; j < seen; ++j) {
-        const double dx = first[i].x - first[j].x, dy = first[i].y - first[j].y;
-        const double square = dx * dx + dy * dy;
-        nearest[i] = std::min(nearest[i], square), nearest[j] = std::min(nearest[j], square);
-      }
-    }
-    for (std::size_t i = 0; i < seen; ++i) {
-      const std::size_t body = first[i].body;
-      ++samples[body];
-      const int bin = bins.of(std::sqrt(nearest[i]));
-      if (bin >= 0) sums.sum[body * n + static_cast<std::size_t>(bin)] += 1 / bins.width();
-    }
-  }
+  for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
+    ++samples[body];
+    const int bin = bins.of(nearest);
+    if (bin >= 0) sums.sum[body * n + static_cast<std::size_t>(bin)] += 1 / bins.width();
+  });
   for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / n];
+  return sums;
+}
+
+BodySums nearest_distance(const SmoothRecording& recording) {
+  const FramesView frames(recording);
+  BodySums sums = empty_sums(recording, frames, 1);
+  for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
+    sums.sum[body] += nearest;
+    ++sums.weight[body];
+  });
   return sums;
 }
 
