@@ -106,6 +106,7 @@ struct RecordingOptions {
   Calibration calibration;
   double rate = 0;            ///< frames per second; 0: from the file's times
   double time_unit = 1;       ///< s per unit of the file's times
+  bool in_tank = true;        ///< false: places are not checked against a tank
   double tank_radius = 0.30;  ///< m
   double body_radius = 0;     ///< m, of the body's inscribed circle
   CheckRules rules;

@@ -28,5 +28,6 @@ int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
 int study_verb(const Arguments& arguments);
+int recording_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -129,11 +129,12 @@ class FileReader {
 };
 
 /// Adds "path=value" to `out`: the value is TOML, or else taken as text.
-void read_set(const std::string& set, std::vector<Assignment>& out) {
-  const SourcePlace place{"--set " + set, 0, 0};
+void read_set(const std::string& option, const std::string& set, std::vector<Assignment>& out) {
+  const SourcePlace place{option + " " + set, 0, 0};
   const auto equals = set.find('=');
   if (equals == std::string::npos || set.find('\n') != std::string::npos) {
-    throw InputError(place, "write --set path=value, as in --set tank.radius=0.3");
+    const std::string example = option == "--set" ? "tank.radius=0.3" : "rate=25";
+    throw InputError(place, "write " + option + " path=value, as in " + option + " " + example);
   }
   const std::string path(trimmed(std::string_view(set).substr(0, equals)));
   const std::string raw(trimmed(std::string_view(set).substr(equals + 1)));
@@ -188,9 +189,16 @@ std::vector<Layer> read_layers(const std::vector<std::string>& files,
   FileReader reader(layers);
   for (const std::string& file : files) reader.read(file, {});
   Layer overrides;
-  for (const std::string& set : sets) read_set(set, overrides.values);
+  overrides.values = read_assignments(sets, "--set");
   layers.push_back(std::move(overrides));
   return layers;
+}
+
+std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
+                                         const std::string& option) {
+  std::vector<Assignment> out;
+  for (const std::string& text : texts) read_set(option, text, out);
+  return out;
 }
 
 }  // namespace lilytank

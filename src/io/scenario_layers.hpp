@@ -53,6 +53,11 @@ struct Layer {
   bool has_recordings = false;
 };
 
+/// Reads "path=value" texts given to a command line's `option` ("--set"); a value is TOML, or else
+/// text. Throws InputError.
+std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
+                                         const std::string& option);
+
 /// Reads the files, each after the files named by its `base`, and then the sets. Throws InputError:
 /// unreadable file, TOML syntax, circle of bases.
 std::vector<Layer> read_layers(const std::vector<std::string>& files,

@@ -191,8 +191,8 @@ class ClockFinder {
     const Treatment treatment = report_->add(
         Check::clock, s_->place(a), from, -1,
         "taken" + until + " " + brief(std::fabs(worst)) + " frames (" +
-            brief(1000 * std::fabs(worst) / clock_.rate) + " ms) " +
-            (worst > 0 ? "late" : "early") + " on a clock of " + brief(clock_.rate) + " frames/s");
+            time_text(std::fabs(worst) / clock_.rate) + ") " + (worst > 0 ? "late" : "early") +
+            " on a clock of " + brief(clock_.rate) + " frames/s");
     if (treatment != Treatment::split) return;
     for (Sighting& row : s_->rows) {
       row.cut = row.cut || row.frame == from || row.frame == to + 1;

@@ -88,8 +88,9 @@ void check_lengths(const Sightings& s, const RecordingOptions& options, const Ma
                                m.y_sign * y + m.origin_y * m.pixel, *edge, m.pixel));
   } else if (*far < 0.05 * options.tank_radius && n > 100) {
     report.add(Check::units, place, -1, -1,
-               "positions stay within " + in_mm(*far) + " of the centre of a tank of radius " +
-                   brief(options.tank_radius) + " m: are lengths in a larger unit?");
+               "positions stay within " + length_text(*far) +
+                   " of the centre of a tank of radius " + brief(options.tank_radius) +
+                   " m: are lengths in a larger unit?");
   }
 }
 
@@ -128,7 +129,7 @@ void to_metres(Sightings& s, const RecordingOptions& options, Report& report) {
     row.y = map.y_sign * map.pixel * (row.y - map.origin_y);
     row.theta *= map.angle;
   }
-  check_lengths(s, options, map, report);
+  if (options.in_tank) check_lengths(s, options, map, report);
 }
 
 }  // namespace lilytank

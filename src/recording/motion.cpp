@@ -146,9 +146,9 @@ class MotionChecks {
       const bool heading = headings_ && turned > frames * turn_ &&
                            std::fabs(wrapped(c.theta - a.theta)) < turned / 2;
       if (!place && !heading) continue;
-      const std::string what = place
-                                   ? in_mm(away) + " from the line between the sightings around it"
-                                   : "heading " + brief(turned) + " rad off those around it";
+      const std::string what =
+          place ? length_text(away) + " from the line between the sightings around it"
+                : "heading " + brief(turned) + " rad off those around it";
       treat(c_->report.add(Check::spike, c_->place(b), c_->frame(b), path.id, what), b,
             seen[i + 1]);
       if (b.unseen) ++i;  // the next one has no neighbour to be compared with
@@ -174,7 +174,7 @@ class MotionChecks {
     const double seconds = step.frames() / c_->clock.rate;
     if (distance <= c_->report.rules().fastest * seconds) return;
     treat(c_->report.add(Check::speed, c_->place(*step.to), c_->frame(*step.to), step.id,
-                         "moved " + in_mm(distance) + " in " + brief(1000 * seconds) + " ms, " +
+                         "moved " + length_text(distance) + " in " + time_text(seconds) + ", " +
                              brief(distance / seconds) + " m/s"),
           *step.to, nullptr);
   }
@@ -219,15 +219,15 @@ class MotionChecks {
     const double apart = std::hypot(step.from->x - other.from->x, step.from->y - other.from->y);
     treat(c_->report.add(Check::swap, c_->place(*step.to), c_->frame(*step.to), step.id,
                          "goes on in the place of id " + std::to_string(other.id) + ", " +
-                             in_mm(apart) + " away, and that one in its place"),
+                             length_text(apart) + " away, and that one in its place"),
           *step.to, nullptr);
   }
 
   void jump(const Step& step) {
     const double away = least(step, surprise);
     treat(c_->report.add(Check::jump, c_->place(*step.to), c_->frame(*step.to), step.id,
-                         "leaps " + in_mm(away) + " off its way in " +
-                             brief(1000 * step.frames() / c_->clock.rate) + " ms"),
+                         "leaps " + length_text(away) + " off its way in " +
+                             time_text(step.frames() / c_->clock.rate)),
           *step.to, nullptr);
   }
 

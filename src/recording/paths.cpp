@@ -21,7 +21,7 @@ void take_out_duplicates(Path& path, const CheckContext& context) {
     const Treatment treatment = context.report.add(
         Check::duplicate, context.place(point), context.frame(point), path.id,
         "seen before in this frame, in line " + std::to_string(context.place(first).line) + ", " +
-            in_mm(apart) + " away");
+            length_text(apart) + " away");
     if (treatment != Treatment::keep) first.unseen = true;
     if (treatment == Treatment::split) first.cut = true;
   }
@@ -110,10 +110,11 @@ void check_outside(std::vector<Path>& paths, const CheckContext& c) {
       const std::int64_t last = c.frame(points[end - 1]);
       const std::string until =
           end - begin > 1 ? " up to frame " + std::to_string(last) + ", at most" : "";
-      const Treatment treatment = c.report.add(
-          Check::outside, c.place(points[begin]), c.frame(points[begin]), path.id,
-          "centre" + until + " " + in_mm(most - limit + rules.beyond_tank) +
-              " nearer to the wall than its body allows, " + in_mm(most) + " from the middle");
+      const Treatment treatment =
+          c.report.add(Check::outside, c.place(points[begin]), c.frame(points[begin]), path.id,
+                       "centre" + until + " " + length_text(most - limit + rules.beyond_tank) +
+                           " nearer to the wall than its body allows, " + length_text(most) +
+                           " from the middle");
       if (treatment == Treatment::mark) {
         for (std::size_t i = begin; i < end; ++i) points[i].unseen = true;
       } else if (treatment == Treatment::split) {

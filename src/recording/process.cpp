@@ -28,7 +28,7 @@ void make_recording(Sightings& s, const RecordingOptions& options, Report& repor
   if (report.refused()) return;
   const CheckContext context{s, clock, options, report};
   check_gaps(paths, context);
-  check_outside(paths, context);
+  if (options.in_tank) check_outside(paths, context);
   check_motion(paths, context);
   if (report.refused()) return;
   out.rate = clock.rate, out.start = clock.start, out.frames = clock.frames;

@@ -1,6 +1,7 @@
 #include "recording/report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace lilytank {
@@ -31,8 +32,12 @@ std::string brief(double value) {
   return text;
 }
 
-std::string in_mm(double metres) {
-  return brief(1000 * metres) + " mm";
+std::string length_text(double metres) {
+  return std::fabs(metres) < 1 ? brief(1000 * metres) + " mm" : brief(metres) + " m";
+}
+
+std::string time_text(double seconds) {
+  return std::fabs(seconds) < 1 ? brief(1000 * seconds) + " ms" : brief(seconds) + " s";
 }
 
 CheckRules::CheckRules() {

@@ -31,7 +31,8 @@ class Report {
 
 /// "0.0123" with three significant digits.
 std::string brief(double value);
-/// A length in mm, as "12.3 mm".
-std::string in_mm(double metres);
+/// "12.3 mm" or "1.23 m"; "33.3 ms" or "2.5 s".
+std::string length_text(double metres);
+std::string time_text(double seconds);
 
 }  // namespace lilytank
