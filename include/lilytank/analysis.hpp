@@ -13,6 +13,7 @@ namespace lilytank {
 /// Recordings that belong together: repetitions of one experiment, or one run.
 struct AnalysisSource {
   std::string name;
+  std::string panel;  ///< sources of one panel share a plot; empty for all: one plot
   std::vector<Recording> recordings;  ///< of one kind of body
   double tank_radius = 0.30;          ///< m
   double body_size = 0.035;           ///< m, side of squares or diameter of balls
@@ -54,7 +55,7 @@ struct ContactTimes {
 
 /// Numbers of one source; NaN where it does not have them.
 struct SourceSummary {
-  std::string name;
+  std::string name, panel;
   BodyKind body = BodyKind::lily;
   int recordings = 0, bodies = 0, tracks = 0;
   std::int64_t sightings = 0;

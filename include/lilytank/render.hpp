@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/analysis.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/study_summary.hpp"
 
@@ -57,6 +58,13 @@ struct Plot {
 };
 void draw_plot(const Plot& plot, const std::string& file);
 
+/// Plots on one page, `columns` in a row, each as large as it says.
+struct PlotPage {
+  std::vector<Plot> plots;
+  int columns = 1;
+};
+void draw_plots(const PlotPage& page, const std::string& file);
+
 /// Colours for numbers: from dark to light, or from blue over white at 0 to red.
 enum class ColourScale { rising, diverging };
 
@@ -102,6 +110,23 @@ struct StudyPlot {
 /// stand a little beside each other there. Bands are left out where there are more than six
 /// settings. Nothing for a study without finished runs.
 std::vector<StudyPlot> study_plots(const StudySummary& summary);
+
+/// A page of an analysis, and the name of its files without ending.
+struct AnalysisPlot {
+  std::string name;
+  PlotPage page;
+};
+/// One a set of curves, named as its CSV: all sources laid over each other, beside each other by
+/// AnalysisSource::panel, and of two sources the difference with its band below; the MSD also on
+/// logarithmic axes ("msd_all_log"); "contact_times"; "transfer" of the smoothers.
+std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis);
+/// Mean velocities along x and y and their arrows, a row a source, then the difference of two
+/// [paper, Fig. 7]. No panels where there are no maps.
+Map velocity_maps(const Analysis& analysis);
+/// The whole report of an analysis in a directory, made if absent: write_analysis()'s files, and
+/// each plot and map as .png and .svg. Returns the files' names. Throws InputError if it cannot be
+/// written.
+std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

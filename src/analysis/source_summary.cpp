@@ -36,7 +36,7 @@ double plateau(const Values& lags, const Values& curve) {
 }
 
 void add_counts(const AnalysisSource& source, SourceSummary& s) {
-  s.name = source.name;
+  s.name = source.name, s.panel = source.panel;
   s.recordings = static_cast<int>(source.recordings.size());
   std::int64_t frames = 0;
   for (const Recording& recording : source.recordings) {
