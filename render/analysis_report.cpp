@@ -8,8 +8,9 @@
 namespace lilytank {
 namespace {
 
-constexpr std::size_t kBandsUpTo = 6;  // sources in a plot; more bands hide each other
-constexpr int kWidth = 760, kHeight = 500, kLowHeight = 290;  // pixels
+constexpr std::size_t kBandsUpTo = 4;  // sources in a plot; more bands hide each other
+constexpr int kWidth = 760, kHeight = 500, kLowHeight = 330;  // pixels
+constexpr int kPanelWidth = 560, kPanelHeight = 440;          // of plots beside each other
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Numbers as a reader wants them: metres as centimetres.
@@ -95,7 +96,11 @@ std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, 
   const std::vector<std::string> panels = panels_of(analysis);
   for (const std::string& panel : panels) {
     Plot plot = empty_plot(set, x, y);
-    plot.title = panels.size() > 1 ? panel : set.title;
+    plot.title = set.title;
+    if (panels.size() > 1) {
+      plot.title = panel;
+      plot.width = kPanelWidth, plot.height = kPanelHeight;
+    }
     std::vector<const AnalysisCurves::Of*> in;
     for (const auto& of : set.sources) {
       if (analysis.sources[static_cast<std::size_t>(of.source)].panel == panel) in.push_back(&of);
@@ -118,8 +123,7 @@ Plot difference_plot(const Analysis& analysis, const AnalysisCurves& set, const 
   plot.title = analysis.sources[1].name + " less " + analysis.sources[0].name;
   plot.y_label = "difference" + (y.unit == "1" ? "" : " (" + y.unit + ")");
   plot.curves.push_back(curve_of("", set.x, set.difference, x.size, y.size, true));
-  const double last = set.x.back() / x.size, first = set.x.front() / x.size;
-  plot.curves.push_back({"", {first, last}, {0, 0}, {}, {}});
+  plot.zero_line = true;
   return plot;
 }
 

@@ -108,6 +108,12 @@ void draw_grid(const Canvas& canvas, const PlotArea& area) {
   }
 }
 
+void draw_zero_line(const Canvas& canvas, const PlotArea& area) {
+  const double y = area.at_y(0);
+  if (!(y > area.top && y < area.bottom())) return;
+  canvas.line(area.left, y, area.right(), y, palette::muted, 1);
+}
+
 void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
   constexpr double kWidth = 1.1;
   cairo_rectangle(canvas.get(), area.left, area.top, area.width, area.height);
@@ -188,6 +194,7 @@ void draw_all(const Canvas& canvas, const Plot& plot) {
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
   draw_grid(canvas, area);
+  if (plot.zero_line) draw_zero_line(canvas, area);
   draw_curves(canvas, plot, area);
   draw_frame_and_ticks(canvas, area);
   if (range_of(plot).x.empty()) {

@@ -17,6 +17,7 @@ struct AnalysisSource {
   std::vector<Recording> recordings;  ///< of one kind of body
   double tank_radius = 0.30;          ///< m
   double body_size = 0.035;           ///< m, side of squares or diameter of balls
+  bool exact = false;  ///< places without noise, as a simulation's own: none is estimated
 };
 
 struct AnalysisOptions {
@@ -59,6 +60,7 @@ struct SourceSummary {
   BodyKind body = BodyKind::lily;
   int recordings = 0, bodies = 0, tracks = 0;
   std::int64_t sightings = 0;
+  bool exact = false;                        ///< places without noise
   double rate = 0, duration = 0;             ///< Hz; s, of the longest recording
   double missing = 0;                        ///< share of frames within tracks
   std::vector<MotionModel> motion, turning;  ///< a recording

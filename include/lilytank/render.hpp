@@ -52,6 +52,7 @@ struct Plot {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
+  bool zero_line = false;         ///< a thin line at y = 0
   double y_low = 0, y_high = 0;   ///< equal: from the data
   double x_low = 0, x_high = 0;   ///< equal: from the data
   int width = 900, height = 600;  ///< pixels (PNG: twice that)

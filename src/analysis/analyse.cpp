@@ -74,8 +74,11 @@ class Analyser {
   SmoothSource prepared(const AnalysisSource& source) const {
     SmoothSource s{&source, {}, {}};
     if (out_.options.msd_only) return s;
+    SmoothingOptions smoothing = out_.options.smoothing;
+    // Below what stored positions resolve, but not nothing: filters divide by it.
+    if (source.exact) smoothing.noise = 1e-7, smoothing.heading_noise = 1e-6;
     for (const Recording& recording : source.recordings) {
-      s.recordings.push_back(smooth(recording, out_.options.smoothing));
+      s.recordings.push_back(smooth(recording, smoothing));
       if (recording.body == BodyKind::point) continue;
       // Squares without headings are taken for discs as wide as they are.
       const bool squares = recording.body == BodyKind::lily && recording.has_heading();

@@ -22,6 +22,19 @@ std::string column(const std::string& name, const std::string& unit) {
   return plain;
 }
 
+// A source's cells: its name, after its panel where there are panels.
+bool has_panels(const Analysis& analysis) {
+  bool any = false;
+  for (const SourceSummary& s : analysis.sources) any = any || !s.panel.empty();
+  return any;
+}
+std::string source_head(const Analysis& analysis) {
+  return has_panels(analysis) ? "panel,source" : "source";
+}
+std::string source_cells(const Analysis& analysis, const SourceSummary& s) {
+  return (has_panels(analysis) ? cell(s.panel) + "," : "") + cell(s.name);
+}
+
 void add_rows(std::string& out, const std::string& source, const std::vector<double>& x,
               const CurveEstimate& curve, const AnalysisCurves::Of* counts) {
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -41,7 +54,7 @@ void add_rows(std::string& out, const std::string& source, const std::vector<dou
 class SummaryRows {
  public:
   explicit SummaryRows(std::string& out) : out_(out) {}
-  void source(const std::string& name) { name_ = cell(name); }
+  void source(const std::string& cells) { name_ = cells; }
   void add(const std::string& number, const std::string& unit, const Estimate& e) {
     if (std::isnan(e.value)) return;
     out_ += name_ + "," + number + "," + unit + "," + cells(e) + "\n";
@@ -58,7 +71,7 @@ class SummaryRows {
 };
 
 void add_motion(SummaryRows& rows, const std::string& what, const std::string& unit,
-                const std::vector<MotionModel>& models) {
+                const std::vector<MotionModel>& models, bool exact) {
   const double n = static_cast<double>(models.size());
   double noise = 0, acceleration = 0, memory = 0, jolts = 0, samples = 0;
   for (const MotionModel& m : models) {
@@ -66,14 +79,13 @@ void add_motion(SummaryRows& rows, const std::string& what, const std::string& u
     jolts += m.jolts / n, samples += static_cast<double>(m.samples);
   }
   if (samples == 0) return;
-  rows.add(what + " noise", unit, noise);
+  if (!exact) rows.add(what + " noise", unit, noise);
   rows.add(what + " lasting acceleration", unit + "/s^2", acceleration);
   rows.add(what + " acceleration memory", "s", memory);
   rows.add(what + " jolts", unit + "/s^1.5", jolts);
 }
 
 void add_source(SummaryRows& rows, const SourceSummary& s) {
-  rows.source(s.name);
   rows.add("recordings", "1", s.recordings);
   rows.add("bodies", "1", s.bodies);
   rows.add("tracks", "1", s.tracks);
@@ -81,8 +93,8 @@ void add_source(SummaryRows& rows, const SourceSummary& s) {
   rows.add("missing share", "1", s.missing);
   rows.add("rate", "Hz", s.rate);
   rows.add("duration", "s", s.duration);
-  add_motion(rows, "position", "m", s.motion);
-  add_motion(rows, "heading", "rad", s.turning);
+  add_motion(rows, "position", "m", s.motion, s.exact);
+  add_motion(rows, "heading", "rad", s.turning, s.exact);
   rows.add("mean speed", "m/s", s.speed);
   rows.add("rms speed", "m/s", s.rms_speed);
   rows.add("rms spin", "rad/s", s.rms_spin);
@@ -103,42 +115,45 @@ void add_source(SummaryRows& rows, const SourceSummary& s) {
 }  // namespace
 
 std::string curve_csv(const Analysis& analysis, const AnalysisCurves& curves) {
-  std::string out = "source," + column(curves.x_name, curves.x_unit) + "," +
+  std::string out = source_head(analysis) + "," + column(curves.x_name, curves.x_unit) + "," +
                     column(curves.y_name, curves.y_unit) + ",low,high,tracks,samples\n";
   for (const AnalysisCurves::Of& of : curves.sources) {
-    add_rows(out, cell(analysis.sources[static_cast<std::size_t>(of.source)].name), curves.x,
-             of.curve, &of);
+    const SourceSummary& s = analysis.sources[static_cast<std::size_t>(of.source)];
+    add_rows(out, source_cells(analysis, s), curves.x, of.curve, &of);
   }
   if (!curves.difference.value.empty()) {
-    add_rows(out, "difference", curves.x, curves.difference, nullptr);
+    const std::string name = has_panels(analysis) ? ",difference" : "difference";
+    add_rows(out, name, curves.x, curves.difference, nullptr);
   }
   return out;
 }
 
 std::string velocity_map_csv(const Analysis& analysis) {
-  std::string out =
-      "source,ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,se_vx_mps,se_vy_mps,samples,bodies\n";
+  std::string out = source_head(analysis) +
+                    ",ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,se_vx_mps,se_vy_mps,samples,bodies\n";
   for (std::size_t s = 0; s < analysis.maps.size(); ++s) {
     const VelocityMap& map = analysis.maps[s];
     const Bins bins{-map.extent, map.extent, map.cells};
     for (std::size_t i = 0; i < map.vx.size(); ++i) {
       if (map.samples[i] == 0) continue;
       const auto ix = static_cast<int>(i) % map.cells, iy = static_cast<int>(i) / map.cells;
-      out += cell(analysis.sources[s].name) + "," + std::to_string(ix) + "," + std::to_string(iy) +
-             "," + cell(bins.middle(ix)) + "," + cell(bins.middle(iy)) + "," + cell(map.vx[i]) +
-             "," + cell(map.vy[i]) + "," + cell(map.se_x[i]) + "," + cell(map.se_y[i]) + "," +
-             std::to_string(map.samples[i]) + "," + std::to_string(map.bodies[i]) + "\n";
+      out += source_cells(analysis, analysis.sources[s]) + "," + std::to_string(ix) + "," +
+             std::to_string(iy) + "," + cell(bins.middle(ix)) + "," + cell(bins.middle(iy)) + "," +
+             cell(map.vx[i]) + "," + cell(map.vy[i]) + "," + cell(map.se_x[i]) + "," +
+             cell(map.se_y[i]) + "," + std::to_string(map.samples[i]) + "," +
+             std::to_string(map.bodies[i]) + "\n";
     }
   }
   return out;
 }
 
 std::string contact_times_csv(const Analysis& analysis) {
-  std::string out = "source,time_s,share_longer,low,high,at_risk,ended,censored\n";
+  std::string out =
+      source_head(analysis) + ",time_s,share_longer,low,high,at_risk,ended,censored\n";
   for (const SourceSummary& s : analysis.sources) {
     const Survival& c = s.contacts.survival;
     for (std::size_t i = 0; i < c.time.size(); ++i) {
-      out += cell(s.name) + "," + cell(c.time[i]) + "," +
+      out += source_cells(analysis, s) + "," + cell(c.time[i]) + "," +
              cells(Estimate{c.survival[i], c.low[i], c.high[i]}) + "," +
              std::to_string(c.at_risk[i]) + "," + std::to_string(c.events[i]) + "," +
              std::to_string(c.censored[i]) + "\n";
@@ -148,10 +163,10 @@ std::string contact_times_csv(const Analysis& analysis) {
 }
 
 std::string transfer_csv(const Analysis& analysis) {
-  std::string out = "source,frequency_Hz,position,velocity,acceleration\n";
+  std::string out = source_head(analysis) + ",frequency_Hz,position,velocity,acceleration\n";
   for (const SourceSummary& s : analysis.sources) {
     for (std::size_t i = 0; i < s.transfer.frequency.size(); ++i) {
-      out += cell(s.name) + "," + cell(s.transfer.frequency[i]) + "," +
+      out += source_cells(analysis, s) + "," + cell(s.transfer.frequency[i]) + "," +
              cell(s.transfer.position[i]) + "," + cell(s.transfer.velocity[i]) + "," +
              cell(s.transfer.acceleration[i]) + "\n";
     }
@@ -160,12 +175,15 @@ std::string transfer_csv(const Analysis& analysis) {
 }
 
 std::string analysis_summary_csv(const Analysis& analysis) {
-  std::string out = "source,number,unit,value,low,high\n";
+  std::string out = source_head(analysis) + ",number,unit,value,low,high\n";
   SummaryRows rows(out);
-  for (const SourceSummary& s : analysis.sources) add_source(rows, s);
+  for (const SourceSummary& s : analysis.sources) {
+    rows.source(source_cells(analysis, s));
+    add_source(rows, s);
+  }
   if (!analysis.compared) return out;
   const SourceComparison& c = analysis.comparison;
-  rows.source("difference");
+  rows.source((has_panels(analysis) ? std::string(",") : std::string()) + "difference");
   rows.add("msd mean absolute difference", "m^2", c.msd_difference);
   rows.add("msd relative difference", "1", c.msd_relative);
   rows.add("msd share of lags beyond the band", "1", c.msd_outside);

@@ -18,6 +18,7 @@ std::string or_dash(const Estimate& e, double unit = 1) {
 std::string three(double value, double unit = 1) {
   if (!std::isfinite(value)) return "-";
   const double v = std::fabs(value / unit);
+  if (v < 1e-4) return "0";
   const int decimals = v >= 100 ? 0 : v >= 10 ? 1 : v >= 1 ? 2 : v >= 0.1 ? 3 : v >= 0.01 ? 4 : 6;
   return fixed(value / unit, decimals);
 }
@@ -58,7 +59,9 @@ class Table {
     head.insert(head.end(), heads_.begin(), heads_.end());
     TextTable table(head);
     for (std::size_t s = 0; s < analysis_.sources.size(); ++s) {
-      std::vector<std::string> row{analysis_.sources[s].name};
+      const SourceSummary& source = analysis_.sources[s];
+      const bool panel = !source.panel.empty();
+      std::vector<std::string> row{source.name + (panel ? ", " + source.panel : "")};
       for (const auto& cells : cells_) row.push_back(cells[s]);
       table.add(row);
     }
@@ -96,11 +99,18 @@ std::string smoothing_text(const Analysis& analysis) {
     table.add(head,
               [&](const SourceSummary& s) { return three(mean_of(s.*models, member), unit); });
   };
-  model("noise (mm)", &SourceSummary::motion, &MotionModel::noise, 1e-3);
+  table.add("noise (mm)", [](const SourceSummary& s) {
+    return s.motion.empty() ? "-"
+           : s.exact        ? "none"
+                            : three(mean_of(s.motion, &MotionModel::noise), 1e-3);
+  });
   model("lasting acceleration (m/s^2)", &SourceSummary::motion, &MotionModel::acceleration, 1);
   model("its memory (s)", &SourceSummary::motion, &MotionModel::memory, 1);
   model("jolts (m/s^1.5)", &SourceSummary::motion, &MotionModel::jolts, 1);
-  model("heading noise (mrad)", &SourceSummary::turning, &MotionModel::noise, 1e-3);
+  table.add("heading noise (mrad)", [](const SourceSummary& s) {
+    const double noise = mean_of(s.turning, &MotionModel::noise);
+    return s.exact && !std::isnan(noise) ? "none" : three(noise, 1e-3);
+  });
   const auto cutoff = [&](const std::string& head, double TransferFunction::*member) {
     table.add(head, [&](const SourceSummary& s) {
       return s.motion.empty() ? "-" : three(s.transfer.*member);

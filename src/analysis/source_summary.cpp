@@ -22,6 +22,21 @@ int first_maximum(const Values& curve) {
   return -1;
 }
 
+// Its place and height between bins: those of the parabola through three.
+struct Peak {
+  double lag = kNone, height = kNone;
+};
+Peak first_peak(const Values& lags, const Values& curve) {
+  const int at = first_maximum(curve);
+  if (at < 0) return {};
+  const auto i = static_cast<std::size_t>(at);
+  const double h = lags[i] - lags[i - 1], bend = curve[i - 1] - 2 * curve[i] + curve[i + 1];
+  const bool even = std::fabs(lags[i + 1] - lags[i] - h) < 1e-6 * h;
+  if (!even || !(bend < 0)) return {lags[i], curve[i]};
+  const double slope = (curve[i + 1] - curve[i - 1]) / 2, shift = -slope / bend;
+  return {lags[i] + shift * h, curve[i] + 0.5 * slope * shift};
+}
+
 // Mean over the second half of the lags.
 double plateau(const Values& lags, const Values& curve) {
   double sum = 0, width = 0;
@@ -36,7 +51,7 @@ double plateau(const Values& lags, const Values& curve) {
 }
 
 void add_counts(const AnalysisSource& source, SourceSummary& s) {
-  s.name = source.name, s.panel = source.panel;
+  s.name = source.name, s.panel = source.panel, s.exact = source.exact;
   s.recordings = static_cast<int>(source.recordings.size());
   std::int64_t frames = 0;
   for (const Recording& recording : source.recordings) {
@@ -61,19 +76,9 @@ void add_displacements(const BodySums& msd, const BodySums& turns, const Values&
                        const AnalysisOptions& options, SourceSummary& s) {
   const Bootstrap& b = options.bootstrap;
   s.first_maximum_lag = ratio_functional(
-      msd,
-      [&](const Values& c) {
-        const int i = first_maximum(c);
-        return i < 0 ? kNone : lags[static_cast<std::size_t>(i)];
-      },
-      b);
+      msd, [&](const Values& c) { return first_peak(lags, c).lag; }, b);
   s.first_maximum = ratio_functional(
-      msd,
-      [](const Values& c) {
-        const int i = first_maximum(c);
-        return i < 0 ? kNone : c[static_cast<std::size_t>(i)];
-      },
-      b);
+      msd, [&](const Values& c) { return first_peak(lags, c).height; }, b);
   s.plateau = ratio_functional(
       msd, [&](const Values& c) { return plateau(lags, c); }, b);
   s.diffusion = diffusion(msd, lags, 2, options.diffusion_from, options.diffusion_to, b);

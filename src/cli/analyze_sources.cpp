@@ -17,6 +17,7 @@ struct Piece {
   std::string name, panel;
   Recording recording;
   double tank_radius = 0, size = 0;
+  bool exact = false;  // a run's own places
 };
 
 double size_of(const Model& model, BodyKind body) {
@@ -38,6 +39,13 @@ std::string value_text(const Scenario& scenario, const std::string& path) {
   std::string value = e.value;
   std::erase(value, '"');
   return e.unit.empty() || value.find(' ') != std::string::npos ? value : value + " " + e.unit;
+}
+
+// "water level" of flow.water_level.
+std::string last_word(const std::string& path) {
+  std::string word = path.substr(path.rfind('.') + 1);
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
 }
 
 // The frames of a track between two, both included.
@@ -109,9 +117,9 @@ class Reader {
   bool wanted(BodyKind body) const { return !options_.body || *options_.body == body; }
 
   void add(const std::string& name, const std::string& panel, const Recording& recording,
-           double tank_radius, double size) {
+           double tank_radius, double size, bool exact = false) {
     pieces_.push_back({name_.empty() ? name : name_, panel,
-                       part_of(recording, options_.from, options_.to), tank_radius, size});
+                       part_of(recording, options_.from, options_.to), tank_radius, size, exact});
   }
   void read_run(const std::string& word) {
     const StoredRun run = load_run(word);
@@ -119,7 +127,7 @@ class Reader {
     std::string name = base_name(word), panel;
     if (!options_.label.empty()) name = value_text(run.scenario, options_.label);
     if (!options_.panel.empty()) {
-      panel = options_.panel + " = " + value_text(run.scenario, options_.panel);
+      panel = last_word(options_.panel) + " " + value_text(run.scenario, options_.panel);
     }
     const int balls = run.trajectory.bodies - run.trajectory.modules;
     const bool both = balls > 0 && run.trajectory.modules > 0 && !options_.body;
@@ -129,7 +137,8 @@ class Reader {
       Recording recording = as_recording(run.trajectory, body);
       recording.name = word;
       const std::string kind = body == BodyKind::ball ? " balls" : " modules";
-      add(name + (both ? kind : ""), panel, recording, model.tank.radius, size_of(model, body));
+      add(name + (both ? kind : ""), panel, recording, model.tank.radius, size_of(model, body),
+          true);
     }
   }
   void read_experiment(const std::string& word) {
@@ -166,12 +175,12 @@ class Reader {
 void join(std::vector<AnalysisSource>& sources, Piece piece) {
   for (AnalysisSource& s : sources) {
     if (s.name == piece.name && s.panel == piece.panel &&
-        s.recordings[0].body == piece.recording.body) {
+        s.recordings[0].body == piece.recording.body && s.exact == piece.exact) {
       s.recordings.push_back(std::move(piece.recording));
       return;
     }
   }
-  AnalysisSource source{piece.name, piece.panel, {}, piece.tank_radius, piece.size};
+  AnalysisSource source{piece.name, piece.panel, {}, piece.tank_radius, piece.size, piece.exact};
   source.recordings.push_back(std::move(piece.recording));
   sources.push_back(std::move(source));
 }
