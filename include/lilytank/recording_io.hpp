@@ -92,8 +92,8 @@ struct Finding {
   SourcePlace place;        ///< file, and line where there is one
   std::int64_t frame = -1;  ///< the file's number; -1: the whole file
   std::int64_t id = -1;     ///< -1: all bodies
-  std::string what;         ///< "not seen for 12 frames (0.4 s)"
-  /// "balls.csv:120: frame 4, id 3: gap: not seen for 12 frames (0.4 s); track cut"
+  std::string what;         ///< "not seen in 12 frames, 0.4 s"
+  /// "balls.csv:120: frame 4, id 3, gap: not seen in 12 frames, 0.4 s (track cut)"
   std::string text() const;
 };
 

@@ -108,30 +108,54 @@ class ClockFinder {
                                 " of them hold anything: are frame numbers or times right?");
   }
 
-  // The median of slopes between instants half the recording apart is not moved by a few wrong
-  // ones.
   void fit() {
     clock_.rate = options_->rate;
     if (!has_times_) {
       clock_.start = static_cast<double>(clock_.first) / clock_.rate;
       return;
     }
-    if (clock_.rate == 0) {
-      const std::size_t n = instants_.size(), half = (n + 1) / 2;
-      std::vector<double> periods;
-      for (std::size_t i = 0; i + half < n; ++i) {
-        const Instant &a = instants_[i], &b = instants_[i + half];
-        periods.push_back((b.time - a.time) / static_cast<double>(b.frame - a.frame));
-      }
-      const double period = periods.empty() ? 0 : median(periods);
-      if (!(period > 0)) {
-        throw InputError(file_, periods.empty() ? "there is a single frame in it: give rate"
-                                                : "times do not rise with frames");
-      }
-      clock_.rate = 1 / period;
-      prefer_whole_rate();
-    }
+    if (clock_.rate == 0) clock_.rate = likely_rate();
     clock_.start = start_for(clock_.rate);
+  }
+
+  // Of the slopes over short and long spans, the one that puts most frames at their times: long
+  // ones do not mind rounded times, short ones do not mind frames that were lost once.
+  double likely_rate() const {
+    const std::size_t n = instants_.size();
+    double best = 0;
+    std::size_t most = 0;
+    for (const std::size_t span : {(n + 1) / 2, n / 8, std::size_t{20}, std::size_t{1}}) {
+      const double rate = span > 0 && span < n ? 1 / median_period(span) : 0;
+      if (!(rate > 0)) continue;
+      const std::size_t fitting = count_fitting(rate, report_->rules().clock_error);
+      if (fitting > most) best = rate, most = fitting;
+    }
+    if (best == 0) {
+      throw InputError(file_, n == 1 ? "there is a single frame in it: give rate"
+                                     : "times do not rise with frames");
+    }
+    // Times are written with few digits: 29.9998 is 30 where that explains them as well.
+    constexpr double kRounding = 0.02;  // frames
+    const double whole = std::floor(best + 0.5);
+    const bool near = whole >= 1 && std::fabs(whole - best) <= 0.01 * whole;
+    return near && count_fitting(whole, kRounding) >= most ? whole : best;
+  }
+
+  double median_period(std::size_t span) const {
+    std::vector<double> periods;
+    for (std::size_t i = 0; i + span < instants_.size(); ++i) {
+      const Instant &a = instants_[i], &b = instants_[i + span];
+      periods.push_back((b.time - a.time) / static_cast<double>(b.frame - a.frame));
+    }
+    return median(periods);
+  }
+
+  std::size_t count_fitting(double rate, double tolerance) const {
+    const double start = start_for(rate);
+    return static_cast<std::size_t>(
+        std::count_if(instants_.begin(), instants_.end(), [&](const Instant& i) {
+          return std::fabs(i.time - start - offset(i, rate)) * rate < tolerance;
+        }));
   }
 
   double start_for(double rate) const {
@@ -141,18 +165,6 @@ class ClockFinder {
   }
   double offset(const Instant& instant, double rate) const {
     return static_cast<double>(instant.frame - clock_.first) / rate;
-  }
-
-  // Times are written with few digits: 29.9998 is 30 where that explains them as well.
-  void prefer_whole_rate() {
-    constexpr double kRounding = 0.02;  // frames
-    const double whole = std::floor(clock_.rate + 0.5);
-    if (whole < 1 || std::fabs(whole - clock_.rate) > 0.01 * whole) return;
-    const double start = start_for(whole);
-    const bool fits = std::all_of(instants_.begin(), instants_.end(), [&](const Instant& i) {
-      return std::fabs(i.time - start - offset(i, whole)) * whole < kRounding;
-    });
-    if (fits) clock_.rate = whole;
   }
 
   double error(const Sighting& row) const {

@@ -88,7 +88,7 @@ class Linker {
                        const std::vector<bool>& taken) const {
     for (const Pair& other : pairs) {
       const bool same_row = other.row == pair.row && other.track != pair.track;
-      if (same_row && !taken[other.track] && other.distance < 2 * pair.distance) {
+      if (same_row && !taken[other.track] && other.distance < 2 * pair.distance + 0.2 * gate_) {
         return other.track;
       }
     }
