@@ -1,11 +1,24 @@
 #include "lilytank/experiment.hpp"
 
+#include <cerrno>
 #include <filesystem>
 
+#include "io/atomic_file.hpp"
 #include "io/experiment_file.hpp"
 #include "io/scenario_build.hpp"
 
 namespace lilytank {
+namespace {
+
+/// A message about a missing file should point to who asked for it.
+void check_there(const RecordingSource& source) {
+  std::error_code ignored;
+  const bool pattern = source.file.find('*') != std::string::npos;
+  if (pattern || std::filesystem::exists(source.file, ignored)) return;
+  throw InputError(source.place, system_problem("cannot read", source.file, ENOENT));
+}
+
+}  // namespace
 
 Experiment load_experiment(const std::vector<std::string>& files,
                            const std::vector<std::string>& sets,
@@ -21,6 +34,7 @@ Experiment load_experiment(const std::vector<std::string>& files,
   if (out.name.empty()) out.name = std::filesystem::path(files.back()).stem().string();
   for (const RecordingSource& source : out.sources) {
     if (wanted && !wanted(source)) continue;
+    check_there(source);
     CheckedRecording checked = check_recording(source.file, source.options);
     checked.throw_if_refused();
     out.recordings.push_back(std::move(checked.recording));
