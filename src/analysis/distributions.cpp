@@ -10,10 +10,10 @@ namespace lilytank {
 namespace {
 
 double value_of(const SmoothTrack& t, std::size_t f, Quantity quantity) {
-  const double r = std::hypot(t.x[f], t.y[f]);
+  const double r = std::sqrt(t.x[f] * t.x[f] + t.y[f] * t.y[f]);
   switch (quantity) {
     case Quantity::speed:
-      return std::hypot(t.vx[f], t.vy[f]);
+      return std::sqrt(t.vx[f] * t.vx[f] + t.vy[f] * t.vy[f]);
     case Quantity::velocity_x:
       return t.vx[f];
     case Quantity::velocity_y:
@@ -121,7 +121,7 @@ BodySums radial_density(const SmoothRecording& recording, double tank_radius, co
   for_each_seen(recording, Quantity::speed,
                 [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
                   ++samples[body];
-                  const int bin = bins.of(std::hypot(t.x[f], t.y[f]));
+                  const int bin = bins.of(std::sqrt(t.x[f] * t.x[f] + t.y[f] * t.y[f]));
                   if (bin < 0) return;
                   const auto i = static_cast<std::size_t>(bin);
                   sums.sum[body * n + i] += 1 / share[i];

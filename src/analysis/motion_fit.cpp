@@ -67,23 +67,28 @@ struct Vertex {
   bool operator<(const Vertex& other) const { return value < other.value; }
 };
 
-Point best_on_grid(const Likelihood& likelihood, std::size_t stride) {
-  Vertex best{{}, HUGE_VAL};
+// The best points of a grid, each among those of its own kind: without jolts, with jolts only, with
+// both. The likelihood has a maximum in each, and a search does not find from one to another.
+std::array<Point, 3> best_on_grid(const Likelihood& likelihood, std::size_t stride) {
+  std::array<Vertex, 3> best{Vertex{{}, HUGE_VAL}, Vertex{{}, HUGE_VAL}, Vertex{{}, HUGE_VAL}};
+  constexpr double kFaint = -3;
   for (const double memory : {0.6, 1.3, 2.2}) {
     for (double acceleration = kLow[0]; acceleration <= kHigh[0]; acceleration += 1.3) {
       for (const double jolts : {kLow[1], -2.0, -1.0, 0.0, 1.0, 2.5, 4.0}) {
+        Vertex& kind = best[jolts < kFaint ? 0 : acceleration < kFaint ? 1 : 2];
         const Point p{acceleration, jolts, memory};
-        best = std::min(best, Vertex{p, likelihood(p, stride)});
+        kind = std::min(kind, Vertex{p, likelihood(p, stride)});
       }
     }
   }
-  return best.at;
+  return {best[0].at, best[1].at, best[2].at};
 }
 
 // Nelder and Mead's simplex search [Comput. J. 7, 1965], held within the bounds.
 class Simplex {
  public:
-  Simplex(const Likelihood& likelihood, const Point& start) : likelihood_(likelihood) {
+  Simplex(const Likelihood& likelihood, const Point& start, std::size_t stride)
+      : likelihood_(likelihood), stride_(stride) {
     corners_[0] = vertex(start);
     for (std::size_t i = 0; i < start.size(); ++i) {
       Point p = start;
@@ -91,18 +96,18 @@ class Simplex {
       corners_[i + 1] = vertex(p);
     }
   }
-  Point minimum() {
+  Vertex minimum() {
     constexpr int kRounds = 150;
     for (int round = 0; round < kRounds; ++round) {
       std::sort(corners_.begin(), corners_.end());
       if (corners_.back().value - corners_[0].value < 1e-7 && size() < 0.02) break;
       replace_worst();
     }
-    return std::min_element(corners_.begin(), corners_.end())->at;
+    return *std::min_element(corners_.begin(), corners_.end());
   }
 
  private:
-  Vertex vertex(const Point& p) const { return {held(p), likelihood_(held(p))}; }
+  Vertex vertex(const Point& p) const { return {held(p), likelihood_(held(p), stride_)}; }
   double size() const {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += std::fabs(corners_[3].at[i] - corners_[0].at[i]);
@@ -141,6 +146,7 @@ class Simplex {
     }
   }
   const Likelihood& likelihood_;
+  std::size_t stride_;
   std::array<Vertex, 4> corners_;
 };
 
@@ -152,13 +158,15 @@ MotionModel fit_motion(const std::vector<Axes>& pieces, double interval, double 
     add_innovations(piece, {1, 1 / (interval * interval), interval}, interval, any);
   }
   // Nothing seen, or nothing that ever moves: no variance to divide between motion and noise.
-  if (any.count < 8 || !(any.squares > 0)) return {noise, 0, interval};
+  if (any.count < 8 || !(any.squares > 0)) return {noise, 0, 2 * interval};
   const Likelihood likelihood(pieces, interval, noise);
   const std::size_t stride = pieces.size() >= 8 ? 4 : 1;
-  const Point start = best_on_grid(likelihood, stride);
-  // A second search from where the first one ended gets out of a simplex that fell flat.
-  const Point found = Simplex(likelihood, start).minimum();
-  return likelihood.model(Simplex(likelihood, found).minimum());
+  Vertex best{{}, HUGE_VAL};
+  for (const Point& start : best_on_grid(likelihood, stride)) {
+    best = std::min(best, Simplex(likelihood, start, stride).minimum());
+  }
+  // From there over all pieces; anew, which also gets out of a simplex that fell flat.
+  return likelihood.model(Simplex(likelihood, best.at, 1).minimum().at);
 }
 
 }  // namespace lilytank

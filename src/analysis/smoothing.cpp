@@ -66,12 +66,19 @@ void check(const SmoothingOptions& options, double rate) {
   }
 }
 
+// Where nothing could be fitted: sightings are exact to a millionth, accelerations of the order
+// of 1.
+MotionModel usable(const MotionModel& model) {
+  if (model.samples > 0 || model.acceleration > 0 || model.jolts > 0) return model;
+  return {model.noise > 0 ? model.noise : 1e-6, 1, 1};
+}
+
 AxesEstimate estimate(const Axes& axes, const SmoothingOptions& options, const MotionModel& model,
                       double interval) {
   if (options.method == SmoothingMethod::polynomial) {
     return smooth_polynomial(axes, options, model.noise, interval);
   }
-  return smooth_kalman(axes, model, interval);
+  return smooth_kalman(axes, usable(model), interval);
 }
 
 SmoothTrack smooth_track(const Track& track, const SmoothRecording& all) {
@@ -146,8 +153,13 @@ SmoothRecording smooth(const Recording& recording, const SmoothingOptions& optio
   SmoothRecording out;
   out.rate = recording.rate;
   out.options = options;
-  out.position = fit_position(recording, options.noise);
-  if (recording.has_heading()) out.heading = fit_heading(recording, options.heading_noise);
+  // Of a model polynomials use only the noise.
+  const bool kalman = options.method == SmoothingMethod::kalman;
+  out.position.noise = options.noise, out.heading.noise = options.heading_noise;
+  if (kalman || !(options.noise > 0)) out.position = fit_position(recording, options.noise);
+  if (recording.has_heading() && (kalman || !(options.heading_noise > 0))) {
+    out.heading = fit_heading(recording, options.heading_noise);
+  }
   out.tracks.reserve(recording.tracks.size());
   for (const Track& track : recording.tracks) out.tracks.push_back(smooth_track(track, out));
   return out;
