@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lilytank/analysis.hpp"
+#include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/study_summary.hpp"
 
@@ -128,6 +129,19 @@ Map velocity_maps(const Analysis& analysis);
 /// each plot and map as .png and .svg. Returns the files' names. Throws InputError if it cannot be
 /// written.
 std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir);
+
+/// A map of an extracted flow, and the name of its files without ending.
+struct FlowMap {
+  std::string name;
+  Map map;
+};
+/// "flow_<estimator>": mean with arrows, deviation, standard error, samples, filled cells hatched;
+/// "normality": where it is rejected, as in Fig. 3 and for independent samples with a bound on
+/// false discoveries; "errors" where the truth is known.
+std::vector<FlowMap> flow_maps(const FlowReport& report);
+/// The whole report of a flow in a directory, made if absent: write_flow()'s files, and each map as
+/// .png and .svg. Throws InputError if it cannot be written.
+void report_flow(const FlowReport& report, const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

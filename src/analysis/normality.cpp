@@ -8,7 +8,7 @@ namespace lilytank {
 namespace {
 
 // Upper tail probabilities, and for sizes n the scaled distances that are exceeded with them.
-constexpr std::array kTail = {0.9999, 0.999, 0.99, 0.95,  0.9,  0.8,   0.7,   0.6,   0.5,   0.4,
+constexpr std::array kTail = {0.9999, 0.999, 0.99, 0.95, 0.9,   0.8,  0.7,   0.6,   0.5,   0.4,
                               0.3,    0.2,   0.1,  0.05, 0.025, 0.01, 0.005, 0.002, 0.001, 0.0001};
 struct TableRow {
   int n;

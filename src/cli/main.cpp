@@ -17,6 +17,7 @@ const std::vector<Verb>& verbs() {
        study_verb},
       {"recording", "read, check and convert trackers' files; film a run", recording_verb},
       {"analyze", "what runs and recordings show, alone and against each other", analyze_verb},
+      {"flow", "find the water's velocity from the tracks of balls", flow_verb},
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},

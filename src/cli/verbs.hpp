@@ -24,6 +24,7 @@ struct Verb {
 };
 
 int run_verb(const Arguments& arguments);
+int flow_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
