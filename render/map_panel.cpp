@@ -34,13 +34,9 @@ class PanelView {
   double scale_, extent_;
 };
 
-void put_pixel(unsigned char* at, const Colour& c, double opacity) {
-  const auto byte = [&](double v) {
-    return static_cast<std::uint32_t>(std::lround(255 * v * opacity));
-  };
-  const std::uint32_t pixel = static_cast<std::uint32_t>(std::lround(255 * opacity)) << 24 |
-                              byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
-  std::memcpy(at, &pixel, sizeof pixel);
+std::uint32_t pixel_of(const Colour& c) {
+  const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255 * v)); };
+  return 255u << 24 | byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
 }
 
 Colour cell_colour(const MapPanel& panel, const ColourRange& range, double value) {
@@ -50,20 +46,22 @@ Colour cell_colour(const MapPanel& panel, const ColourRange& range, double value
 
 // The cells as one picture, several pixels a cell: without seams, and sharp in every viewer.
 void draw_cells(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place) {
-  const int pixels = std::max(1, 800 / std::max(1, panel.cells));
+  const int pixels = std::max(1, static_cast<int>(2 * place.size) / panel.cells);
   const int side = pixels * panel.cells;
   const ColourRange range = colour_range(panel);
   cairo_surface_t* picture = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, side, side);
   unsigned char* data = cairo_image_surface_get_data(picture);
-  const int stride = cairo_image_surface_get_stride(picture);
-  for (int row = 0; data != nullptr && row < side; ++row) {
-    const int iy = panel.cells - 1 - row / pixels;
-    for (int column = 0; column < side; ++column) {
-      const int ix = column / pixels;
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(picture));
+  std::vector<std::uint32_t> row(static_cast<std::size_t>(side));
+  for (int iy = 0; data != nullptr && iy < panel.cells; ++iy) {
+    for (int ix = 0; ix < panel.cells; ++ix) {
       const double v = value_at(panel.values, static_cast<std::size_t>(iy * panel.cells + ix));
-      const bool known = std::isfinite(v);
-      put_pixel(data + row * stride + 4 * column,
-                known ? cell_colour(panel, range, v) : palette::paper, known ? 1 : 0);
+      const std::uint32_t pixel = std::isfinite(v) ? pixel_of(cell_colour(panel, range, v)) : 0;
+      std::fill_n(row.begin() + ix * pixels, pixels, pixel);
+    }
+    const int top = (panel.cells - 1 - iy) * pixels;
+    for (int k = 0; k < pixels; ++k) {
+      std::memcpy(data + stride * static_cast<std::size_t>(top + k), row.data(), 4 * row.size());
     }
   }
   cairo_surface_mark_dirty(picture);

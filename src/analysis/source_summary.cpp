@@ -135,6 +135,14 @@ void add_contacts(const SmoothSource& source, const Bootstrap& b, SourceSummary&
   s.contact_share = ratio_functional(
       together(source.contacts, [](const Contacts& c) { return c.touching; }), only, b);
   s.contacts.contacts = static_cast<std::int64_t>(durations.size());
+  if (s.contact_rate.value == 0) {  // resamples of nothing are nothing
+    double seconds = 0;
+    for (const Contacts& c : source.contacts) {
+      for (const double weight : c.begun.weight) seconds += weight;
+    }
+    s.contact_rate = poisson_rate(0, seconds, b.level);
+  }
+  if (s.contact_share.value == 0) s.contact_share = {0, -HUGE_VAL, HUGE_VAL};
   if (durations.empty()) return;
   s.contacts.survival = kaplan_meier(durations, b.level);
   s.contacts.mean = restricted_mean(s.contacts.survival, longest, b.level);
