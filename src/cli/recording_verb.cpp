@@ -106,8 +106,8 @@ int recording_verb(const Arguments& arguments) {
                  "done about it\n"
                  "  lilytank recording convert FILE...  to another format; or a run, through a "
                  "camera\n\n"
-                 "Each has --help. FILE is a tracker's file, a directory of one track's files, or "
-                 "an experiment (*.toml).\n";
+                 "Each has --help. FILE is a tracker's file, a directory with one file a "
+                 "track, or an experiment (*.toml).\n";
     return Exit::done;
   }
   throw InputError("lilytank recording: say info, check or convert" +

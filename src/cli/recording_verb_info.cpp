@@ -93,7 +93,9 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
             << counted(static_cast<std::size_t>(checked.rows), "row") << "; body "
             << body_word(r.body) << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
             << (r.held_out ? ", held out" : "") << "\n";
-  if (!checked.unused_columns.empty()) {
+  const bool ours =
+      checked.format == RecordingFormat::tidy || checked.format == RecordingFormat::table;
+  if (ours && !checked.unused_columns.empty()) {
     std::cout << "  not used  ";
     for (std::size_t i = 0; i < checked.unused_columns.size(); ++i) {
       std::cout << (i == 0 ? "" : ", ") << checked.unused_columns[i];

@@ -1,5 +1,6 @@
 // From rows as a file has them to tracks, and everything that is looked for on the way.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -7,6 +8,11 @@
 #include "recording/sightings.hpp"
 
 namespace lilytank {
+
+/// Of a vector; positions are far from where std::hypot would be worth its time.
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 /// Turns positions into metres from the tank's centre, y up, and headings into counter-clockwise
 /// radians, and looks for another unit than said. Throws InputError if the size of a pixel is not

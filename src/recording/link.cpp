@@ -76,7 +76,7 @@ class Linker {
       const auto gap = static_cast<double>(s_->rows[begin].frame - track.frame);
       const double x = track.x + gap * track.vx, y = track.y + gap * track.vy;
       for (std::size_t i = begin; i < end; ++i) {
-        const double distance = std::hypot(s_->rows[i].x - x, s_->rows[i].y - y);
+        const double distance = length(s_->rows[i].x - x, s_->rows[i].y - y);
         if (distance <= gate_) pairs.push_back({distance, t, i});
       }
     }

@@ -43,7 +43,7 @@ double median(std::vector<double> values) {
 std::string length_hint(const RecordingOptions& options, double reach, double x, double y,
                         double half_width, double pixel) {
   const double radius = options.tank_radius;
-  if (std::hypot(x, y) > 0.5 * half_width && half_width < 1.1 * radius) {
+  if (length(x, y) > 0.5 * half_width && half_width < 1.1 * radius) {
     return "; the tank's centre seems to be near [" + brief(x / pixel) + ", " + brief(y / pixel) +
            "]: give origin or tank_circle";
   }
@@ -63,7 +63,7 @@ void check_lengths(const Sightings& s, const RecordingOptions& options, const Ma
   const double limit = 1.1 * options.tank_radius;
   std::vector<double> radii, xs, ys;
   for (const Sighting& row : s.rows) {
-    radii.push_back(std::hypot(row.x, row.y));
+    radii.push_back(length(row.x, row.y));
     xs.push_back(row.x), ys.push_back(row.y);
   }
   const auto n = static_cast<double>(radii.size());
@@ -76,7 +76,7 @@ void check_lengths(const Sightings& s, const RecordingOptions& options, const Ma
     const double x = median(xs), y = median(ys);
     std::vector<double> from_middle;
     for (std::size_t i = 0; i < xs.size(); ++i) {
-      from_middle.push_back(std::hypot(xs[i] - x, ys[i] - y));
+      from_middle.push_back(length(xs[i] - x, ys[i] - y));
     }
     const auto edge = from_middle.begin() + static_cast<std::ptrdiff_t>(0.98 * (n - 1));
     std::nth_element(from_middle.begin(), edge, from_middle.end());

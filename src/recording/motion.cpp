@@ -71,7 +71,7 @@ Step step_at(std::int64_t id, const std::vector<Point*>& seen, std::size_t i) {
 /// How far `to` is from where `from` should have gone, in m.
 double surprise(const Point& from, const Point& to, const Rate& expected) {
   const double frames = to.frame - from.frame;
-  return std::hypot(to.x - from.x - frames * expected.x, to.y - from.y - frames * expected.y);
+  return length(to.x - from.x - frames * expected.x, to.y - from.y - frames * expected.y);
 }
 
 double turn_surprise(const Point& from, const Point& to, const Rate& expected) {
@@ -140,7 +140,7 @@ class MotionChecks {
       const Rate through = rate_between(a, c);
       const double frames = std::max(b.frame - a.frame, c.frame - b.frame);
       const double away = surprise(a, b, through);
-      const double across = std::hypot(c.x - a.x, c.y - a.y);
+      const double across = length(c.x - a.x, c.y - a.y);
       const bool place = away > frames * jump_ && across < away;
       const double turned = headings_ ? turn_surprise(a, b, through) : 0;
       const bool heading = headings_ && turned > frames * turn_ &&
@@ -170,7 +170,7 @@ class MotionChecks {
   }
 
   void speed(const Step& step) {
-    const double distance = std::hypot(step.to->x - step.from->x, step.to->y - step.from->y);
+    const double distance = length(step.to->x - step.from->x, step.to->y - step.from->y);
     const double seconds = step.frames() / c_->clock.rate;
     if (distance <= c_->report.rules().fastest * seconds) return;
     treat(c_->report.add(Check::speed, c_->place(*step.to), c_->frame(*step.to), step.id,
@@ -216,7 +216,7 @@ class MotionChecks {
   }
 
   void note_swap(const Step& step, const Step& other) {
-    const double apart = std::hypot(step.from->x - other.from->x, step.from->y - other.from->y);
+    const double apart = length(step.from->x - other.from->x, step.from->y - other.from->y);
     treat(c_->report.add(Check::swap, c_->place(*step.to), c_->frame(*step.to), step.id,
                          "goes on in the place of id " + std::to_string(other.id) + ", " +
                              length_text(apart) + " away, and that one in its place"),

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "lilytank/math.hpp"
 #include "recording/checks.hpp"
@@ -17,7 +16,7 @@ void take_out_duplicates(Path& path, const CheckContext& context) {
       continue;
     }
     Point& first = once.back();
-    const double apart = std::hypot(point.x - first.x, point.y - first.y);
+    const double apart = length(point.x - first.x, point.y - first.y);
     const Treatment treatment = context.report.add(
         Check::duplicate, context.place(point), context.frame(point), path.id,
         "seen before in this frame, in line " + std::to_string(context.place(first).line) + ", " +
@@ -28,37 +27,52 @@ void take_out_duplicates(Path& path, const CheckContext& context) {
   path.points = std::move(once);
 }
 
+/// A sighting without the heading that others have counts as none: a track's places and headings
+/// have the same holes.
+void take_out_without_heading(Path& path, const CheckContext& context) {
+  auto& points = path.points;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end + 1) {
+    for (end = begin; end < points.size() && std::isnan(points[end].theta); ++end) {
+      points[end].unseen = true;
+    }
+    if (end == begin) continue;
+    const std::int64_t last = context.frame(points[end - 1]);
+    context.report.add(Check::heading, Treatment::mark, context.place(points[begin]),
+                       context.frame(points[begin]), path.id,
+                       end - begin == 1
+                           ? "seen without a heading"
+                           : "seen without headings up to frame " + std::to_string(last));
+  }
+}
+
 }  // namespace
 
 std::vector<Path> make_paths(const Sightings& s, const FrameClock& clock, Report& report) {
-  std::map<std::int64_t, Path> by_id;
-  std::unordered_map<std::int64_t, Path*> known;
-  for (const Sighting& row : s.rows) known.emplace(row.id, nullptr);
-  for (auto& [id, path] : known) path = &by_id[id];
+  std::vector<Path> paths;
+  std::unordered_map<std::int64_t, std::size_t> index;
   for (std::size_t i = 0; i < s.rows.size(); ++i) {
     const Sighting& row = s.rows[i];
-    Point point{static_cast<int>(row.frame - clock.first),
-                static_cast<std::int32_t>(i),
-                row.x,
-                row.y,
-                row.theta,
-                row.unseen,
-                row.cut};
-    // A sighting without the heading that others have would leave a hole of its own.
-    if (s.headings && std::isnan(row.theta)) point.unseen = true;
-    known[row.id]->points.push_back(point);
+    const auto [found, added] = index.emplace(row.id, paths.size());
+    if (added) paths.push_back({row.id, {}});
+    const Point point{static_cast<int>(row.frame - clock.first),
+                      static_cast<std::int32_t>(i),
+                      row.x,
+                      row.y,
+                      row.theta,
+                      row.unseen,
+                      row.cut};
+    paths[found->second].points.push_back(point);
   }
+  std::sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) { return a.id < b.id; });
   const RecordingOptions none;
   const CheckContext context{s, clock, none, report};
-  std::vector<Path> paths;
-  for (auto& [id, path] : by_id) {
-    path.id = id;
-    const auto by_frame = [](const Point& a, const Point& b) { return a.frame < b.frame; };
+  const auto by_frame = [](const Point& a, const Point& b) { return a.frame < b.frame; };
+  for (Path& path : paths) {
     if (!std::is_sorted(path.points.begin(), path.points.end(), by_frame)) {
       std::stable_sort(path.points.begin(), path.points.end(), by_frame);
     }
     take_out_duplicates(path, context);
-    paths.push_back(std::move(path));
+    if (s.headings) take_out_without_heading(path, context);
   }
   return paths;
 }
@@ -102,7 +116,7 @@ void check_outside(std::vector<Path>& paths, const CheckContext& c) {
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end + 1) {
       double most = 0;
       for (end = begin; end < points.size(); ++end) {
-        const double r = std::hypot(points[end].x, points[end].y);
+        const double r = length(points[end].x, points[end].y);
         if (r <= limit) break;
         most = std::max(most, r);
       }

@@ -1,6 +1,7 @@
 #include "recording/process.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "recording/checks.hpp"
@@ -18,6 +19,10 @@ bool one_body(const Sightings& s) {
 }
 
 void make_recording(Sightings& s, const RecordingOptions& options, Report& report, Recording& out) {
+  // An empty column of headings is none.
+  s.headings = s.headings && std::any_of(s.rows.begin(), s.rows.end(), [](const Sighting& row) {
+                 return !std::isnan(row.theta);
+               });
   to_metres(s, options, report);
   if (report.refused()) return;
   const bool single = !s.identities && one_body(s);

@@ -294,6 +294,17 @@ TEST_F(Checks, wholeTurnsAreContinuedOthersCut) {
   expect_one(c, Check::spike, 60, 1, Treatment::mark);
 }
 
+TEST_F(Checks, sightingsWithoutTheHeadingThatOthersHave) {
+  const std::string head = "frame,time,id,x,y,theta\n";
+  const CheckedRecording c = check(head +
+                                   "0,0,4,0.1,0,1\n1,0.04,4,0.1,0,\n2,0.08,4,0.1,0,nan\n"
+                                   "3,0.12,4,0.1,0,1\n");
+  expect_one(c, Check::heading, 1, 4, Treatment::mark);
+  EXPECT_TRUE(std::isnan(c.recording.tracks[0].x[2]));
+  // If none has one, there is no column of headings.
+  EXPECT_EQ(all_texts(check(head + "0,0,4,0.1,0,\n1,0.04,4,0.1,0,\n")), "");
+}
+
 TEST_F(Checks, findingsSayWhereAndWhat) {
   truth_.tracks[2].x[80] += 0.05;
   const CheckedRecording c = check();
