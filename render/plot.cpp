@@ -108,6 +108,12 @@ void draw_grid(const Canvas& canvas, const PlotArea& area) {
   }
 }
 
+void draw_zero_line(const Canvas& canvas, const PlotArea& area) {
+  const double y = area.at_y(0);
+  if (!(y > area.top && y < area.bottom())) return;
+  canvas.line(area.left, y, area.right(), y, palette::muted, 1);
+}
+
 void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
   constexpr double kWidth = 1.1;
   cairo_rectangle(canvas.get(), area.left, area.top, area.width, area.height);
@@ -188,6 +194,7 @@ void draw_all(const Canvas& canvas, const Plot& plot) {
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
   draw_grid(canvas, area);
+  if (plot.zero_line) draw_zero_line(canvas, area);
   draw_curves(canvas, plot, area);
   draw_frame_and_ticks(canvas, area);
   if (range_of(plot).x.empty()) {
@@ -199,18 +206,60 @@ void draw_all(const Canvas& canvas, const Plot& plot) {
   draw_legend_box(canvas, legend, plot);
 }
 
+void check_size(int width, int height) {
+  if (width < 100 || height < 100 || width > 10000 || height > 10000) {
+    throw InputError("a plot must be 100 .. 10000 wide and high, not " + std::to_string(width) +
+                     " x " + std::to_string(height));
+  }
+}
+
+// Where each plot of a page lies, and the page's own size.
+struct PageLayout {
+  struct At {
+    int x = 0, y = 0;
+  };
+  std::vector<At> at;
+  int width = 0, height = 0;
+};
+
+PageLayout layout(const PlotPage& page) {
+  PageLayout out;
+  const auto columns = static_cast<std::size_t>(std::max(1, page.columns));
+  int x = 0, row = 0;
+  for (std::size_t i = 0; i < page.plots.size(); ++i) {
+    if (i > 0 && i % columns == 0) out.height += row, x = row = 0;
+    out.at.push_back({x, out.height});
+    x += page.plots[i].width, row = std::max(row, page.plots[i].height);
+    out.width = std::max(out.width, x);
+  }
+  out.height += row;
+  return out;
+}
+
 }  // namespace
 
-void draw_plot(const Plot& plot, const std::string& file) {
+void draw_plots(const PlotPage& page, const std::string& file) {
   constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
   const PictureFormat format = format_of(file, kFormats);
-  if (plot.width < 100 || plot.height < 100 || plot.width > 10000 || plot.height > 10000) {
-    throw InputError("a plot must be 100 .. 10000 wide and high, not " +
-                     std::to_string(plot.width) + " x " + std::to_string(plot.height));
+  const PageLayout places = layout(page);
+  check_size(places.width, places.height);
+  for (const Plot& plot : page.plots) check_size(plot.width, plot.height);
+  Canvas canvas = Canvas::page(format, places.width, places.height, kPixels);
+  canvas.colour(palette::paper);
+  cairo_paint(canvas.get());
+  for (std::size_t i = 0; i < page.plots.size(); ++i) {
+    const Plot& plot = page.plots[i];
+    const Saved saved(canvas);
+    cairo_translate(canvas.get(), places.at[i].x, places.at[i].y);
+    cairo_rectangle(canvas.get(), 0, 0, plot.width, plot.height);
+    cairo_clip(canvas.get());
+    draw_all(canvas, plot);
   }
-  Canvas canvas = Canvas::page(format, plot.width, plot.height, kPixels);
-  draw_all(canvas, plot);
   write_atomically(file, canvas.encoded());
+}
+
+void draw_plot(const Plot& plot, const std::string& file) {
+  draw_plots({{plot}, 1}, file);
 }
 
 }  // namespace lilytank

@@ -22,6 +22,7 @@ enum class Stream : std::uint32_t {
   first_face = 9,  ///< where a module's round of its faces begins
   bootstrap = 10,  ///< which runs a resample draws (statistics only, never a world)
   latin = 11,      ///< where the samples of a latin hypercube lie (studies only)
+  camera = 12,     ///< noise, dropped frames and exchanged bodies of a simulated camera
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

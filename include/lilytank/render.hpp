@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/analysis.hpp"
+#include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/study_summary.hpp"
 
@@ -51,11 +53,50 @@ struct Plot {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
+  bool zero_line = false;         ///< a thin line at y = 0
   double y_low = 0, y_high = 0;   ///< equal: from the data
   double x_low = 0, x_high = 0;   ///< equal: from the data
   int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
 void draw_plot(const Plot& plot, const std::string& file);
+
+/// Plots on one page, `columns` in a row, each as large as it says.
+struct PlotPage {
+  std::vector<Plot> plots;
+  int columns = 1;
+};
+void draw_plots(const PlotPage& page, const std::string& file);
+
+/// Colours for numbers: from dark to light, or from blue over white at 0 to red.
+enum class ColourScale { rising, diverging };
+
+/// A map of cells x cells squares over [-extent, extent]^2, stored as in FlowField: row by row from
+/// the lowest y, iy * cells + ix. Values that are NaN are cells without data, drawn in grey.
+struct MapPanel {
+  std::string title;
+  int cells = 0;
+  double extent = 0;  ///< m
+  std::vector<double> values;
+  std::string label;  ///< beside the colour bar, as "mean speed (m/s)"
+  ColourScale scale = ColourScale::rising;
+  double low = 0, high = 0;  ///< of the colour bar; equal: from the data (diverging: about 0)
+  /// Values are then 0, 1, ...: the classes of these names, with a legend instead of a bar.
+  std::vector<std::string> classes;
+  std::vector<bool> hatched;             ///< cells to mark, as filled or doubtful; may be empty
+  std::vector<double> arrow_x, arrow_y;  ///< a vector a cell, NaN: none; may be empty
+  std::string arrow_unit = "m/s";        ///< beside the arrow that shows the scale
+};
+/// Maps of one tank side by side, `columns` in a row; panels of a row with equal scales share a
+/// colour bar.
+struct Map {
+  std::string title;
+  double tank_radius = 0;  ///< m, drawn as a circle
+  int columns = 1;
+  std::vector<MapPanel> panels;
+  int panel_size = 340;  ///< pixels, of one map (PNG: twice that)
+};
+/// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.
+void draw_map(const Map& map, const std::string& file);
 
 /// Copies standing over time, from a run's metrics.
 Plot yield_plot(const StoredRun& run);
@@ -71,6 +112,36 @@ struct StudyPlot {
 /// stand a little beside each other there. Bands are left out where there are more than six
 /// settings. Nothing for a study without finished runs.
 std::vector<StudyPlot> study_plots(const StudySummary& summary);
+
+/// A page of an analysis, and the name of its files without ending.
+struct AnalysisPlot {
+  std::string name;
+  PlotPage page;
+};
+/// One a set of curves, named as its CSV: all sources laid over each other, beside each other by
+/// AnalysisSource::panel, and of two sources the difference with its band below; the MSD also on
+/// logarithmic axes ("msd_all_log"); "contact_times"; "transfer" of the smoothers.
+std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis);
+/// Mean velocities along x and y and their arrows, a row a source, then the difference of two
+/// [paper, Fig. 7]. No panels where there are no maps.
+Map velocity_maps(const Analysis& analysis);
+/// The whole report of an analysis in a directory, made if absent: write_analysis()'s files, and
+/// each plot and map as .png and .svg. Returns the files' names. Throws InputError if it cannot be
+/// written.
+std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir);
+
+/// A map of an extracted flow, and the name of its files without ending.
+struct FlowMap {
+  std::string name;
+  Map map;
+};
+/// "flow_<estimator>": mean with arrows, deviation, standard error, samples, filled cells hatched;
+/// "normality": where it is rejected, as in Fig. 3 and for independent samples with a bound on
+/// false discoveries; "errors" where the truth is known.
+std::vector<FlowMap> flow_maps(const FlowReport& report);
+/// The whole report of a flow in a directory, made if absent: write_flow()'s files, and each map as
+/// .png and .svg. Throws InputError if it cannot be written.
+void report_flow(const FlowReport& report, const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

@@ -1,31 +1,10 @@
-#include <charconv>
 #include <cmath>
 
+#include "analysis/csv_cells.hpp"
 #include "lilytank/study_summary.hpp"
 
 namespace lilytank {
 namespace {
-
-// Ten digits: more than any statistic has, and few enough that last bits do not show.
-std::string cell(double value) {
-  if (!std::isfinite(value)) return "";
-  if (value == 0) value = 0;  // no -0
-  char buffer[40];
-  const auto format = std::chars_format::general;
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format, 10).ptr};
-}
-
-// Text as RFC 4180 has it: in quotes where it must be.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
-std::string cells(const Estimate& e) {
-  return cell(e.value) + "," + cell(e.low) + "," + cell(e.high);
-}
 
 // "setting,label" and a column an axis.
 std::string setting_head(const StudySummary& s) {

@@ -24,9 +24,12 @@ struct Verb {
 };
 
 int run_verb(const Arguments& arguments);
+int flow_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
 int study_verb(const Arguments& arguments);
+int analyze_verb(const Arguments& arguments);
+int recording_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

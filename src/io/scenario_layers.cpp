@@ -12,6 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Tables that are not keys of a scenario's table.
+bool stands_apart(std::string_view name) {
+  return name == "base" || name == "command" || name == "experiment" || name == "recording";
+}
+
 /// Turns tables into assignments.
 class Flattener {
  public:
@@ -20,8 +25,17 @@ class Flattener {
 
   Layer layer(const toml::table& root) {
     Layer out;
+    top_ = &root;
     table(root, {}, {}, out.values);
-    if (const toml::node* node = root.get("command")) commands(*node, out);
+    if (const toml::node* node = root.get("command")) {
+      out.has_commands = true;
+      out.commands = list(*node, "command");
+    }
+    if (const toml::node* node = root.get("recording")) {
+      out.has_recordings = true;
+      out.recordings = list(*node, "recording");
+    }
+    if (const toml::node* node = root.get("experiment")) experiment(*node, out);
     return out;
   }
 
@@ -29,7 +43,7 @@ class Flattener {
   void table(const toml::table& from, const std::vector<std::string>& keys,
              const std::vector<SourcePlace>& places, std::vector<Assignment>& out) {
     for (const auto& [key, node] : from) {
-      if (keys.empty() && (key.str() == "base" || key.str() == "command")) continue;
+      if (top_ == &from && stands_apart(key.str())) continue;
       auto path = keys;
       auto path_places = places;
       path.emplace_back(key.str());
@@ -48,21 +62,32 @@ class Flattener {
     });
   }
 
-  void commands(const toml::node& node, Layer& out) {
-    out.has_commands = true;
-    const toml::array* list = node.as_array();
-    if (list == nullptr || (!list->empty() && !list->is_homogeneous<toml::table>())) {
+  std::vector<CommandTable> list(const toml::node& node, const std::string& name) {
+    std::vector<CommandTable> out;
+    const toml::array* items = node.as_array();
+    if (items == nullptr || (!items->empty() && !items->is_homogeneous<toml::table>())) {
       throw InputError(place_of(node.source(), file_),
-                       "command is a list of tables, each under its own line [[command]]");
+                       name + " is a list of tables, each under its own line [[" + name + "]]");
     }
-    for (const toml::node& item : *list) {
-      CommandTable command{place_of(item.source(), file_), {}};
-      table(*item.as_table(), {}, {}, command.fields);
-      out.commands.push_back(std::move(command));
+    for (const toml::node& item : *items) {
+      CommandTable entry{place_of(item.source(), file_), {}};
+      table(*item.as_table(), {}, {}, entry.fields);
+      out.push_back(std::move(entry));
     }
+    return out;
+  }
+
+  void experiment(const toml::node& node, Layer& out) {
+    const toml::table* found = node.as_table();
+    if (found == nullptr) {
+      throw InputError(place_of(node.source(), file_),
+                       "experiment is a table, under the line [experiment]");
+    }
+    table(*found, {}, {}, out.experiment);
   }
 
   std::string file_, directory_;
+  const toml::table* top_ = nullptr;
 };
 
 /// Reads a file and the files under it.
@@ -104,11 +129,12 @@ class FileReader {
 };
 
 /// Adds "path=value" to `out`: the value is TOML, or else taken as text.
-void read_set(const std::string& set, std::vector<Assignment>& out) {
-  const SourcePlace place{"--set " + set, 0, 0};
+void read_set(const std::string& option, const std::string& set, std::vector<Assignment>& out) {
+  const SourcePlace place{option + " " + set, 0, 0};
   const auto equals = set.find('=');
   if (equals == std::string::npos || set.find('\n') != std::string::npos) {
-    throw InputError(place, "write --set path=value, as in --set tank.radius=0.3");
+    const std::string example = option == "--set" ? "tank.radius=0.3" : "rate=25";
+    throw InputError(place, "write " + option + " path=value, as in " + option + " " + example);
   }
   const std::string path(trimmed(std::string_view(set).substr(0, equals)));
   const std::string raw(trimmed(std::string_view(set).substr(equals + 1)));
@@ -124,8 +150,10 @@ void read_set(const std::string& set, std::vector<Assignment>& out) {
   } catch (const toml::parse_error&) {
     throw InputError(place, "'" + path + "' is not a path such as tank.radius");
   }
-  if (root.contains("base") || root.contains("command")) {
-    throw InputError(place, "'" + path + "' can be given in files only");
+  for (const auto& [key, node] : root) {
+    if (stands_apart(key.str())) {
+      throw InputError(place, "'" + path + "' can be given in files only");
+    }
   }
   for (Assignment& value : Flattener(place.file, "").layer(root).values) {
     value.place = place;
@@ -145,6 +173,7 @@ std::string kind_of(const TomlValue& value) {
   if (std::holds_alternative<std::string>(value)) return "text";
   if (std::holds_alternative<Numbers>(value)) return "a list";
   if (std::holds_alternative<EmptyTable>(value)) return "a table";
+  if (std::holds_alternative<Reals>(value)) return "a list that is not of whole numbers";
   return std::get<Unusable>(value).kind;
 }
 
@@ -160,9 +189,16 @@ std::vector<Layer> read_layers(const std::vector<std::string>& files,
   FileReader reader(layers);
   for (const std::string& file : files) reader.read(file, {});
   Layer overrides;
-  for (const std::string& set : sets) read_set(set, overrides.values);
+  overrides.values = read_assignments(sets, "--set");
   layers.push_back(std::move(overrides));
   return layers;
+}
+
+std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
+                                         const std::string& option) {
+  std::vector<Assignment> out;
+  for (const std::string& text : texts) read_set(option, text, out);
+  return out;
 }
 
 }  // namespace lilytank

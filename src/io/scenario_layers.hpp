@@ -16,8 +16,10 @@ struct Unusable {
 /// A table without keys; its path is still to be checked.
 struct EmptyTable {};
 using Numbers = std::vector<std::int64_t>;
+/// A list of numbers that are not all whole.
+using Reals = std::vector<double>;
 using TomlValue =
-    std::variant<bool, std::int64_t, double, std::string, Numbers, Unusable, EmptyTable>;
+    std::variant<bool, std::int64_t, double, std::string, Numbers, Unusable, EmptyTable, Reals>;
 
 /// "a number", "text", ... for messages.
 std::string kind_of(const TomlValue& value);
@@ -33,18 +35,28 @@ struct Assignment {
   std::string path() const;
 };
 
-/// A [[command]] table.
+/// A [[command]] or [[recording]] table.
 struct CommandTable {
   SourcePlace place;
   std::vector<Assignment> fields;
 };
 
-/// What one file, or all --set together, says. A layer with commands replaces those below it.
+/// What one file, or all --set together, says. A layer with commands or recordings replaces those
+/// below it.
 struct Layer {
   std::vector<Assignment> values;
   std::vector<CommandTable> commands;
   bool has_commands = false;
+  /// What makes a scenario an experiment; whoever simulates it passes over them.
+  std::vector<Assignment> experiment;  ///< of [experiment], its name left out of the paths
+  std::vector<CommandTable> recordings;
+  bool has_recordings = false;
 };
+
+/// Reads "path=value" texts given to a command line's `option` ("--set"); a value is TOML, or else
+/// text. Throws InputError.
+std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
+                                         const std::string& option);
 
 /// Reads the files, each after the files named by its `base`, and then the sets. Throws InputError:
 /// unreadable file, TOML syntax, circle of bases.

@@ -5,10 +5,14 @@ namespace {
 
 TomlValue list_of(const toml::array& array) {
   Numbers numbers;
+  Reals reals;
   for (const toml::node& item : array) {
-    if (!item.is_integer()) return Unusable{"a list that is not of whole numbers"};
-    numbers.push_back(item.as_integer()->get());
+    const auto value = item.value<double>();
+    if (!value || item.is_boolean()) return Unusable{"a list that is not of whole numbers"};
+    reals.push_back(*value);
+    if (const auto* whole = item.as_integer()) numbers.push_back(whole->get());
   }
+  if (numbers.size() < reals.size()) return reals;
   return numbers;
 }
 

@@ -36,7 +36,8 @@ Figure measure(double power, double level) {
       world.step();
       append_poses(world, track);
     }
-    curves[run] = mean_squared_displacement(track, 0, 24, lags, Origins::all);
+    curves[run] =
+        mean_squared_displacement(as_recording(track, BodyKind::ball), lags, Origins::all);
   });
   Figure figure;
   std::vector<double> msd(lags.size(), 0);

@@ -52,7 +52,7 @@ Statistics observe(double draught, int runs, int steps_per_tick) {
     }
     std::vector<int> lags;
     for (const int second : kSeconds) lags.push_back(second * 40);
-    s.msd = mean_squared_displacement(track, 0, 1, lags, Origins::all).msd;
+    s.msd = mean_squared_displacement(as_recording(track, BodyKind::lily), lags, Origins::all).msd;
   });
   Statistics mean;
   mean.msd.assign(kSeconds.size(), 0);

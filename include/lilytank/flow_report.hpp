@@ -1,0 +1,49 @@
+// All that `lilytank flow` tells: estimates side by side, their errors where the truth is known,
+// and their biases as measured on synthetic recordings.
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lilytank/flow_estimate.hpp"
+
+namespace lilytank {
+
+/// What was switched off or changed in synthetic recordings, and how far estimates then are from
+/// the field that was simulated.
+struct FlowBiasRow {
+  std::string what;       ///< "as recorded", "no tracking noise", ...
+  std::string estimator;  ///< "paper" or "smooth"
+  FlowError error;        ///< over the measured cells
+};
+
+struct FlowReport {
+  std::string name;
+  BallPhysics ball;
+  FlowOptions options;
+  std::vector<FlowEstimate> estimates;
+  std::optional<FlowTruth> truth;
+  std::string truth_file;
+  std::vector<FlowBiasRow> bias;
+};
+
+/// Simulates recordings like those given (bodies, frames, rate) in the flow of a smooth estimate,
+/// with its noise budget, and extracts the flow from them again: as recorded, and with one cause of
+/// error after the other left out. The truth of each row is the simulated field. `progress` is
+/// called with the share done. Throws InputError if the estimate has no noise budget.
+std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
+                                           const FlowEstimate& smooth, const BallPhysics& ball,
+                                           const FlowOptions& options, std::uint64_t seed,
+                                           const std::function<void(double)>& progress = {});
+
+/// The report as text.
+std::string flow_text(const FlowReport& report);
+/// Writes into a directory, made if absent: flow_<estimator>.csv (the grid that a run reads),
+/// cells_<estimator>.csv, balls_<estimator>.toml (an overlay for scenarios that simulates these
+/// balls in that flow), errors_<estimator>.csv where there is a truth, bias.csv, and flow.txt.
+/// Throws InputError.
+void write_flow(const FlowReport& report, const std::string& dir);
+
+}  // namespace lilytank

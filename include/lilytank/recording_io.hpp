@@ -1,0 +1,146 @@
+// Recordings from and to files: the layouts of common trackers, other tables by naming their
+// columns, and the checks that every recording goes through. docs/recordings.md describes them.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lilytank/error.hpp"
+#include "lilytank/recording.hpp"
+
+namespace lilytank {
+
+enum class RecordingFormat : std::uint8_t {
+  automatic,            ///< told by the file's first lines
+  tidy,                 ///< frame,time,id,x,y[,theta] in SI units: lilytank's own
+  swistrack_tracks,     ///< one tab-separated file a track
+  swistrack_particles,  ///< one row a particle and frame, without identities
+  trackpy,              ///< y,x,...,frame,particle in pixels
+  idtracker,            ///< frame,time,individual,x,y,probability
+  idtracker_wide,       ///< time,x1,y1,x2,y2,...
+  trex,                 ///< one file an individual, cm
+  fasttrack,            ///< xBody, yBody, tBody, imageNumber, id in pixels
+  table,                ///< any other, by RecordingOptions::columns
+};
+/// The word for a format in files and on the command line: "tidy", "swistrack-tracks", ...
+std::string format_word(RecordingFormat format);
+
+/// Names of a file's columns; an empty one is the format's own name.
+struct ColumnNames {
+  std::string frame, time, id, x, y, theta;
+};
+
+enum class YAxis : std::uint8_t { by_format, up, down };  ///< down: image coordinates
+enum class AngleUnit : std::uint8_t { by_format, radians, degrees };
+
+/// How a file's coordinates become metres from the tank's centre, y up. A circle of radius > 0
+/// around the tank, in the file's units, gives both the scale and the origin.
+struct Calibration {
+  double pixel = 0;  ///< m per unit of the file; 0: as the format says
+  YAxis y_axis = YAxis::by_format;
+  bool has_origin = false;            ///< else the file's origin is the tank's centre
+  double origin_x = 0, origin_y = 0;  ///< the tank's centre in the file's units
+  double circle_radius = 0;           ///< of the tank in the file's units; 0: not given
+  AngleUnit angles = AngleUnit::by_format;
+};
+
+/// What is looked for in a recording. Each kind has a treatment, which can be chosen.
+enum class Check : std::uint8_t {
+  gap,        ///< a body was not seen in some frames
+  duplicate,  ///< a body was seen twice in one frame
+  spike,      ///< one sighting is far from those before and after it
+  jump,       ///< a body goes on elsewhere from one frame to the next
+  swap,       ///< two bodies go on in each other's places
+  speed,      ///< a body is faster than any can be
+  outside,    ///< a body is outside the tank
+  clock,      ///< times and frame numbers disagree, or times are uneven
+  units,      ///< lengths or angles are in another unit than said
+  heading,    ///< a heading leaps by more than a body can turn
+};
+constexpr int kChecks = 10;
+std::string check_word(Check check);
+
+/// What is done about a finding. A position is never moved, filled in, or given to another body.
+enum class Treatment : std::uint8_t {
+  keep,    ///< named, and left as it is
+  mark,    ///< named, and the sighting counts as not seen: NaN in the track
+  split,   ///< named, and the track is cut there in two
+  refuse,  ///< named, and the recording is not used
+};
+std::string treatment_word(Treatment treatment);
+
+/// Limits of the checks, and what is done beyond them.
+struct CheckRules {
+  CheckRules();
+  std::array<Treatment, kChecks> treatments;
+  double longest_gap = 0.2;    ///< s, longer gaps cut the track
+  double fastest = 2;          ///< m/s
+  double least_jump = 0.01;    ///< m, shorter leaps are never called jumps or swaps
+  double least_turn = 0.7;     ///< rad, smaller turns between frames are never called leaps
+  double beyond_tank = 0.005;  ///< m that a centre may be nearer to the wall than the body allows
+  double clock_error = 0.25;   ///< frames that a time may be off an even clock
+  Treatment& operator[](Check check) { return treatments[static_cast<std::size_t>(check)]; }
+  Treatment operator[](Check check) const { return treatments[static_cast<std::size_t>(check)]; }
+};
+
+/// Something that a check found.
+struct Finding {
+  Check check = Check::gap;
+  Treatment treatment = Treatment::keep;
+  SourcePlace place;        ///< file, and line where there is one
+  std::int64_t frame = -1;  ///< the file's number; -1: the whole file
+  std::int64_t id = -1;     ///< -1: all bodies
+  std::string what;         ///< "not seen in 12 frames, 0.4 s"
+  /// "balls.csv:120: frame 4, id 3, gap: not seen in 12 frames, 0.4 s (track cut)"
+  std::string text() const;
+};
+
+struct RecordingOptions {
+  RecordingFormat format = RecordingFormat::automatic;
+  std::string name;  ///< empty: the file's name
+  BodyKind body = BodyKind::lily;
+  bool latches = true, held_out = false;
+  ColumnNames columns;
+  Calibration calibration;
+  double rate = 0;            ///< frames per second; 0: from the file's times
+  double time_unit = 1;       ///< s per unit of the file's times
+  bool in_tank = true;        ///< false: places are not checked against a tank
+  double tank_radius = 0.30;  ///< m
+  double body_radius = 0;     ///< m, of the body's inscribed circle
+  CheckRules rules;
+};
+
+/// A recording and all that was found in it.
+struct CheckedRecording {
+  Recording recording;  ///< without tracks if it was refused
+  RecordingFormat format = RecordingFormat::tidy;
+  std::vector<std::string> files;
+  std::int64_t rows = 0;                    ///< sightings in the files
+  std::vector<Finding> findings;            ///< by frame and id
+  std::vector<std::string> names;           ///< of bodies, by id, where the file has words for ids
+  std::vector<std::string> unused_columns;  ///< of the last file
+  bool refused() const;
+  /// Throws InputError with the first finding that refuses the recording, if there is one.
+  void throw_if_refused() const;
+};
+
+/// Reads and checks one recording: a file (.gz or not), a directory with one file a track, or
+/// such files by a pattern ("track*.csv"). Throws InputError with file and line: unreadable or
+/// malformed.
+CheckedRecording check_recording(const std::string& file, const RecordingOptions& options = {});
+/// The same from several files that together are one recording.
+CheckedRecording check_recording(const std::vector<std::string>& files,
+                                 const RecordingOptions& options = {});
+/// The recording alone. Throws InputError also where a check refuses it.
+Recording read_recording(const std::string& file, const RecordingOptions& options = {});
+
+/// Writes a recording in a format, compressed if the name ends in .gz: positions to 0.1 um,
+/// headings to 1 urad, times to 0.1 ms. `file` is a directory for formats with one file a track.
+/// Formats in pixels use the calibration. Throws InputError.
+void write_recording(const Recording& recording, const std::string& file,
+                     RecordingFormat format = RecordingFormat::tidy,
+                     const Calibration& calibration = {});
+
+}  // namespace lilytank

@@ -1,0 +1,306 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr std::size_t kBandsUpTo = 4;  // sources in a plot; more bands hide each other
+constexpr int kWidth = 760, kHeight = 500, kLowHeight = 330;  // pixels
+constexpr int kPanelWidth = 560, kPanelHeight = 440;          // of plots beside each other
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Numbers as a reader wants them: metres as centimetres.
+struct Shown {
+  std::string unit;
+  double size = 1;
+};
+Shown shown(const std::string& unit) {
+  if (unit == "m") return {"cm", 0.01};
+  if (unit == "m^2") return {"cm²", 1e-4};
+  if (unit == "1/m") return {"1/cm", 100};
+  if (unit == "rad^2") return {"rad²", 1};
+  return {unit, 1};
+}
+
+std::string label(const std::string& name, const Shown& unit) {
+  return name + (unit.unit == "1" ? "" : " (" + unit.unit + ")");
+}
+
+std::vector<double> divided(std::vector<double> values, double by) {
+  for (double& v : values) v /= by;
+  return values;
+}
+
+Curve curve_of(const std::string& name, const std::vector<double>& x, const CurveEstimate& estimate,
+               double x_unit, double y_unit, bool band) {
+  Curve curve;
+  curve.name = name;
+  curve.x = divided(x, x_unit), curve.y = divided(estimate.value, y_unit);
+  if (!band) return curve;
+  curve.low = divided(estimate.low, y_unit), curve.high = divided(estimate.high, y_unit);
+  // Beside a value without a band, an infinite one would be drawn to the edge.
+  for (std::size_t i = 0; i < curve.low.size(); ++i) {
+    if (std::isinf(curve.low[i]) || std::isinf(curve.high[i])) {
+      curve.low[i] = curve.high[i] = kNone;
+    }
+  }
+  return curve;
+}
+
+std::vector<std::string> panels_of(const Analysis& analysis) {
+  std::vector<std::string> panels;
+  for (const SourceSummary& s : analysis.sources) {
+    if (std::find(panels.begin(), panels.end(), s.panel) == panels.end()) panels.push_back(s.panel);
+  }
+  return panels;
+}
+
+std::string y_label(const AnalysisCurves& set, const Shown& unit) {
+  return label(set.y_name == "msd" ? "MSD" : set.y_name, unit);
+}
+
+bool is_correlation(const AnalysisCurves& set) {
+  return set.name == "velocity_acf" || set.name == "spin_acf";
+}
+
+Plot empty_plot(const AnalysisCurves& set, const Shown& x, const Shown& y) {
+  Plot plot;
+  plot.x_label = label(set.x_name, x), plot.y_label = y_label(set, y);
+  plot.width = kWidth, plot.height = kHeight;
+  // Beyond, correlations say nothing that could be seen.
+  if (is_correlation(set)) plot.x_low = 0, plot.x_high = std::min(set.x.back(), 15.0);
+  return plot;
+}
+
+// Panels side by side can be compared only on one axis.
+void share_axes(std::vector<Plot>& plots) {
+  if (plots.size() < 2) return;
+  double low = 0, high = 0;
+  for (const Plot& plot : plots) {
+    for (const Curve& curve : plot.curves) {
+      for (const double y : curve.y) {
+        if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+      }
+    }
+  }
+  for (Plot& plot : plots) plot.y_low = low, plot.y_high = low + 1.06 * (high - low);
+}
+
+std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, const Shown& x,
+                           const Shown& y) {
+  std::vector<Plot> plots;
+  const std::vector<std::string> panels = panels_of(analysis);
+  for (const std::string& panel : panels) {
+    Plot plot = empty_plot(set, x, y);
+    plot.title = set.title;
+    if (panels.size() > 1) {
+      plot.title = panel;
+      plot.width = kPanelWidth, plot.height = kPanelHeight;
+    }
+    std::vector<const AnalysisCurves::Of*> in;
+    for (const auto& of : set.sources) {
+      if (analysis.sources[static_cast<std::size_t>(of.source)].panel == panel) in.push_back(&of);
+    }
+    for (const auto* of : in) {
+      const std::string& name = analysis.sources[static_cast<std::size_t>(of->source)].name;
+      plot.curves.push_back(
+          curve_of(name, set.x, of->curve, x.size, y.size, in.size() <= kBandsUpTo));
+    }
+    if (!plot.curves.empty()) plots.push_back(std::move(plot));
+  }
+  share_axes(plots);
+  return plots;
+}
+
+Plot difference_plot(const Analysis& analysis, const AnalysisCurves& set, const Shown& x,
+                     const Shown& y) {
+  Plot plot = empty_plot(set, x, y);
+  plot.height = kLowHeight;
+  plot.title = analysis.sources[1].name + " less " + analysis.sources[0].name;
+  plot.y_label = "difference" + (y.unit == "1" ? "" : " (" + y.unit + ")");
+  plot.curves.push_back(curve_of("", set.x, set.difference, x.size, y.size, true));
+  plot.zero_line = true;
+  return plot;
+}
+
+// Where tracks end early, how many there are at each lag.
+bool add_track_numbers(const Analysis& analysis, const AnalysisCurves& set, PlotPage& page) {
+  Plot plot = empty_plot(set, {"s", 1}, {"", 1});
+  plot.height = kLowHeight;
+  plot.y_label = "tracks";
+  bool varies = false;
+  for (const auto& of : set.sources) {
+    Curve curve;
+    curve.name = analysis.sources[static_cast<std::size_t>(of.source)].name;
+    curve.x = set.x, curve.steps = true;
+    for (const std::int64_t n : of.tracks) curve.y.push_back(static_cast<double>(n));
+    varies = varies || of.tracks.front() != of.tracks.back();
+    plot.curves.push_back(std::move(curve));
+  }
+  if (varies) page.plots.push_back(std::move(plot));
+  return varies;
+}
+
+PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set) {
+  const Shown x = shown(set.x_unit), y = shown(set.y_unit);
+  PlotPage page{overlays(analysis, set, x, y), 1};
+  page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
+  if (page.plots.size() > 1) return page;
+  if (!set.difference.value.empty()) {
+    page.plots.push_back(difference_plot(analysis, set, x, y));
+  }
+  if (set.name.starts_with("msd")) add_track_numbers(analysis, set, page);
+  return page;
+}
+
+PlotPage logarithmic(const Analysis& analysis, const AnalysisCurves& set) {
+  PlotPage page{overlays(analysis, set, shown(set.x_unit), shown(set.y_unit)), 1};
+  page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
+  for (Plot& plot : page.plots) plot.log_x = plot.log_y = true, plot.y_low = plot.y_high = 0;
+  return page;
+}
+
+AnalysisPlot contact_plot(const Analysis& analysis) {
+  Plot plot;
+  plot.title = "duration of contacts";
+  plot.x_label = "time (s)", plot.y_label = "share of contacts that last longer";
+  plot.width = kWidth, plot.height = kHeight;
+  plot.y_low = -0.03, plot.y_high = 1.04;
+  double longest = 0;
+  for (const SourceSummary& s : analysis.sources) {
+    const Survival& c = s.contacts.survival;
+    if (c.time.empty()) continue;
+    Curve curve;
+    curve.name = s.name, curve.steps = true;
+    curve.x = c.time, curve.y = c.survival, curve.low = c.low, curve.high = c.high;
+    curve.x.insert(curve.x.begin(), 0.0);
+    for (auto* v : {&curve.y, &curve.low, &curve.high}) v->insert(v->begin(), 1.0);
+    for (std::size_t i = 0; i < c.time.size(); ++i) {
+      if (c.survival[i] >= 0.01) longest = std::max(longest, c.time[i]);
+    }
+    if (analysis.sources.size() > kBandsUpTo) curve.low.clear(), curve.high.clear();
+    plot.curves.push_back(std::move(curve));
+  }
+  plot.x_low = 0, plot.x_high = longest;
+  return {"contact_times", {{plot}, 1}};
+}
+
+AnalysisPlot transfer_plot(const Analysis& analysis) {
+  Plot plot;
+  plot.x_label = "frequency (Hz)", plot.y_label = "amplitude kept";
+  plot.width = kWidth, plot.height = kHeight;
+  plot.y_low = 0, plot.y_high = 1.08;
+  const auto add = [&](const std::string& name, const TransferFunction& t,
+                       const std::vector<double>& gain) {
+    plot.curves.push_back({name, t.frequency, gain, {}, {}});
+  };
+  if (analysis.sources.size() == 1) {
+    const TransferFunction& t = analysis.sources[0].transfer;
+    plot.title = "transfer function of the smoother";
+    add("position", t, t.position), add("velocity", t, t.velocity);
+    add("acceleration", t, t.acceleration);
+  } else {
+    plot.title = "transfer function of the smoother: velocity";
+    for (const SourceSummary& s : analysis.sources) add(s.name, s.transfer, s.transfer.velocity);
+  }
+  return {"transfer", {{plot}, 1}};
+}
+
+MapPanel panel_of(const VelocityMap& map, const std::vector<double>& values,
+                  const std::string& title) {
+  MapPanel panel;
+  panel.title = title;
+  panel.cells = map.cells, panel.extent = map.extent;
+  panel.values = values;
+  panel.label = "mean velocity (m/s)";
+  panel.scale = ColourScale::diverging;
+  return panel;
+}
+
+// The size that 98 of 100 values stay below: a lone wild cell must not pale all others.
+double usual_most(const std::vector<const std::vector<double>*>& all) {
+  std::vector<double> sizes;
+  for (const auto* values : all) {
+    for (const double v : *values) {
+      if (std::isfinite(v)) sizes.push_back(std::fabs(v));
+    }
+  }
+  if (sizes.empty()) return 1;
+  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * (sizes.size() - 1.0));
+  std::nth_element(sizes.begin(), at, sizes.end());
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(*at, 1e-9)))) / 2;
+  return step * std::ceil(*at / step);
+}
+
+void add_row(Map& map, const VelocityMap& v, const std::string& name, double most) {
+  MapPanel x = panel_of(v, v.vx, name + ": along x"), y = panel_of(v, v.vy, name + ": along y");
+  x.low = y.low = -most, x.high = y.high = most;
+  MapPanel speed = panel_of(v, {}, name);
+  speed.label = "size of the mean velocity (m/s)";
+  speed.scale = ColourScale::rising;
+  for (std::size_t i = 0; i < v.vx.size(); ++i) {
+    speed.values.push_back(std::hypot(v.vx[i], v.vy[i]));
+  }
+  speed.low = 0, speed.high = most;
+  speed.arrow_x = v.vx, speed.arrow_y = v.vy;
+  map.panels.push_back(std::move(x));
+  map.panels.push_back(std::move(y));
+  map.panels.push_back(std::move(speed));
+}
+
+}  // namespace
+
+std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis) {
+  std::vector<AnalysisPlot> plots;
+  for (const AnalysisCurves& set : analysis.curves) {
+    plots.push_back({set.name, page_of(analysis, set)});
+    if (set.name == "msd_all") plots.push_back({"msd_all_log", logarithmic(analysis, set)});
+  }
+  if (analysis.options.msd_only) return plots;
+  AnalysisPlot contacts = contact_plot(analysis);
+  if (!contacts.page.plots[0].curves.empty()) plots.push_back(std::move(contacts));
+  plots.push_back(transfer_plot(analysis));
+  return plots;
+}
+
+Map velocity_maps(const Analysis& analysis) {
+  Map map;
+  map.tank_radius = analysis.tank_radius;
+  map.columns = 3;
+  std::vector<const std::vector<double>*> all;
+  for (const VelocityMap& v : analysis.maps) all.push_back(&v.vx), all.push_back(&v.vy);
+  const double most = usual_most(all);
+  for (std::size_t i = 0; i < analysis.maps.size(); ++i) {
+    add_row(map, analysis.maps[i], analysis.sources[i].name, most);
+  }
+  if (analysis.maps.size() != 2) return map;
+  VelocityMap less = analysis.maps[1];
+  for (std::size_t i = 0; i < less.vx.size(); ++i) {
+    less.vx[i] -= analysis.maps[0].vx[i], less.vy[i] -= analysis.maps[0].vy[i];
+  }
+  add_row(map, less, "difference", usual_most({&less.vx, &less.vy}));
+  return map;
+}
+
+std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir) {
+  std::vector<std::string> files = write_analysis(analysis, dir);
+  for (const AnalysisPlot& plot : analysis_plots(analysis)) {
+    for (const char* ending : {".png", ".svg"}) {
+      files.push_back((std::filesystem::path(dir) / (plot.name + ending)).string());
+      draw_plots(plot.page, files.back());
+    }
+  }
+  const Map map = velocity_maps(analysis);
+  for (const char* ending : {".png", ".svg"}) {
+    if (map.panels.empty()) break;
+    files.push_back((std::filesystem::path(dir) / (std::string("velocity_map") + ending)).string());
+    draw_map(map, files.back());
+  }
+  return files;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+bool in_tank(const FlowEstimate& e, std::size_t i) {
+  const int at = static_cast<int>(i);
+  return std::hypot(e.x(at), e.y(at)) <= e.extent;
+}
+
+// A panel of one number a cell; NaN outside the tank. Filled cells are hatched.
+template <class Value>
+MapPanel panel(const FlowEstimate& e, const std::string& title, const std::string& label,
+               Value value) {
+  MapPanel out;
+  out.title = title, out.label = label;
+  out.cells = e.cells, out.extent = e.extent;
+  for (std::size_t i = 0; i < e.cell.size(); ++i) {
+    out.values.push_back(in_tank(e, i) ? value(i) : kNone);
+    out.hatched.push_back(in_tank(e, i) && !e.cell[i].measured);
+  }
+  return out;
+}
+
+// Arrows in every second cell of every second row.
+void add_arrows(const FlowEstimate& e, MapPanel& out,
+                const std::function<std::array<double, 2>(std::size_t)>& vector) {
+  for (std::size_t i = 0; i < e.cell.size(); ++i) {
+    const auto cells = static_cast<std::size_t>(e.cells);
+    const bool shown = in_tank(e, i) && i % cells % 2 == 1 && i / cells % 2 == 1;
+    const std::array<double, 2> v = shown ? vector(i) : std::array{kNone, kNone};
+    out.arrow_x.push_back(v[0]), out.arrow_y.push_back(v[1]);
+  }
+}
+
+Map flow_map(const FlowReport& report, const FlowEstimate& e) {
+  Map map;
+  map.title = "Flow of " + report.name + ", " + e.name + " estimate";
+  map.tank_radius = report.ball.tank_radius, map.columns = 2;
+  const auto& cell = e.cell;
+  map.panels.push_back(panel(e, "Mean velocity", "speed (m/s)", [&](std::size_t i) {
+    return std::hypot(cell[i].flow.mu_x, cell[i].flow.mu_y);
+  }));
+  add_arrows(e, map.panels.back(), [&](std::size_t i) {
+    return std::array{cell[i].flow.mu_x, cell[i].flow.mu_y};
+  });
+  map.panels.push_back(panel(e, "Deviation per axis", "deviation (m/s)", [&](std::size_t i) {
+    const FlowSample& f = cell[i].flow;
+    return std::sqrt((f.sigma_x * f.sigma_x + f.sigma_y * f.sigma_y) / 2);
+  }));
+  map.panels.push_back(panel(e, "Standard error of the mean", "per axis (m/s)", [&](std::size_t i) {
+    const FlowSample& s = cell[i].error;
+    return cell[i].measured ? std::sqrt((s.mu_x * s.mu_x + s.mu_y * s.mu_y) / 2) : kNone;
+  }));
+  const std::string what = e.noise ? "Momentum balances" : "Frames";
+  map.panels.push_back(panel(e, what + " in a cell", "number",
+                             [&](std::size_t i) { return static_cast<double>(cell[i].samples); }));
+  return map;
+}
+
+MapPanel rejections(const FlowEstimate& e, const std::string& title, const std::vector<double>& p,
+                    const std::vector<bool>& rejected) {
+  MapPanel out = panel(e, title, "", [&](std::size_t i) {
+    return std::isnan(p[i]) ? kNone : rejected[i] ? 1.0 : 0.0;
+  });
+  out.hatched.clear();
+  out.classes = {"not rejected", "rejected"};
+  return out;
+}
+
+// Fig. 3, and beside it what is left when frames are independent and tests are many.
+Map normality_map(const FlowReport& report, const FlowEstimate& e) {
+  Map map;
+  const double level = report.options.significance;
+  map.title = "Is the flow of " + report.name + " normal in each cell?";
+  map.tank_radius = report.ball.tank_radius, map.columns = 2;
+  for (const bool along_x : {true, false}) {
+    std::vector<double> every, thinned;
+    std::vector<bool> below;
+    for (const FlowCell& c : e.cell) {
+      const NormalityTest& a = along_x ? c.all_x : c.all_y;
+      const NormalityTest& t = along_x ? c.normal_x : c.normal_y;
+      every.push_back(a.samples < 4 ? kNone : a.raw_p);
+      thinned.push_back(t.samples < 4 ? kNone : t.p);
+      below.push_back(a.raw_p < level);
+    }
+    const std::string axis = along_x ? ", x axis" : ", y axis";
+    map.panels.push_back(rejections(e, "All frames, 5 %" + axis, every, below));
+    map.panels.push_back(rejections(e, "Independent, Lilliefors, FDR" + axis, thinned,
+                                    false_discovery(thinned, level)));
+  }
+  // Rows are the two tests, columns the axes.
+  std::swap(map.panels[1], map.panels[2]);
+  return map;
+}
+
+// The largest value but for the worst hundredth, so that single cells do not set the scale.
+double scale_of(const std::vector<MapPanel>& panels) {
+  std::vector<double> sizes;
+  for (const MapPanel& p : panels) {
+    for (std::size_t i = 0; i < p.values.size(); ++i) {
+      if (!std::isnan(p.values[i]) && !p.hatched[i]) sizes.push_back(std::fabs(p.values[i]));
+    }
+  }
+  if (sizes.empty()) return 1;
+  const auto high = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 99 / 100);
+  std::nth_element(sizes.begin(), high, sizes.end());
+  return *high;
+}
+
+Map error_map(const FlowReport& report) {
+  Map map;
+  map.title = "Errors of the flow of " + report.name;
+  map.tank_radius = report.ball.tank_radius;
+  map.columns = static_cast<int>(report.estimates.size());
+  const std::vector<FlowSample>& truth = report.truth->sample;
+  std::vector<MapPanel> means, deviations;
+  for (const FlowEstimate& e : report.estimates) {
+    const auto apart = [&](std::size_t i) {
+      return std::array{e.cell[i].flow.mu_x - truth[i].mu_x, e.cell[i].flow.mu_y - truth[i].mu_y};
+    };
+    means.push_back(panel(e, e.name + ": error of the mean", "size (m/s)",
+                          [&](std::size_t i) { return std::hypot(apart(i)[0], apart(i)[1]); }));
+    add_arrows(e, means.back(), apart);
+    deviations.push_back(
+        panel(e, e.name + ": error of the deviation", "difference (m/s)", [&](std::size_t i) {
+          const FlowSample& f = e.cell[i].flow;
+          return (f.sigma_x - truth[i].sigma_x + f.sigma_y - truth[i].sigma_y) / 2;
+        }));
+    deviations.back().scale = ColourScale::diverging;
+  }
+  const double mean_scale = scale_of(means), deviation_scale = scale_of(deviations);
+  for (MapPanel& p : means) p.low = 0, p.high = mean_scale;
+  for (MapPanel& p : deviations) p.low = -deviation_scale, p.high = deviation_scale;
+  map.panels = std::move(means);
+  map.panels.insert(map.panels.end(), deviations.begin(), deviations.end());
+  return map;
+}
+
+}  // namespace
+
+std::vector<FlowMap> flow_maps(const FlowReport& report) {
+  std::vector<FlowMap> maps;
+  for (const FlowEstimate& e : report.estimates) {
+    maps.push_back({"flow_" + e.name, flow_map(report, e)});
+    if (e.thinning > 0) maps.push_back({"normality", normality_map(report, e)});
+  }
+  if (report.truth) maps.push_back({"errors", error_map(report)});
+  return maps;
+}
+
+void report_flow(const FlowReport& report, const std::string& dir) {
+  write_flow(report, dir);
+  for (const FlowMap& named : flow_maps(report)) {
+    const std::string base = (std::filesystem::path(dir) / named.name).string();
+    draw_map(named.map, base + ".png");
+    draw_map(named.map, base + ".svg");
+  }
+}
+
+}  // namespace lilytank

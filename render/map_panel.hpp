@@ -1,0 +1,31 @@
+// One map with its axes and colours.
+#pragma once
+#include "canvas.hpp"
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+
+/// Where a panel's square lies on the page, units.
+struct PanelPlace {
+  double left = 0, top = 0, size = 340;
+  double right() const { return left + size; }
+  double bottom() const { return top + size; }
+};
+
+/// The range of a panel's colours.
+struct ColourRange {
+  double low = 0, high = 1;
+  bool cut_low = false, cut_high = false;  ///< there are values beyond
+  double share(double value) const { return (value - low) / (high - low); }
+};
+ColourRange colour_range(const MapPanel& panel);
+
+/// The cells, hatching, arrows and tank circle of a panel, its axes and title.
+void draw_panel(const Canvas& canvas, const MapPanel& panel, double tank_radius,
+                const PanelPlace& place);
+/// Its colour bar, or the legend of its classes, right of `place`.
+void draw_scale(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place);
+/// Whether one colour bar can serve both.
+bool same_scale(const MapPanel& a, const MapPanel& b);
+
+}  // namespace lilytank

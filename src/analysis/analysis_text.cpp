@@ -1,0 +1,223 @@
+#include <cmath>
+
+#include "analysis/text_table.hpp"
+#include "lilytank/analysis.hpp"
+
+namespace lilytank {
+namespace {
+
+const char* body_word(BodyKind body) {
+  return body == BodyKind::lily ? "modules" : body == BodyKind::ball ? "balls" : "points";
+}
+
+std::string or_dash(const Estimate& e, double unit = 1) {
+  return std::isnan(e.value) ? "-" : with_interval(e, unit);
+}
+
+// A number with three digits.
+std::string three(double value, double unit = 1) {
+  if (!std::isfinite(value)) return "-";
+  const double v = std::fabs(value / unit);
+  if (v < 1e-4) return "0";
+  const int decimals = v >= 100 ? 0 : v >= 10 ? 1 : v >= 1 ? 2 : v >= 0.1 ? 3 : v >= 0.01 ? 4 : 6;
+  return fixed(value / unit, decimals);
+}
+
+// Sources as columns: with many, that would be too wide, so they are rows.
+class Table {
+ public:
+  explicit Table(const Analysis& analysis) : analysis_(analysis) {}
+  template <class CellOf>
+  void add(const std::string& head, const CellOf& cell_of) {
+    heads_.push_back(head);
+    cells_.emplace_back();
+    bool any = false;
+    for (const SourceSummary& s : analysis_.sources) {
+      cells_.back().push_back(cell_of(s));
+      any = any || cells_.back().back() != "-";
+    }
+    if (!any) heads_.pop_back(), cells_.pop_back();
+  }
+  std::string text() const {
+    if (heads_.empty()) return "";
+    const std::size_t n = analysis_.sources.size();
+    if (n > 4) return by_row();
+    std::vector<std::string> head{""};
+    for (const SourceSummary& s : analysis_.sources) head.push_back(s.name);
+    TextTable table(head);
+    for (std::size_t i = 0; i < heads_.size(); ++i) {
+      std::vector<std::string> row{heads_[i]};
+      row.insert(row.end(), cells_[i].begin(), cells_[i].end());
+      table.add(row);
+    }
+    return table.text();
+  }
+
+ private:
+  std::string by_row() const {
+    std::vector<std::string> head{"source"};
+    head.insert(head.end(), heads_.begin(), heads_.end());
+    TextTable table(head);
+    for (std::size_t s = 0; s < analysis_.sources.size(); ++s) {
+      const SourceSummary& source = analysis_.sources[s];
+      const bool panel = !source.panel.empty();
+      std::vector<std::string> row{source.name + (panel ? ", " + source.panel : "")};
+      for (const auto& cells : cells_) row.push_back(cells[s]);
+      table.add(row);
+    }
+    return table.text();
+  }
+  const Analysis& analysis_;
+  std::vector<std::string> heads_;
+  std::vector<std::vector<std::string>> cells_;
+};
+
+std::string tracks_text(const Analysis& analysis) {
+  Table table(analysis);
+  table.add("bodies", [](const SourceSummary& s) { return std::to_string(s.bodies); });
+  table.add("tracks", [](const SourceSummary& s) { return std::to_string(s.tracks); });
+  table.add("recordings", [](const SourceSummary& s) { return std::to_string(s.recordings); });
+  table.add("duration (s)", [](const SourceSummary& s) { return three(s.duration); });
+  table.add("frames/s", [](const SourceSummary& s) { return three(s.rate); });
+  table.add("sightings", [](const SourceSummary& s) { return std::to_string(s.sightings); });
+  table.add("missing (%)", [](const SourceSummary& s) { return fixed(100 * s.missing, 2); });
+  return "Tracks\n" + table.text();
+}
+
+double mean_of(const std::vector<MotionModel>& models, double MotionModel::*member) {
+  if (models.empty() || models[0].samples == 0) return NAN;
+  double sum = 0;
+  for (const MotionModel& m : models) sum += m.*member;
+  return sum / static_cast<double>(models.size());
+}
+
+std::string smoothing_text(const Analysis& analysis) {
+  const bool kalman = analysis.options.smoothing.method == SmoothingMethod::kalman;
+  Table table(analysis);
+  const auto model = [&](const std::string& head, auto models, double MotionModel::*member,
+                         double unit) {
+    table.add(head,
+              [&](const SourceSummary& s) { return three(mean_of(s.*models, member), unit); });
+  };
+  table.add("noise (mm)", [](const SourceSummary& s) {
+    return s.motion.empty() ? "-"
+           : s.exact        ? "none"
+                            : three(mean_of(s.motion, &MotionModel::noise), 1e-3);
+  });
+  model("lasting acceleration (m/s^2)", &SourceSummary::motion, &MotionModel::acceleration, 1);
+  model("its memory (s)", &SourceSummary::motion, &MotionModel::memory, 1);
+  model("jolts (m/s^1.5)", &SourceSummary::motion, &MotionModel::jolts, 1);
+  table.add("heading noise (mrad)", [](const SourceSummary& s) {
+    const double noise = mean_of(s.turning, &MotionModel::noise);
+    return s.exact && !std::isnan(noise) ? "none" : three(noise, 1e-3);
+  });
+  const auto cutoff = [&](const std::string& head, double TransferFunction::*member) {
+    table.add(head, [&](const SourceSummary& s) {
+      return s.motion.empty() ? "-" : three(s.transfer.*member);
+    });
+  };
+  cutoff("position kept to (Hz)", &TransferFunction::position_cutoff);
+  cutoff("velocity kept to (Hz)", &TransferFunction::velocity_cutoff);
+  cutoff("acceleration kept to (Hz)", &TransferFunction::acceleration_cutoff);
+  const std::string text = table.text();
+  if (text.empty()) return "";
+  const std::string how = kalman ? "Kalman smoother, model and noise fitted to the tracks"
+                                 : "polynomials of degree " +
+                                       std::to_string(analysis.options.smoothing.degree) +
+                                       " over " + three(analysis.options.smoothing.window) + " s";
+  return "\nSmoothing (" + how + "; kept: amplitude above 1/sqrt(2))\n" + text;
+}
+
+std::string displacements_text(const Analysis& analysis) {
+  Table table(analysis);
+  table.add("first maximum (cm^2)",
+            [](const SourceSummary& s) { return or_dash(s.first_maximum, 1e-4); });
+  table.add("at lag (s)", [](const SourceSummary& s) { return or_dash(s.first_maximum_lag); });
+  table.add("plateau (cm^2)", [](const SourceSummary& s) { return or_dash(s.plateau, 1e-4); });
+  table.add("D (cm^2/s)", [](const SourceSummary& s) { return or_dash(s.diffusion.D, 1e-4); });
+  const auto range = [](const Diffusion& d) {
+    return d.to > 0 ? three(d.from) + " .. " + three(d.to) : std::string("-");
+  };
+  table.add("  from lags (s)", [&](const SourceSummary& s) { return range(s.diffusion); });
+  table.add("D of turning (rad^2/s)", [](const SourceSummary& s) { return or_dash(s.rotation.D); });
+  table.add("  from lags (s)", [&](const SourceSummary& s) { return range(s.rotation); });
+  std::string note;
+  for (const SourceSummary& s : analysis.sources) {
+    if (s.diffusion.to > 0 || !note.empty()) continue;
+    note =
+        "  No D where the MSD grows in proportion to the lag over no factor of 2 of lags: the "
+        "motion is then not one of diffusion.\n";
+  }
+  const std::vector<double>& lags = analysis.curves.front().x;
+  return "\nMean squared displacement up to " + three(lags.back()) + " s, all origins\n" +
+         table.text() + note;
+}
+
+std::string motion_text(const Analysis& analysis) {
+  Table table(analysis);
+  table.add("mean speed (cm/s)", [](const SourceSummary& s) { return or_dash(s.speed, 0.01); });
+  table.add("rms speed (cm/s)", [](const SourceSummary& s) { return or_dash(s.rms_speed, 0.01); });
+  table.add("rms spin (rad/s)", [](const SourceSummary& s) { return or_dash(s.rms_spin); });
+  table.add("circulation (rad/s)", [](const SourceSummary& s) { return or_dash(s.circulation); });
+  table.add("velocity memory (s)", [](const SourceSummary& s) {
+    return s.motion.empty() ? "-" : three(s.velocity_memory);
+  });
+  table.add("independent samples", [](const SourceSummary& s) {
+    return s.motion.empty() ? "-" : fixed(s.independent_samples, 0);
+  });
+  const std::string text = table.text();
+  return text.empty() ? "" : "\nVelocities\n" + text;
+}
+
+std::string neighbours_text(const Analysis& analysis) {
+  Table table(analysis);
+  table.add("nearest neighbour (cm)",
+            [](const SourceSummary& s) { return or_dash(s.nearest, 0.01); });
+  table.add("contacts seen to begin", [](const SourceSummary& s) {
+    return std::isnan(s.contact_rate.value) ? "-" : std::to_string(s.contacts.contacts);
+  });
+  table.add("begun by a body (1/min)",
+            [](const SourceSummary& s) { return or_dash(s.contact_rate, 1 / 60.0); });
+  table.add("time in contact (%)",
+            [](const SourceSummary& s) { return or_dash(s.contact_share, 0.01); });
+  table.add("mean duration (s)", [](const SourceSummary& s) { return or_dash(s.contacts.mean); });
+  const std::string text = table.text();
+  return text.empty() ? ""
+                      : "\nNeighbours (contact: gap below " +
+                            three(analysis.options.touching, 1e-3) + " mm)\n" + text;
+}
+
+std::string comparison_text(const Analysis& analysis) {
+  if (!analysis.compared) return "";
+  const SourceComparison& c = analysis.comparison;
+  std::string out = "\n" + analysis.sources[1].name + " less " + analysis.sources[0].name + "\n";
+  out += "  MSD: mean |difference| " + three(c.msd_difference, 1e-4) + " cm^2, " +
+         fixed(100 * c.msd_relative, 1) + " % of the first's mean; its band excludes 0 at " +
+         fixed(100 * c.msd_outside, 0) + " % of lags\n";
+  if (c.map_cells > 0) {
+    out += "  mean velocities in " + std::to_string(c.map_cells) + " cells: correlation x " +
+           fixed(c.map_correlation_x, 3) + ", y " + fixed(c.map_correlation_y, 3) +
+           "; rms difference " + three(c.map_difference, 0.01) + " cm/s, " +
+           three(c.map_expected, 0.01) + " expected from their errors alone\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string analysis_text(const Analysis& analysis) {
+  std::string title;
+  for (const SourceSummary& s : analysis.sources) {
+    if (!title.empty()) title += ", ";
+    if (analysis.sources.size() <= 4) title += s.name + " (" + body_word(s.body) + ")";
+  }
+  if (title.empty() || analysis.sources.size() > 4) {
+    title = std::to_string(analysis.sources.size()) + " sources";
+  }
+  const std::string level = fixed(100 * analysis.options.bootstrap.level, 0);
+  return title + "\nIntervals: " + level + " %, bootstrap over bodies\n\n" + tracks_text(analysis) +
+         smoothing_text(analysis) + displacements_text(analysis) + motion_text(analysis) +
+         neighbours_text(analysis) + comparison_text(analysis);
+}
+
+}  // namespace lilytank

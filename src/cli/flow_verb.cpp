@@ -1,0 +1,134 @@
+// lilytank flow: the water's velocity from the tracks of balls.
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "lilytank/experiment.hpp"
+#include "lilytank/flow_report.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+namespace {
+
+const std::vector<std::string>& estimator_words() {
+  static const std::vector<std::string> words{"paper", "smooth", "both"};
+  return words;
+}
+
+std::string estimator(const VerbOptions& options) {
+  const std::string word = options.text("estimator", "both");
+  for (const std::string& known : estimator_words()) {
+    if (word == known) return word;
+  }
+  options.refuse("--estimator " + word + " is none of paper, smooth, both" +
+                 did_you_mean(word, estimator_words()));
+}
+
+FlowOptions flow_options(const VerbOptions& options) {
+  FlowOptions f;
+  f.cells = static_cast<int>(options.whole("cells", f.cells, 4, 400));
+  f.least_samples = static_cast<int>(options.whole("least", f.least_samples, 2, 1000000));
+  f.significance = options.number("level", f.significance, 1e-6, 0.5);
+  f.smoothing.window = options.number("window", f.smoothing.window, 1e-4, 100, "s");
+  f.smoothing.degree = static_cast<int>(options.whole("degree", f.smoothing.degree, 2, 5));
+  if (options.has("kalman")) {
+    if (options.has("window") || options.has("degree")) {
+      options.refuse("--kalman has neither --window nor --degree");
+    }
+    f.smoothing.method = SmoothingMethod::kalman;
+  }
+  return f;
+}
+
+// The drag coefficient as it was asked for, or as the experiment's files set it.
+BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
+  BallPhysics ball = ball_physics(experiment.base.model);
+  for (const ScenarioEntry& entry : experiment.base.entries) {
+    if (entry.path != "forces.ball_drag.C") continue;
+    if (entry.is_default) ball.drag_coefficient = BallPhysics().drag_coefficient;
+  }
+  ball.drag_coefficient = options.number("drag", ball.drag_coefficient, 1e-3, 100);
+  return ball;
+}
+
+void add_options(VerbOptions& options) {
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("estimator", "paper (Eq. 3), smooth (momentum balance), or both", text(), "WORD")(
+      "truth", "a grid whose flow is known: prints and draws the errors", text(), "GRID.csv")(
+      "bias", "measure the errors on synthetic recordings like these")(
+      "out", "directory of the results (default: out/flow-<name>)", text(), "DIR")(
+      "set", "a value over the experiment's, as ball.mass='13 g'",
+      cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
+      "drag", "drag coefficient C of a ball (0.47, or forces.ball_drag.C if it is set)", text(),
+      "C")("cells", "of the grid, a side (50)", text(), "N")(
+      "least", "frames in a cell below which it is filled from its neighbours (20)", text(), "N")(
+      "window", "of Eq. 3's smoothing polynomials (0.3 s)", text(), "TIME")(
+      "degree", "of these polynomials (3)", text(), "N")(
+      "kalman", "smooth for Eq. 3 by a Kalman smoother instead")(
+      "level", "significance of the tests of normality (0.05)", text(), "P")(
+      "seed", "of --bias (1)", text(), "N")("quiet", "no progress");
+}
+
+void measure_bias(const VerbOptions& options, const std::vector<Recording>& recordings,
+                  FlowReport& report) {
+  const FlowEstimate* smooth = nullptr;
+  for (const FlowEstimate& e : report.estimates) {
+    if (e.noise) smooth = &e;
+  }
+  if (smooth == nullptr) options.refuse("--bias needs --estimator smooth or both");
+  Progress progress(options.has("quiet"));
+  const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  report.bias = measure_flow_bias(recordings, *smooth, report.ball, report.options, seed,
+                                  [&](double done) { progress.tell(done, "of the biases"); });
+  progress.clear();
+}
+
+}  // namespace
+
+int flow_verb(const Arguments& arguments) {
+  VerbOptions options("flow", "EXPERIMENT.toml...",
+                      "Finds the water's velocity from the tracks of an experiment's balls: mean "
+                      "and deviation on a grid, with errors. Text, tables and maps.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().empty()) {
+    options.refuse("of what? write lilytank flow EXPERIMENT.toml");
+  }
+  FlowReport report;
+  report.options = flow_options(options);
+  const std::string word = estimator(options);
+  if (options.has("bias") && word == "paper") {
+    options.refuse("--bias needs --estimator smooth or both");
+  }
+  const Experiment experiment = load_experiment(
+      options.positional(), options.list("set"),
+      [](const RecordingSource& source) { return source.options.body == BodyKind::ball; });
+  report.name = experiment.name;
+  report.ball = physics(options, experiment);
+  report.truth_file = options.text("truth");
+  if (options.has("truth")) {
+    report.truth = read_flow_truth(report.truth_file, report.options.cells);
+  }
+  if (word != "smooth") {
+    report.estimates.push_back(estimate_paper(experiment.recordings, report.ball, report.options));
+  }
+  if (word != "paper") {
+    report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
+  }
+  if (options.has("bias")) measure_bias(options, experiment.recordings, report);
+  const std::string dir = options.text("out", "out/flow-" + report.name);
+#ifdef LILYTANK_HAS_RENDER
+  report_flow(report, dir);
+#else
+  write_flow(report, dir);
+  std::cerr << "no maps: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  std::cout << flow_text(report) << std::flush;
+  std::cerr << "results in " << dir << "\n";
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

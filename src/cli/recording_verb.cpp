@@ -1,0 +1,120 @@
+#include "cli/recording_verb.hpp"
+
+#include <filesystem>
+#include <iostream>
+
+#include "io/recording_keys.hpp"
+#include "lilytank/experiment.hpp"
+#include "recording/formats.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How plain files are to be read: body sizes come from the scenario's keys.
+RecordingOptions reading_options(const VerbOptions& options) {
+  RecordingOptions out;
+  for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
+    assign_recording_option(a, "recording", out);
+  }
+  const Model model = load_scenario({}, options.list("set")).model;
+  out.tank_radius = model.tank.radius;
+  if (out.body == BodyKind::lily) out.body_radius = model.module.side / 2;
+  if (out.body == BodyKind::ball) out.body_radius = model.ball.radius;
+  return out;
+}
+
+bool is_experiment(const std::string& file) {
+  return fs::path(file).extension() == ".toml";
+}
+
+/// Whether a file is one track of several.
+bool is_one_track(const std::string& file, const RecordingOptions& options) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return false;
+  if (options.format != RecordingFormat::automatic) return one_file_a_track(options.format);
+  LineSource lines(file);
+  return one_file_a_track(detect_format(lines));
+}
+
+void add_experiment(const std::string& file, const VerbOptions& options,
+                    std::vector<NamedRecording>& out) {
+  const auto none = [](const RecordingSource&) { return false; };
+  for (const RecordingSource& s : load_experiment({file}, options.list("set"), none).sources) {
+    out.push_back({s.file, {s.file}, s.options});
+    for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
+      assign_recording_option(a, "recording", out.back().options);
+    }
+  }
+}
+
+}  // namespace
+
+void add_reading_options(VerbOptions& options) {
+  options.add()("read",
+                "how files are read, as a [[recording]] of an experiment says it: format=trackpy, "
+                "rate=25, tank_circle=[640,480,455], columns.x=px, checks.swap=mark",
+                cxxopts::value<std::vector<std::string>>(),
+                "KEY=VALUE")("set", "a value of the tank or the bodies, as tank.radius=0.3",
+                             cxxopts::value<std::vector<std::string>>(), "PATH=VALUE");
+}
+
+std::vector<NamedRecording> named_recordings(const VerbOptions& options,
+                                             const std::vector<std::string>& arguments) {
+  if (arguments.empty()) options.refuse("which recording? write a file or an experiment file");
+  std::vector<NamedRecording> out;
+  const RecordingOptions reading = reading_options(options);
+  bool together = false;
+  for (const std::string& file : arguments) {
+    if (is_experiment(file)) {
+      add_experiment(file, options, out);
+      together = false;
+      continue;
+    }
+    // A file that cannot be read is complained about when its turn comes.
+    bool track = false;
+    try {
+      track = is_one_track(file, reading);
+    } catch (const InputError&) {
+    }
+    const bool same_place =
+        together && fs::path(out.back().files.back()).parent_path() == fs::path(file).parent_path();
+    if (track && same_place) {
+      out.back().files.push_back(file);
+      out.back().name = out.back().files.front() + " and " +
+                        std::to_string(out.back().files.size() - 1) + " more";
+    } else {
+      out.push_back({file, {file}, reading});
+    }
+    together = track;
+  }
+  return out;
+}
+
+int recording_verb(const Arguments& arguments) {
+  const std::string word = arguments.empty() ? "" : arguments[0];
+  const Arguments rest(arguments.begin() + (arguments.empty() ? 0 : 1), arguments.end());
+  if (word == "info") return recording_info(rest);
+  if (word == "check") return recording_check(rest);
+  if (word == "convert") return recording_convert(rest);
+  if (word == "--help" || word == "-h") {
+    std::cout << "Trackers' files: what is in them, what is wrong with them, and other formats.\n"
+                 "Usage:\n"
+                 "  lilytank recording info FILE...     what was recorded\n"
+                 "  lilytank recording check FILE...    everything that looks wrong, and what is "
+                 "done about it\n"
+                 "  lilytank recording convert FILE...  to another format; or a run, through a "
+                 "camera\n\n"
+                 "Each has --help. FILE is a tracker's file, a directory with one file a "
+                 "track, or an experiment (*.toml).\n";
+    return Exit::done;
+  }
+  throw InputError("lilytank recording: say info, check or convert" +
+                   (word.empty() ? ""
+                                 : ", not '" + word + "'" +
+                                       did_you_mean(word, std::vector<std::string>{"info", "check",
+                                                                                   "convert"})));
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,143 @@
+// Recordings in other formats, and simulated runs as a camera would have recorded them.
+#include <filesystem>
+#include <iostream>
+
+#include "cli/recording_verb.hpp"
+#include "io/recording_keys.hpp"
+#include "lilytank/camera.hpp"
+#include "lilytank/run.hpp"
+#include "recording/columns.hpp"
+#include "text/number.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_run(const std::string& name) {
+  std::error_code ignored;
+  return fs::exists(fs::path(name) / "resolved.toml", ignored);
+}
+
+Camera camera_of(const VerbOptions& options) {
+  Camera camera;
+  for (const Assignment& a : read_assignments(options.list("camera"), "--camera")) {
+    assign_camera_option(a, camera);
+  }
+  return camera;
+}
+
+/// What a camera records of a stored run.
+Recording filmed(const std::string& dir, const VerbOptions& options) {
+  const StoredRun run = load_run(dir);
+  const Trajectory& t = run.trajectory;
+  RecordingOptions reading;
+  reading.body = t.modules > 0 ? BodyKind::lily : BodyKind::ball;
+  for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
+    assign_recording_option(a, "recording", reading);
+  }
+  const Camera camera = camera_of(options);
+  if (t.frames() > 1) {
+    const double stored = (t.frames() - 1) / (t.time.back() - t.time.front());
+    if (stored < 0.999 * camera.rate) {
+      std::cerr << "poses were stored " << shortest(stored)
+                << " times a second; between them the camera sees straight lines (run with --set "
+                   "output.rate=40 to store every step)\n";
+    }
+  }
+  Recording out = film(t, camera, reading.body);
+  out.latches = run.scenario.model.control.latches;
+  return out;
+}
+
+/// Scale and origin of what is written: those given to --write.
+Calibration calibration_of(const VerbOptions& options, double tank_radius) {
+  RecordingOptions out;
+  for (const Assignment& a : read_assignments(options.list("write"), "--write")) {
+    assign_recording_option(a, "write", out);
+  }
+  if (out.calibration.circle_radius > 0) {
+    out.calibration.pixel = tank_radius / out.calibration.circle_radius;
+  }
+  return out.calibration;
+}
+
+std::string stem_of(const std::string& file) {
+  const std::string name = fs::path(file).filename().string();
+  return name.substr(0, name.find('.'));
+}
+
+/// The file of one of several recordings in the directory `out`.
+std::string file_in(const std::string& out, const std::string& name, RecordingFormat format) {
+  const std::string ending = one_file_a_track(format)               ? ""
+                             : format == RecordingFormat::fasttrack ? ".txt"
+                                                                    : ".csv";
+  return (fs::path(out) / (stem_of(name) + ending)).string();
+}
+
+void write_one(const Recording& recording, const std::string& file, RecordingFormat format,
+               const Calibration& calibration) {
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code ignored;
+  if (!folder.empty()) fs::create_directories(folder, ignored);
+  write_recording(recording, file, format, calibration);
+  std::cerr << file << ": " << recording.tracks.size() << " tracks, " << recording.frames
+            << " frames\n";
+}
+
+}  // namespace
+
+int recording_convert(const Arguments& arguments) {
+  VerbOptions options(
+      "recording convert", "FILE...|RUN_DIR",
+      "Writes recordings in another format; what a check refuses is not written, what it\nmarks or "
+      "cuts is missing or has a gap there. The directory of a run is filmed by a camera.");
+  add_reading_options(options);
+  options.add()("out",
+                "file to write; a directory for several recordings, or for formats with one "
+                "file a track",
+                cxxopts::value<std::string>(), "FILE")(
+      "to",
+      "format: tidy (default), swistrack-tracks, swistrack-particles, trackpy, idtracker, "
+      "idtracker-wide, trex, fasttrack",
+      cxxopts::value<std::string>(),
+      "FORMAT")("write",
+                "scale of what is written: pixel='0.66 mm', origin=[640,480], "
+                "tank_circle=[640,480,455], y_axis=down, angle_unit=deg",
+                cxxopts::value<std::vector<std::string>>(), "KEY=VALUE")(
+      "camera",
+      "of a run: rate, position_noise, heading_noise, dropped, missed, latency, swaps, "
+      "swap_distance, headings, seed",
+      cxxopts::value<std::vector<std::string>>(), "KEY=VALUE");
+  if (!options.parse(arguments)) return Exit::done;
+  if (!options.has("out") || options.text("out").empty()) {
+    options.refuse("where to? give --out FILE");
+  }
+  const RecordingFormat format = format_of_word(options.text("to", "tidy"), {"--to", 0, 0});
+  if (format == RecordingFormat::automatic || format == RecordingFormat::table) {
+    options.refuse("--to " + options.text("to") + " is no format to write");
+  }
+  const std::string out = options.text("out");
+  const auto& words = options.positional();
+  if (words.size() == 1 && is_run(words[0])) {
+    const double radius =
+        load_scenario({(fs::path(words[0]) / "resolved.toml").string()}, {}).model.tank.radius;
+    write_one(filmed(words[0], options), out, format, calibration_of(options, radius));
+    return Exit::done;
+  }
+  if (options.has("camera")) options.refuse("--camera goes with the directory of one run");
+  const std::vector<NamedRecording> all = named_recordings(options, words);
+  for (const NamedRecording& named : all) {
+    const CheckedRecording checked = check_recording(named.files, named.options);
+    checked.throw_if_refused();
+    if (!checked.findings.empty()) {
+      std::cerr << named.name << ": " << checked.findings.size()
+                << " findings; lilytank recording check names them\n";
+    }
+    const std::string file = all.size() == 1 ? out : file_in(out, named.files.front(), format);
+    write_one(checked.recording, file, format, calibration_of(options, named.options.tank_radius));
+  }
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

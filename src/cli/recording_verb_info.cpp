@@ -1,0 +1,191 @@
+// What is in recordings, and what is wrong with them.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "analysis/text_table.hpp"
+#include "cli/recording_verb.hpp"
+#include "io/atomic_file.hpp"
+#include "text/number.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+std::string body_word(BodyKind body) {
+  constexpr const char* words[] = {"lily", "ball", "point"};
+  return words[static_cast<std::size_t>(body)];
+}
+
+std::string with_digits(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// "3 gap (marked), 1 jump (cut)".
+std::string findings_line(const std::vector<Finding>& findings) {
+  std::string out;
+  for (int i = 0; i < kChecks; ++i) {
+    const auto check = static_cast<Check>(i);
+    const auto count = std::count_if(findings.begin(), findings.end(),
+                                     [&](const Finding& f) { return f.check == check; });
+    if (count == 0) continue;
+    out += (out.empty() ? "" : ", ") + std::to_string(count) + " " + check_word(check);
+  }
+  return out.empty() ? "none" : out;
+}
+
+struct Numbers {
+  std::size_t bodies = 0, seen = 0, frames = 0;
+  double farthest = 0, typical_step = 0;
+};
+
+Numbers numbers_of(const Recording& r) {
+  Numbers n;
+  std::vector<double> steps;
+  std::int64_t last = -1;
+  for (const Track& track : r.tracks) {
+    n.bodies += n.bodies == 0 || track.id != last ? 1 : 0;
+    last = track.id;
+    n.frames += track.x.size();
+    for (std::size_t i = 0; i < track.x.size(); ++i) {
+      if (std::isnan(track.x[i])) continue;
+      ++n.seen;
+      n.farthest = std::max(n.farthest, std::hypot(track.x[i], track.y[i]));
+      if (i == 0 || std::isnan(track.x[i - 1])) continue;
+      steps.push_back(std::hypot(track.x[i] - track.x[i - 1], track.y[i] - track.y[i - 1]));
+    }
+  }
+  if (steps.empty()) return n;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  n.typical_step = *middle;
+  return n;
+}
+
+void print_tracks(const CheckedRecording& checked, const RecordingOptions& options) {
+  const Recording& r = checked.recording;
+  const Numbers n = numbers_of(r);
+  const double share =
+      static_cast<double>(n.seen) / (static_cast<double>(n.bodies) * static_cast<double>(r.frames));
+  std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
+            << with_digits(r.rate, 6) << " /s, from " << with_digits(r.start, 6) << " s to "
+            << with_digits(r.time(r.frames - 1), 6) << " s\n"
+            << "  bodies    " << n.bodies << " in " << counted(r.tracks.size(), "track")
+            << ", seen " << with_digits(100 * share, 4) << " % of the time"
+            << (r.has_heading() ? ", with headings" : "") << "\n"
+            << "  places    up to " << with_digits(n.farthest, 4) << " m from the centre";
+  if (options.in_tank)
+    std::cout << " of a tank of radius " << shortest(options.tank_radius) << " m";
+  std::cout << ", median step " << with_digits(1000 * n.typical_step, 3) << " mm ("
+            << with_digits(n.typical_step * r.rate, 3) << " m/s)\n";
+}
+
+void print_info(const NamedRecording& named, const CheckedRecording& checked) {
+  const Recording& r = checked.recording;
+  std::cout << named.name << "\n  format    " << format_word(checked.format) << ", "
+            << counted(checked.files.size(), "file") << ", "
+            << counted(static_cast<std::size_t>(checked.rows), "row") << "; body "
+            << body_word(r.body) << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
+            << (r.held_out ? ", held out" : "") << "\n";
+  const bool ours =
+      checked.format == RecordingFormat::tidy || checked.format == RecordingFormat::table;
+  if (ours && !checked.unused_columns.empty()) {
+    std::cout << "  not used  ";
+    for (std::size_t i = 0; i < checked.unused_columns.size(); ++i) {
+      std::cout << (i == 0 ? "" : ", ") << checked.unused_columns[i];
+    }
+    std::cout << "\n";
+  }
+  if (!checked.refused()) print_tracks(checked, named.options);
+  std::cout << "  findings  " << findings_line(checked.findings) << "\n";
+}
+
+std::string csv_row(const Finding& f) {
+  std::string what = f.what;
+  std::replace(what.begin(), what.end(), ',', ';');
+  std::replace(what.begin(), what.end(), '"', '\'');
+  return f.place.file + "," + (f.place.line > 0 ? std::to_string(f.place.line) : "") + "," +
+         (f.frame >= 0 ? std::to_string(f.frame) : "") + "," +
+         (f.id >= 0 ? std::to_string(f.id) : "") + "," + check_word(f.check) + "," +
+         treatment_word(f.treatment) + "," + what + "\n";
+}
+
+/// Findings, of each kind so many that one reads them.
+void print_findings(const std::vector<Finding>& findings, bool all) {
+  constexpr int kShown = 10;
+  std::array<int, kChecks> shown{};
+  for (const Finding& finding : findings) {
+    if (all || ++shown[static_cast<std::size_t>(finding.check)] <= kShown) {
+      std::cout << finding.text() << "\n";
+    }
+  }
+  if (all) return;
+  for (int i = 0; i < kChecks; ++i) {
+    const int more = shown[static_cast<std::size_t>(i)] - kShown;
+    if (more > 0) {
+      std::cout << "... and " << more << " more of kind " << check_word(static_cast<Check>(i))
+                << " (--all shows them)\n";
+    }
+  }
+}
+
+/// Calls act for every recording; complaints about one do not keep the others back.
+template <class Act>
+int for_each(const std::vector<NamedRecording>& all, const Act& act) {
+  int code = Exit::done;
+  for (const NamedRecording& named : all) {
+    try {
+      const CheckedRecording checked = check_recording(named.files, named.options);
+      act(named, checked);
+      if (checked.refused()) code = Exit::bad_input;
+    } catch (const InputError& e) {
+      std::cout << std::flush;
+      std::cerr << e.what() << "\n";
+      code = Exit::bad_input;
+    }
+  }
+  return code;
+}
+
+}  // namespace
+
+int recording_info(const Arguments& arguments) {
+  VerbOptions options("recording info", "FILE...", "Tells what was recorded.");
+  add_reading_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  return for_each(named_recordings(options, options.positional()), print_info);
+}
+
+int recording_check(const Arguments& arguments) {
+  VerbOptions options("recording check", "FILE...",
+                      "Names everything in recordings that looks wrong, with file, frame and id, "
+                      "and what is done about it. Exit code 2: not usable as it is.");
+  add_reading_options(options);
+  options.add()("all", "show every finding, not ten of a kind")(
+      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE");
+  if (!options.parse(arguments)) return Exit::done;
+  std::string csv = "file,line,frame,id,check,treatment,what\n";
+  const auto act = [&](const NamedRecording& named, const CheckedRecording& checked) {
+    print_findings(checked.findings, options.has("all"));
+    const Recording& r = checked.recording;
+    std::cout << named.name << ": " << counted(static_cast<std::size_t>(checked.rows), "row")
+              << ", findings: " << findings_line(checked.findings);
+    if (checked.refused()) {
+      std::cout << "; refused\n";
+    } else {
+      std::cout << "; " << counted(r.tracks.size(), "track") << "\n";
+    }
+    for (const Finding& finding : checked.findings) csv += csv_row(finding);
+  };
+  const int code = for_each(named_recordings(options, options.positional()), act);
+  if (options.has("csv")) write_atomically(options.text("csv"), csv);
+  return code;
+}
+
+}  // namespace lilytank::cli

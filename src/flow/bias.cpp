@@ -1,0 +1,137 @@
+// The estimators' errors on recordings whose flow is known because it was simulated.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "lilytank/camera.hpp"
+#include "lilytank/flow_report.hpp"
+#include "lilytank/random.hpp"
+#include "lilytank/world.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kSettle = 5;     // s before a recording begins
+constexpr int kStepsPerTick = 2;  // 12.5 ms: the balls' motion is then nearly that of the equation
+
+/// What is different from the recordings.
+struct Variant {
+  std::string what;
+  double tracking = 1, random_force = 1, gusts = 1;  // factors
+  double window = 0;                                 // s, of Eq. 3; 0: as asked
+  bool smooth = true;                                // whether the smooth estimate is asked, too
+};
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all{
+      {"as recorded", 1, 1, 1, 0, true},
+      {"no tracking noise", 0, 1, 1, 0, true},
+      {"tracking noise x 4", 4, 1, 1, 0, true},
+      {"no random force", 1, 0, 1, 0, true},
+      {"random force x 2", 1, 2, 1, 0, true},
+      {"no gusts", 1, 1, 0, 0, true},
+      {"mean flow and inertia alone", 0, 0, 0, 0, false},
+      {"window of 0.17 s", 1, 1, 1, 0.17, false},
+      {"window of 0.6 s", 1, 1, 1, 0.6, false},
+      {"window of 1.2 s", 1, 1, 1, 1.2, false},
+  };
+  return all;
+}
+
+ActiveForce force(const char* name, std::initializer_list<double> values) {
+  ActiveForce out = with_defaults(*find_force(name));
+  std::copy(values.begin(), values.end(), out.p.begin());
+  return out;
+}
+
+Model model_of(const BallPhysics& ball, const NoiseBudget& noise, const Variant& variant,
+               std::shared_ptr<const FlowField> field) {
+  Model m = standard_model();
+  m.steps_per_tick = kStepsPerTick, m.dt = kTick / kStepsPerTick;
+  m.tank.radius = ball.tank_radius;
+  m.module.count = 0;
+  m.ball.radius = ball.radius, m.ball.mass = ball.mass, m.ball.drag_area = ball.drag_area;
+  m.flow.K_v = 1, m.flow.rho = ball.rho;
+  m.field = std::move(field);
+  m.start.radius = 0.85 * ball.tank_radius - ball.radius;
+  m.start.distance = 2.1 * ball.radius;
+  m.forces = {force("ball_drag", {ball.drag_coefficient, ball.draws}),
+              force("damping", {1 - std::exp(-ball.damping)})};
+  if (variant.random_force > 0) {
+    m.forces.push_back(force("stochastic", {variant.random_force * noise.stochastic}));
+  }
+  return m;
+}
+
+Recording simulate(const Model& model, const Recording& like, double tracking, std::uint64_t seed) {
+  World world(model, seed);
+  Trajectory trajectory;
+  const auto settle = static_cast<std::int64_t>(kSettle / model.dt);
+  for (std::int64_t step = 0; step < settle; ++step) world.step();
+  const double end = world.time() + like.frames / like.rate;
+  append_poses(world, trajectory);
+  while (world.time() < end && world.step() == RunStatus::ok) append_poses(world, trajectory);
+  Camera camera;
+  camera.rate = like.rate, camera.position_noise = tracking, camera.seed = seed;
+  return film(trajectory, camera, BodyKind::ball);
+}
+
+int bodies_of(const Recording& recording) {
+  std::vector<std::int64_t> ids;
+  for (const Track& t : recording.tracks) ids.push_back(t.id);
+  std::sort(ids.begin(), ids.end());
+  return static_cast<int>(std::unique(ids.begin(), ids.end()) - ids.begin());
+}
+
+// The simulated field as a truth for the cells.
+FlowTruth truth_of(const FlowField& field) {
+  return {field.cells(), field.samples()};
+}
+
+std::shared_ptr<const FlowField> scaled(const FlowEstimate& smooth, double gusts) {
+  std::vector<FlowSample> samples;
+  for (const FlowCell& c : smooth.cell) {
+    samples.push_back({c.flow.mu_x, c.flow.mu_y, gusts * c.flow.sigma_x, gusts * c.flow.sigma_y});
+  }
+  std::vector<bool> measured(samples.size(), true);
+  return std::make_shared<const FlowField>(smooth.cells, smooth.extent, std::move(samples),
+                                           std::move(measured), Interpolation::bilinear);
+}
+
+}  // namespace
+
+std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
+                                           const FlowEstimate& smooth, const BallPhysics& ball,
+                                           const FlowOptions& options, std::uint64_t seed,
+                                           const std::function<void(double)>& progress) {
+  if (!smooth.noise) throw InputError("biases are measured in the flow of a smooth estimate");
+  std::vector<FlowBiasRow> rows;
+  double done = 0;
+  for (const Variant& variant : variants()) {
+    const auto field = scaled(smooth, variant.gusts);
+    Model model = model_of(ball, *smooth.noise, variant, field);
+    std::vector<Recording> made;
+    for (const Recording& like : recordings) {
+      if (like.body != BodyKind::ball) continue;
+      model.ball.count = bodies_of(like);
+      made.push_back(simulate(model, like, variant.tracking * smooth.noise->tracking,
+                              derived_seed(seed, made.size())));
+    }
+    FlowOptions asked = options;
+    if (variant.window > 0) {
+      asked.smoothing.method = SmoothingMethod::polynomial, asked.smoothing.window = variant.window;
+    }
+    const FlowTruth truth = truth_of(*field);
+    rows.push_back(
+        {variant.what, "paper", compare_flow(estimate_paper(made, ball, asked), truth, true)});
+    if (variant.smooth) {
+      rows.push_back(
+          {variant.what, "smooth", compare_flow(estimate_smooth(made, ball, asked), truth, true)});
+    }
+    done += 1.0 / static_cast<double>(variants().size());
+    if (progress) progress(done);
+  }
+  return rows;
+}
+
+}  // namespace lilytank

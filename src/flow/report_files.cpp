@@ -1,0 +1,66 @@
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/flow_report.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+// Scenario keys under which balls move in this flow as they did in the recordings.
+std::string overlay(const FlowReport& report, const FlowEstimate& e) {
+  const BallPhysics& ball = report.ball;
+  std::string out = "# Balls in the flow of " + report.name + ", " + e.name +
+                    " estimate: lay this over a scenario with balls.\n[flow]\nfile = \"flow_" +
+                    e.name + ".csv\"\nK_v = 1\nrho = " + shortest(ball.rho) + "\n\n[ball]\n";
+  out += "radius = " + shortest(ball.radius) + "\nmass = " + shortest(ball.mass) +
+         "\ndrag_area = " + shortest(ball.drag_area) + "\n\n[forces]\n";
+  out += "ball_drag.C = " + shortest(ball.drag_coefficient) +
+         "\nball_drag.draws = " + shortest(ball.draws) + "\n";
+  out += "damping.D_linear = " + without_rounding(1 - std::exp(-ball.damping)) + "\n";
+  if (e.noise) {
+    out +=
+        "stochastic.sigma_stoch = " + shortest(std::round(e.noise->stochastic * 1e7) / 1e7) + "\n";
+  }
+  return out;
+}
+
+std::string bias_csv(const std::vector<FlowBiasRow>& rows) {
+  std::string out =
+      "recordings,estimator,cells,mean_rms_mps,mean_radial_mps,mean_around_mps,"
+      "std_rms_mps,std_bias_mps,mean_coverage,std_coverage\n";
+  for (const FlowBiasRow& row : rows) {
+    const FlowError& e = row.error;
+    out += row.what + "," + row.estimator + "," + std::to_string(e.cells);
+    for (const double v : {e.mean_rms, e.mean_radial, e.mean_around, e.deviation_rms,
+                           e.deviation_bias, e.mean_coverage, e.deviation_coverage}) {
+      out += "," + without_rounding(v);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_flow(const FlowReport& report, const std::string& dir) {
+  const std::filesystem::path path(dir);
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  const auto write = [&](const std::string& name, const std::string& content) {
+    write_atomically((path / name).string(), content);
+  };
+  for (const FlowEstimate& e : report.estimates) {
+    write("flow_" + e.name + ".csv", flow_csv(e));
+    write("cells_" + e.name + ".csv", flow_cells_csv(e));
+    write("balls_" + e.name + ".toml", overlay(report, e));
+    if (report.truth) write("errors_" + e.name + ".csv", flow_errors_csv(e, *report.truth));
+  }
+  if (!report.bias.empty()) write("bias.csv", bias_csv(report.bias));
+  write("flow.txt", flow_text(report));
+}
+
+}  // namespace lilytank

@@ -1,0 +1,15 @@
+// [experiment] and [[recording]] tables of an experiment file.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/scenario_layers.hpp"
+#include "lilytank/experiment.hpp"
+
+namespace lilytank {
+
+/// Name and sources of an experiment whose base is known; nothing is read. Keys of [experiment]
+/// other than its name hold for all recordings that do not say otherwise. Throws InputError.
+void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experiment);
+
+}  // namespace lilytank

@@ -1,0 +1,22 @@
+// The keys of a [[recording]], and of a camera: everything that RecordingOptions and Camera hold.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/scenario_layers.hpp"
+#include "lilytank/camera.hpp"
+#include "lilytank/recording_io.hpp"
+
+namespace lilytank {
+
+/// Puts one value into the options. `prefix` names the table in messages ("recording"). Throws
+/// InputError: unknown key, another kind, out of bounds.
+void assign_recording_option(const Assignment& from, const std::string& prefix,
+                             RecordingOptions& options);
+/// The same for a camera; the prefix is "camera".
+void assign_camera_option(const Assignment& from, Camera& camera);
+
+/// The format of a word, which stands at `place`. Throws InputError with the nearest right one.
+RecordingFormat format_of_word(const std::string& word, const SourcePlace& place);
+
+}  // namespace lilytank

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+
+#include "recording/checks.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kMostFrames = 2e9;
+
+/// One instant of the file.
+struct Instant {
+  std::int64_t frame;
+  double time;
+  std::size_t row;  ///< the first at it
+};
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class ClockFinder {
+ public:
+  ClockFinder(Sightings& s, const RecordingOptions& options, Report& report)
+      : s_(&s), options_(&options), report_(&report), file_{s.files.front(), 0, 0} {
+    for (const Sighting& row : s.rows) {
+      has_frames_ = has_frames_ && row.frame != kNoFrame;
+      has_times_ = has_times_ && !std::isnan(row.time);
+    }
+  }
+
+  FrameClock find() {
+    if (!has_times_ && options_->rate == 0) {
+      throw InputError(file_, "there are no times in it: give rate, the frames per second");
+    }
+    if (!has_frames_) {
+      collect(false);
+      number_frames();
+    } else {
+      collect(true);
+    }
+    check_span();
+    clock_.first = instants_.front().frame;
+    clock_.frames = static_cast<int>(instants_.back().frame - clock_.first) + 1;
+    fit();
+    if (has_times_) check();
+    return clock_;
+  }
+
+ private:
+  /// Each frame, or each time, once and in order.
+  void collect(bool by_frame) {
+    const auto before = [by_frame](const Instant& a, const Instant& b) {
+      return by_frame ? a.frame < b.frame : a.time < b.time;
+    };
+    for (std::size_t i = 0; i < s_->rows.size(); ++i) {
+      const Sighting& row = s_->rows[i];
+      const Instant instant{row.frame, row.time, i};
+      if (!instants_.empty() && !before(instants_.back(), instant) &&
+          !before(instant, instants_.back())) {
+        continue;
+      }
+      instants_.push_back(instant);
+    }
+    std::stable_sort(instants_.begin(), instants_.end(), before);
+    const auto same = [&](const Instant& a, const Instant& b) { return !before(a, b); };
+    instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
+  }
+
+  // Only times: the usual distance of two is a frame; then each time has the nearest frame.
+  void number_frames() {
+    double rate = options_->rate;
+    if (rate == 0) {
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < instants_.size(); ++i) {
+        steps.push_back(instants_[i].time - instants_[i - 1].time);
+      }
+      if (steps.empty()) throw InputError(file_, "there is a single time in it: give rate");
+      rate = 1 / median(steps);
+    }
+    std::int64_t frame = 0;
+    for (std::size_t i = 0; i < instants_.size(); ++i) {
+      if (i > 0) {
+        const double step = (instants_[i].time - instants_[i - 1].time) * rate;
+        if (!(step < kMostFrames)) {
+          throw InputError(s_->place(s_->rows[instants_[i].row]),
+                           "the time " + brief(instants_[i].time) + " s is far from all others");
+        }
+        // A time less than half a frame after another is a second one in the same frame.
+        frame += static_cast<std::int64_t>(std::floor(step + 0.5));
+      }
+      instants_[i].frame = frame;
+    }
+    std::unordered_map<double, std::int64_t> frames;
+    for (const Instant& instant : instants_) frames.emplace(instant.time, instant.frame);
+    for (Sighting& row : s_->rows) row.frame = frames.at(row.time);
+  }
+
+  void check_span() const {
+    const auto span = static_cast<double>(instants_.back().frame - instants_.front().frame) + 1;
+    const auto seen = static_cast<double>(instants_.size());
+    if (span <= kMostFrames && span <= 1e6 + 1000 * seen) return;
+    throw InputError(file_, "frames run from " + std::to_string(instants_.front().frame) + " to " +
+                                std::to_string(instants_.back().frame) + ", but only " +
+                                std::to_string(instants_.size()) +
+                                " of them hold anything: are frame numbers or times right?");
+  }
+
+  void fit() {
+    clock_.rate = options_->rate;
+    if (!has_times_) {
+      clock_.start = static_cast<double>(clock_.first) / clock_.rate;
+      return;
+    }
+    if (clock_.rate == 0) clock_.rate = likely_rate();
+    clock_.start = start_for(clock_.rate);
+  }
+
+  // Of the slopes over short and long spans, the one that puts most frames at their times: long
+  // ones do not mind rounded times, short ones do not mind frames that were lost once.
+  double likely_rate() const {
+    const std::size_t n = instants_.size();
+    double best = 0;
+    std::size_t most = 0;
+    for (const std::size_t span : {(n + 1) / 2, n / 8, std::size_t{20}, std::size_t{1}}) {
+      const double rate = span > 0 && span < n ? 1 / median_period(span) : 0;
+      if (!(rate > 0)) continue;
+      const std::size_t fitting = count_fitting(rate, report_->rules().clock_error);
+      if (fitting > most) best = rate, most = fitting;
+    }
+    if (best == 0) {
+      throw InputError(file_, n == 1 ? "there is a single frame in it: give rate"
+                                     : "times do not rise with frames");
+    }
+    // Times are written with few digits: 29.9998 is 30 where that explains them as well.
+    constexpr double kRounding = 0.02;  // frames
+    const double whole = std::floor(best + 0.5);
+    const bool near = whole >= 1 && std::fabs(whole - best) <= 0.01 * whole;
+    return near && count_fitting(whole, kRounding) >= most ? whole : best;
+  }
+
+  double median_period(std::size_t span) const {
+    std::vector<double> periods;
+    for (std::size_t i = 0; i + span < instants_.size(); ++i) {
+      const Instant &a = instants_[i], &b = instants_[i + span];
+      periods.push_back((b.time - a.time) / static_cast<double>(b.frame - a.frame));
+    }
+    return median(periods);
+  }
+
+  std::size_t count_fitting(double rate, double tolerance) const {
+    const double start = start_for(rate);
+    return static_cast<std::size_t>(
+        std::count_if(instants_.begin(), instants_.end(), [&](const Instant& i) {
+          return std::fabs(i.time - start - offset(i, rate)) * rate < tolerance;
+        }));
+  }
+
+  double start_for(double rate) const {
+    std::vector<double> starts;
+    for (const Instant& i : instants_) starts.push_back(i.time - offset(i, rate));
+    return median(starts);
+  }
+  double offset(const Instant& instant, double rate) const {
+    return static_cast<double>(instant.frame - clock_.first) / rate;
+  }
+
+  double error(const Sighting& row) const {
+    return (row.time - clock_.start) * clock_.rate - static_cast<double>(row.frame - clock_.first);
+  }
+
+  // Neighbouring frames that are off are one finding.
+  void check() {
+    const double most = report_->rules().clock_error;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < s_->rows.size(); ++i) {
+      if (std::fabs(error(s_->rows[i])) > most) rows.push_back(i);
+    }
+    if (rows.empty()) return;
+    std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+      return s_->rows[a].frame < s_->rows[b].frame;
+    });
+    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+      double worst = 0;
+      for (end = begin; end < rows.size(); ++end) {
+        const Sighting& row = s_->rows[rows[end]];
+        if (end > begin && row.frame > s_->rows[rows[end - 1]].frame + 1) break;
+        if (std::fabs(error(row)) > std::fabs(worst)) worst = error(row);
+      }
+      note(rows[begin], rows[end - 1], worst);
+    }
+    if (report_->rules()[Check::clock] == Treatment::mark) {
+      for (const std::size_t i : rows) s_->rows[i].unseen = true;
+    }
+  }
+
+  void note(std::size_t first, std::size_t last, double worst) {
+    const Sighting& a = s_->rows[first];
+    const std::int64_t from = a.frame, to = s_->rows[last].frame;
+    const std::string until = to > from ? " up to frame " + std::to_string(to) + ", at most" : "";
+    const Treatment treatment = report_->add(
+        Check::clock, s_->place(a), from, -1,
+        "taken" + until + " " + brief(std::fabs(worst)) + " frames (" +
+            time_text(std::fabs(worst) / clock_.rate) + ") " + (worst > 0 ? "late" : "early") +
+            " on a clock of " + brief(clock_.rate) + " frames/s");
+    if (treatment != Treatment::split) return;
+    for (Sighting& row : s_->rows) {
+      row.cut = row.cut || row.frame == from || row.frame == to + 1;
+    }
+  }
+
+  Sightings* s_;
+  const RecordingOptions* options_;
+  Report* report_;
+  SourcePlace file_;
+  bool has_frames_ = true, has_times_ = true;
+  std::vector<Instant> instants_;
+  FrameClock clock_;
+};
+
+}  // namespace
+
+FrameClock find_clock(Sightings& sightings, const RecordingOptions& options, Report& report) {
+  return ClockFinder(sightings, options, report).find();
+}
+
+}  // namespace lilytank

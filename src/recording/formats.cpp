@@ -1,0 +1,80 @@
+#include "recording/formats.hpp"
+
+#include <algorithm>
+
+#include "recording/columns.hpp"
+#include "recording/table.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+bool has(const std::vector<std::string_view>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool all_of(const std::vector<std::string_view>& names,
+            std::initializer_list<std::string_view> wanted) {
+  return std::all_of(wanted.begin(), wanted.end(), [&](auto name) { return has(names, name); });
+}
+
+RecordingFormat format_of_header(const std::vector<std::string_view>& names) {
+  using enum RecordingFormat;
+  if (all_of(names, {"xBody", "yBody", "imageNumber", "id"})) return fasttrack;
+  if (all_of(names, {"frame", "individual", "x", "y"})) return idtracker;
+  if (all_of(names, {"frame", "particle", "x", "y"})) return trackpy;
+  if (all_of(names, {"id", "x", "y"}) && (has(names, "frame") || has(names, "time"))) return tidy;
+  if (has(names, "x1") && has(names, "y1")) return idtracker_wide;
+  const auto centroid = [](std::string_view name) {
+    return name.starts_with("X#") || name.starts_with("X (") || name == "X";
+  };
+  if (has(names, "frame") && std::any_of(names.begin(), names.end(), centroid)) return trex;
+  return automatic;
+}
+
+}  // namespace
+
+bool one_file_a_track(RecordingFormat format) {
+  return format == RecordingFormat::swistrack_tracks || format == RecordingFormat::trex;
+}
+
+RecordingFormat detect_format(LineSource& lines) {
+  std::string_view line;
+  do {
+    if (!lines.next(line)) throw InputError({lines.file(), 1, 1}, "there is no table in it");
+  } while (trimmed(line).empty() || trimmed(line).front() == '#');
+  std::vector<std::string_view> names;
+  auto format = RecordingFormat::automatic;
+  if (trimmed(line).starts_with("% Frame number")) {
+    const bool particles = line.find("(world)") != std::string_view::npos;
+    format = particles ? RecordingFormat::swistrack_particles : RecordingFormat::swistrack_tracks;
+  } else {
+    split_cells(line, separator_of(line), names);
+    format = format_of_header(names);
+  }
+  if (format == RecordingFormat::automatic) {
+    throw InputError(lines.place(1),
+                     "these columns are of no format that is known: name the format, or say what "
+                     "the columns mean (format = \"table\")");
+  }
+  lines.again();
+  return format;
+}
+
+void read_sightings(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+  out.files.push_back(lines.file());
+  read_columns(lines, options, out);
+}
+
+Sightings read_sightings(const std::vector<std::string>& files, const RecordingOptions& options) {
+  Sightings out;
+  out.format = options.format;
+  for (const std::string& file : files) {
+    LineSource lines(file);
+    if (out.format == RecordingFormat::automatic) out.format = detect_format(lines);
+    read_sightings(lines, options, out);
+  }
+  return out;
+}
+
+}  // namespace lilytank

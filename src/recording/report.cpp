@@ -1,0 +1,61 @@
+#include "recording/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lilytank {
+
+Treatment Report::add(Check check, SourcePlace place, std::int64_t frame, std::int64_t id,
+                      std::string what) {
+  const Treatment treatment = rules_[check];
+  add(check, treatment, std::move(place), frame, id, std::move(what));
+  return treatment;
+}
+
+void Report::add(Check check, Treatment treatment, SourcePlace place, std::int64_t frame,
+                 std::int64_t id, std::string what) {
+  refused_ = refused_ || treatment == Treatment::refuse;
+  findings_.push_back({check, treatment, std::move(place), frame, id, std::move(what)});
+}
+
+std::vector<Finding> Report::take() {
+  std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& a, const Finding& b) {
+    return std::pair(a.frame, a.id) < std::pair(b.frame, b.id);
+  });
+  return std::move(findings_);
+}
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string length_text(double metres) {
+  return std::fabs(metres) < 1 ? brief(1000 * metres) + " mm" : brief(metres) + " m";
+}
+
+std::string time_text(double seconds) {
+  return std::fabs(seconds) < 1 ? brief(1000 * seconds) + " ms" : brief(seconds) + " s";
+}
+
+CheckRules::CheckRules() {
+  using enum Treatment;
+  treatments.fill(split);
+  for (const Check check : {Check::gap, Check::spike, Check::outside}) (*this)[check] = mark;
+  for (const Check check : {Check::duplicate, Check::clock, Check::units}) {
+    (*this)[check] = refuse;
+  }
+}
+
+std::string Finding::text() const {
+  static constexpr const char* done[] = {"kept", "marked", "track cut", "refused"};
+  std::string out = place.text() + ": ";
+  if (frame >= 0) out += "frame " + std::to_string(frame) + ", ";
+  if (id >= 0) out += "id " + std::to_string(id) + ", ";
+  return out + check_word(check) + ": " + what + " (" + done[static_cast<std::size_t>(treatment)] +
+         ")";
+}
+
+}  // namespace lilytank

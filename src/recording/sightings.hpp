@@ -1,0 +1,53 @@
+// What a file says, row by row, before it is checked and made into tracks.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "lilytank/recording_io.hpp"
+
+namespace lilytank {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kNoFrame = std::numeric_limits<std::int64_t>::min();
+
+/// One body in one frame. Where a number is not given it is kUnknown.
+struct Sighting {
+  std::int64_t frame = kNoFrame;  ///< the file's number
+  std::int64_t id = 0;
+  double time = kUnknown;  ///< s
+  double x = 0, y = 0;     ///< in the file's units, later m
+  double theta = kUnknown;
+  std::int32_t line = 0;
+  std::int16_t file = 0;  ///< index into Sightings::files
+  bool unseen = false;    ///< counts as not seen, by a check
+  bool cut = false;       ///< the track is cut before it, by a check
+};
+
+/// How a format counts, where the user does not say otherwise.
+struct FormatUnits {
+  double pixel = 1;        ///< m per unit of length; 0: pixels, of which the user must say the size
+  bool y_down = false;     ///< image coordinates
+  bool clockwise = false;  ///< headings
+};
+
+/// All of a recording's files.
+struct Sightings {
+  RecordingFormat format = RecordingFormat::tidy;
+  FormatUnits units;
+  std::vector<std::string> files;
+  std::vector<Sighting> rows;      ///< in the files' order
+  bool identities = true;          ///< false: ids mean nothing yet
+  bool headings = false;           ///< there is a column of headings
+  std::vector<std::string> names;  ///< of bodies, by id, if the file has words for ids
+  std::unordered_map<std::string, std::int64_t> words;  ///< their ids
+  double first_date = kUnknown;     ///< s since 1970 of the first row, if times are dates
+  std::vector<std::string> unused;  ///< columns that were not read
+  SourcePlace place(const Sighting& row) const {
+    return {files[static_cast<std::size_t>(row.file)], row.line, 0};
+  }
+};
+
+}  // namespace lilytank

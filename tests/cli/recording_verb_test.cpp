@@ -1,0 +1,141 @@
+// lilytank recording: what users see of trackers' files.
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "lilytank/recording_io.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kSmall =
+    "frame,time,id,x,y\n0,0,0,0.1,0.1\n0,0,1,-0.1,0\n1,0.04,0,0.101,0.1\n1,0.04,1,-0.1,0.001\n"
+    "2,0.08,0,0.102,0.1\n2,0.08,1,-0.1,0.002\n";
+const std::string kDuplicate = kSmall + "2,0.08,1,-0.1,0.05\n";
+
+class RecordingVerb : public testing::Test {
+ protected:
+  RecordingVerb() {
+    lilytank_.here.write("small.csv", kSmall);
+    lilytank_.here.write("duplicate.csv", kDuplicate);
+  }
+  Program lilytank_;
+};
+
+TEST_F(RecordingVerb, infoTellsWhatIsThere) {
+  const Answer a = lilytank_("recording info small.csv");
+  EXPECT_EQ(a.code, 0) << a.err;
+  for (const char* text : {"small.csv\n", "tidy, 1 file, 6 rows", "3 frames at 25 /s",
+                           "2 in 2 tracks, seen 100 % of the time", "findings  none"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+}
+
+TEST_F(RecordingVerb, checkNamesWhatIsWrongAndGoesOn) {
+  const Answer a = lilytank_("recording check duplicate.csv none.csv small.csv --csv found.csv");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_NE(a.out.find("duplicate.csv:8: frame 2, id 1, duplicate: seen before in this frame, in "
+                       "line 7, 48 mm away (refused)"),
+            std::string::npos)
+      << a.out;
+  EXPECT_NE(a.out.find("small.csv: 6 rows, findings: none; 2 tracks"), std::string::npos) << a.out;
+  EXPECT_EQ(a.err, "cannot read 'none.csv': No such file or directory\n");
+  EXPECT_EQ(lilytank_.here.read("found.csv"),
+            "file,line,frame,id,check,treatment,what\nduplicate.csv,8,2,1,duplicate,refuse,seen "
+            "before in this frame; in line 7; 48 mm away\n");
+  EXPECT_EQ(lilytank_("recording check duplicate.csv --read checks.duplicate=mark").code, 0);
+}
+
+TEST_F(RecordingVerb, convertGoesThereAndBack) {
+  const std::string scale = "tank_circle=[300,200,150]";
+  Answer a = lilytank_("recording convert small.csv --to trackpy --out p.csv --write " + scale);
+  EXPECT_EQ(a.code, 0) << a.err;
+  a = lilytank_("recording convert p.csv --out back.csv.gz --read " + scale + " --read rate=25");
+  EXPECT_EQ(a.code, 0) << a.err;
+  a = lilytank_("recording convert back.csv.gz --out back.csv");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(lilytank_.here.read("back.csv"),
+            "frame,time,id,x,y\n0,0.0000,0,0.1000000,0.1000000\n0,0.0000,1,-0.1000000,0.0000000\n"
+            "1,0.0400,0,0.1010000,0.1000000\n1,0.0400,1,-0.1000000,0.0010000\n"
+            "2,0.0800,0,0.1020000,0.1000000\n2,0.0800,1,-0.1000000,0.0020000\n");
+}
+
+TEST_F(RecordingVerb, filesOfOneTrackEachAreOneRecording) {
+  ASSERT_EQ(lilytank_("recording convert small.csv --to trex --out trex").code, 0);
+  const Answer a = lilytank_("recording info trex/*.csv small.csv");
+  EXPECT_NE(a.out.find("trex/small_id0.csv and 1 more\n  format    trex, 2 files"),
+            std::string::npos)
+      << a.out << a.err;
+  EXPECT_NE(a.out.find("small.csv\n  format    tidy"), std::string::npos) << a.out;
+}
+
+TEST_F(RecordingVerb, experimentsAreTheirRecordings) {
+  lilytank_.here.write("e/experiment.toml",
+                       "[tank]\nradius = 0.4\n[[recording]]\nfile = \"../small.csv\"\n"
+                       "[[recording]]\nfile = \"../duplicate.csv\"\nbody = \"ball\"\n"
+                       "checks.duplicate = \"keep\"\n");
+  const Answer a = lilytank_("recording info e/experiment.toml");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("body ball"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("of a tank of radius 0.4 m"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("findings  1 duplicate"), std::string::npos) << a.out;
+}
+
+TEST_F(RecordingVerb, convertDoesNotWriteWhatIsRefused) {
+  const Answer a = lilytank_("recording convert duplicate.csv --out out.csv");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_EQ(a.err,
+            "duplicate.csv:8: frame 2, id 1, duplicate: seen before in this frame, in line 7, 48 "
+            "mm away (refused); checks.duplicate says what is done about it\n");
+  EXPECT_FALSE(lilytank_.here.has("out.csv"));
+}
+
+TEST_F(RecordingVerb, aRunIsFilmed) {
+  lilytank_.here.write("tiny.toml", kTiny);
+  ASSERT_EQ(lilytank_("run tiny.toml --out run --set output.rate=40 --quiet").code, 0);
+  const std::string command =
+      "recording convert run --camera rate=20 --camera position_noise='0.5 mm' --camera seed=7 ";
+  Answer a = lilytank_(command + "--out film.csv.gz");
+  EXPECT_EQ(a.code, 0) << a.err;
+  ASSERT_EQ(lilytank_(command + "--out again.csv.gz").code, 0);
+  EXPECT_EQ(lilytank_.here.read("film.csv.gz"), lilytank_.here.read("again.csv.gz"));
+  const Recording film = read_recording(lilytank_.here.path("film.csv.gz"));
+  EXPECT_DOUBLE_EQ(film.rate, 20);
+  EXPECT_EQ(film.frames, 101);
+  EXPECT_EQ(film.tracks.size(), 4u);
+  EXPECT_TRUE(film.has_heading());
+  a = lilytank_("recording convert run --camera rate=50 --out fast.csv");
+  EXPECT_NE(a.err.find("poses were stored 40 times a second"), std::string::npos) << a.err;
+  a = lilytank_("recording convert run --camera lag=1 --out x.csv");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_EQ(a.err, "--camera lag=1: unknown key 'camera.lag'\n");
+  EXPECT_EQ(lilytank_("recording convert run --read body=ball --out x.csv").code, 2);
+}
+
+TEST_F(RecordingVerb, mistakesAreOneLineAndTheNearestRightWord) {
+  for (const auto& [arguments, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"recording", "lilytank recording: say info, check or convert\n"},
+           {"recording chek a.csv",
+            "lilytank recording: say info, check or convert, not 'chek' - did you mean 'check'?\n"},
+           {"recording info",
+            "lilytank recording info: which recording? write a file or an experiment file\n"},
+           {"recording convert small.csv",
+            "lilytank recording convert: where to? give --out FILE\n"},
+           {"recording info small.csv --read rat=25",
+            "--read rat=25: unknown key 'recording.rat' - did you mean 'rate'?\n"},
+           {"recording info small.csv --read body=bal",
+            "--read body=bal: recording.body = \"bal\" is none of lily, ball, point - did you mean "
+            "'ball'?\n"},
+           {"recording convert small.csv --camera rate=3 --out a.csv",
+            "lilytank recording convert: --camera goes with the directory of one run\n"},
+       }) {
+    const Answer a = lilytank_(arguments);
+    EXPECT_EQ(a.code, 2) << arguments;
+    EXPECT_EQ(a.err, complaint);
+    EXPECT_EQ(a.out, "");
+  }
+  const Answer a = lilytank_("recording convert small.csv --to trackpi --out a.csv");
+  EXPECT_NE(a.err.find("did you mean 'trackpy'?"), std::string::npos) << a.err;
+}
+
+}  // namespace
+}  // namespace lilytank
