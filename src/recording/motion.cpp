@@ -130,28 +130,49 @@ class MotionChecks {
     if (after != nullptr) after->cut = true;
   }
 
-  // There and back: the neighbours agree with each other and not with the one between.
+  /// How far a sighting is from the line between those before and after it.
+  struct Aside {
+    double place = 0, turn = 0;  ///< m, rad
+    double score = 0;            ///< the larger of both, in units of what is impossible
+    bool back = false;           ///< the neighbours are nearer to each other than to it
+  };
+
+  Aside aside(const Point& a, const Point& b, const Point& c) const {
+    Aside out;
+    if (c.frame - a.frame > kFarthest || b.cut || c.cut) return out;
+    const Rate through = rate_between(a, c);
+    const double frames = std::max(b.frame - a.frame, c.frame - b.frame);
+    out.place = surprise(a, b, through);
+    out.score = out.place / (frames * jump_);
+    out.back = length(c.x - a.x, c.y - a.y) < out.place;
+    if (!headings_) return out;
+    out.turn = turn_surprise(a, b, through);
+    if (out.turn / (frames * turn_) <= out.score) return out;
+    out.score = out.turn / (frames * turn_);
+    out.back = std::fabs(wrapped(c.theta - a.theta)) < out.turn / 2;
+    out.place = 0;
+    return out;
+  }
+
+  // There and back: the sightings around one agree with each other and not with it, and it is
+  // further off its line than they are off theirs.
   void spikes(Path& path) {
     const auto seen = seen_points(path);
+    std::vector<Aside> asides(seen.size());
     for (std::size_t i = 1; i + 1 < seen.size(); ++i) {
-      const Point &a = *seen[i - 1], &c = *seen[i + 1];
-      Point& b = *seen[i];
-      if (c.frame - a.frame > kFarthest || b.cut || c.cut) continue;
-      const Rate through = rate_between(a, c);
-      const double frames = std::max(b.frame - a.frame, c.frame - b.frame);
-      const double away = surprise(a, b, through);
-      const double across = length(c.x - a.x, c.y - a.y);
-      const bool place = away > frames * jump_ && across < away;
-      const double turned = headings_ ? turn_surprise(a, b, through) : 0;
-      const bool heading = headings_ && turned > frames * turn_ &&
-                           std::fabs(wrapped(c.theta - a.theta)) < turned / 2;
-      if (!place && !heading) continue;
+      asides[i] = aside(*seen[i - 1], *seen[i], *seen[i + 1]);
+    }
+    for (std::size_t i = 1; i + 1 < seen.size(); ++i) {
+      const Aside& here = asides[i];
+      const bool most = here.score >= asides[i - 1].score && here.score > asides[i + 1].score;
+      if (here.score <= 1 || !here.back || !most) continue;
       const std::string what =
-          place ? length_text(away) + " from the line between the sightings around it"
-                : "heading " + brief(turned) + " rad off those around it";
+          here.place > 0
+              ? length_text(here.place) + " from the line between the sightings around it"
+              : "heading " + brief(here.turn) + " rad off those around it";
+      Point& b = *seen[i];
       treat(c_->report.add(Check::spike, c_->place(b), c_->frame(b), path.id, what), b,
             seen[i + 1]);
-      if (b.unseen) ++i;  // the next one has no neighbour to be compared with
     }
   }
 
