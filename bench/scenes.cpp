@@ -65,8 +65,12 @@ Model still_world() {
 }
 
 std::vector<Scene> scenes() {
+  Model centre = paper_world(15, Gusts::per_module);
+  centre.flow.at = FlowAt::centre;
   return {{"paper", paper_world()},
+          {"paper, moment-matched gusts", paper_world(15, Gusts::moment_matched)},
           {"paper, gusts per module", paper_world(15, Gusts::per_module)},
+          {"paper, gusts per module, centre", centre},
           {"still water", still_world()},
           {"60 modules", paper_world(60)},
           {"240 modules", paper_world(240)},
