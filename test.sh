@@ -5,8 +5,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/packages.sh
 
+((EUID == 0)) || slurm_packages=()
 need_packages "${build_packages[@]}" "${film_packages[@]}" "${test_packages[@]}" \
-              "${bench_packages[@]}"
+              "${slurm_packages[@]}" "${bench_packages[@]}"
 
 run_tests() {  # <tree> [ctest option...]
   ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error \

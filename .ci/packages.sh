@@ -4,6 +4,7 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtom
                 libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
 test_packages=(libgtest-dev)
+slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run
 # Other engines are only measured against, never linked into the simulator.
 bench_packages=(libbenchmark-dev libode-dev libbox2d-dev libchipmunk-dev)
 

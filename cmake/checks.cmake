@@ -12,5 +12,7 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
 set_tests_properties(layers style package PROPERTIES LABELS tree TIMEOUT 300)
 
-# tests/slurm/run.sh PROGRAM tries studies under a real Slurm; it is run by hand, as it needs minutes of
-# an otherwise idle machine.
+# Studies under a real Slurm of one node; skipped, with the reason, where only root could start one or
+# the package is not to be had. It mostly waits for Slurm, so it goes first and beside other tests.
+add_test(NAME slurm COMMAND bash ${PROJECT_SOURCE_DIR}/tests/slurm/run.sh $<TARGET_FILE:lilytank>)
+set_tests_properties(slurm PROPERTIES LABELS slurm SKIP_RETURN_CODE 77 TIMEOUT 900 COST 1000)

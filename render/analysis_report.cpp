@@ -216,7 +216,6 @@ MapPanel panel_of(const VelocityMap& map, const std::vector<double>& values,
   panel.title = title;
   panel.cells = map.cells, panel.extent = map.extent;
   panel.values = values;
-  panel.label = "mean velocity (m/s)";
   panel.scale = ColourScale::diverging;
   return panel;
 }
@@ -236,11 +235,13 @@ double usual_most(const std::vector<const std::vector<double>*>& all) {
   return step * std::ceil(*at / step);
 }
 
-void add_row(Map& map, const VelocityMap& v, const std::string& name, double most) {
+void add_row(Map& map, const VelocityMap& v, const std::string& name, const std::string& what,
+             double most) {
   MapPanel x = panel_of(v, v.vx, name + ": along x"), y = panel_of(v, v.vy, name + ": along y");
   x.low = y.low = -most, x.high = y.high = most;
   MapPanel speed = panel_of(v, {}, name);
-  speed.label = "size of the mean velocity (m/s)";
+  x.label = y.label = what + " (m/s)";
+  speed.label = "size of the " + what + " (m/s)";
   speed.scale = ColourScale::rising;
   for (std::size_t i = 0; i < v.vx.size(); ++i) {
     speed.values.push_back(std::hypot(v.vx[i], v.vy[i]));
@@ -275,14 +276,14 @@ Map velocity_maps(const Analysis& analysis) {
   for (const VelocityMap& v : analysis.maps) all.push_back(&v.vx), all.push_back(&v.vy);
   const double most = usual_most(all);
   for (std::size_t i = 0; i < analysis.maps.size(); ++i) {
-    add_row(map, analysis.maps[i], analysis.sources[i].name, most);
+    add_row(map, analysis.maps[i], analysis.sources[i].name, "mean velocity", most);
   }
   if (analysis.maps.size() != 2) return map;
   VelocityMap less = analysis.maps[1];
   for (std::size_t i = 0; i < less.vx.size(); ++i) {
     less.vx[i] -= analysis.maps[0].vx[i], less.vy[i] -= analysis.maps[0].vy[i];
   }
-  add_row(map, less, "difference", usual_most({&less.vx, &less.vy}));
+  add_row(map, less, "difference", "difference", usual_most({&less.vx, &less.vy}));
   return map;
 }
 

@@ -10,9 +10,13 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <sstream>
 
 #include "lilytank/error.hpp"
+#include "lilytank/render.hpp"
 
 extern char** environ;
 
@@ -20,6 +24,8 @@ namespace lilytank {
 namespace {
 
 constexpr std::size_t kMostWords = 4000;  // bytes of ffmpeg's messages that are kept
+constexpr const char* kNotThere =
+    "films need the program ffmpeg, which is not in PATH; install it, or draw stills";
 
 void close_and_forget(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);
@@ -55,6 +61,18 @@ int spawn(const std::vector<std::string>& command, int standard_in, int standard
 }
 
 }  // namespace
+
+void require_film_program() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string file = (folder.empty() ? "." : folder) + "/ffmpeg";
+    std::error_code problem;
+    const bool is_file = std::filesystem::is_regular_file(file, problem);
+    if (is_file && ::access(file.c_str(), X_OK) == 0) return;
+  }
+  throw InputError(kNotThere);
+}
 
 std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& output) {
   std::vector<std::string> c{"ffmpeg",
@@ -113,8 +131,7 @@ Ffmpeg::Ffmpeg(const Encoding& encoding, const std::string& output) : output_(ou
   ::close(sockets[1]), ::close(pipes[1]);
   if (error != 0) {
     close_and_forget(input_), close_and_forget(messages_);
-    throw InputError(error == ENOENT ? std::string("films need the program ffmpeg, which is not in "
-                                                   "PATH; install it, or draw stills")
+    throw InputError(error == ENOENT ? std::string(kNotThere)
                                      : std::string("cannot start ffmpeg: ") + std::strerror(error));
   }
   child_ = child;

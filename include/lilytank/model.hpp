@@ -62,6 +62,9 @@ struct FlowParameters {
   double rho = 1000;  ///< kg/m^3
 };
 
+/// The most that an initiator can wait: Firmware::waiting, a byte, then begins with 255.
+inline constexpr int kMostReplyTicks = 253;
+
 /// Latches and firmware of a module.
 struct ControlParameters {
   bool latches = true;  ///< false: EPMs off, nothing latches
@@ -69,7 +72,7 @@ struct ControlParameters {
   double capture_distance = 0.005;  ///< m, between face centres
   double capture_angle = 0.2;       ///< rad, from anti-parallel
   double initiative = 0.1;          ///< probability per 25 ms to begin an exchange
-  int reply_ticks = 5;              ///< ticks that an initiator waits for its answer
+  int reply_ticks = 5;              ///< that an initiator waits, 1 .. kMostReplyTicks
   double evaluation_rate = 0.68;    ///< 1/s per bond, of the event-driven clock
   double off_scale = 256;           ///< an off face returns with probability (ticks off) / scale
 };

@@ -33,6 +33,8 @@ struct FilmOptions {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done)> progress;
 };
+/// Throws InputError if ffmpeg, which films need, is not in PATH: to be asked before long work.
+void require_film_program();
 /// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
 /// the file appears whole or not at all. Throws InputError if ffmpeg is missing or fails.
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file);

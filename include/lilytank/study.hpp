@@ -34,11 +34,13 @@ struct StoppingRule {
 
 /// One combination of the axes' values.
 struct Setting {
-  std::string label;               ///< "count=15, p=p_e", for legends
-  std::vector<std::string> texts;  ///< the axes' values as in table.csv: "0.3", "p_e"
-  std::vector<double> values;      ///< the same in SI units; of words and overlays the position
-  double duration = 0;             ///< s
-  std::uint64_t identity = 0;      ///< of the resolved scenario, with run.seed = 0
+  std::string label;  ///< "count=15, p=p_e", for legends
+  /// The axes' values as in table.csv: "0.3", "p_e". Numbers are in the unit of the scenario's key,
+  /// whatever unit the study file gives them in: SI, but % for flow.pump_power.
+  std::vector<std::string> texts;
+  std::vector<double> values;  ///< the same as numbers; of words and overlays the position
+  double duration = 0;         ///< s
+  std::uint64_t identity = 0;  ///< of the resolved scenario, with run.seed = 0
 };
 
 /// All that decides what is run and how the table looks. It is stored as study.toml.
@@ -154,9 +156,9 @@ void write_table(const StoredStudy& study, const std::string& dir);
 bool is_metric(const std::string& name);
 /// "1", "s", "1/s".
 std::string metric_unit(const std::string& name);
-/// A metric of one setting's finished runs with its 95 % interval, as in SettingSummary: copies
-/// standing at the end, full_yield, assembly_rate (1/s), and time_k, the restricted mean time to
-/// the k-th copy (s).
+/// A metric of one setting's runs, diverged ones left out, with its 95 % interval. As in
+/// SettingSummary: copies standing at the end; full_yield, of the runs that could make a copy;
+/// assembly_rate (1/s). And time_k, the mean time to the k-th copy restricted to `duration` (s).
 Estimate metric_estimate(const std::string& name, const std::vector<const RunRow*>& runs,
                          double duration);
 

@@ -19,7 +19,7 @@ struct CopyTime {
 /// One setting. Everything but the counts of runs and `illegal` is from its finished runs only.
 struct SettingSummary {
   std::string label;
-  std::vector<double> values;  ///< of the axes; empty where the table has no run of the setting
+  std::vector<double> values;  ///< as in RunRow; empty where the table has no run of the setting
   int runs = 0;                ///< finished
   int diverged = 0, stopped = 0;
   std::int64_t illegal = 0;     ///< assemblies that the rules cannot make, in all runs
@@ -69,7 +69,8 @@ StudySummary summarise(const StudyTable& table);
 std::string study_text(const StudySummary& summary);
 
 /// Tidy tables, one observation a row, SI units except copies per hour (a column says so); unknown
-/// and unbounded cells are empty. Settings come as number, label and one column an axis.
+/// and unbounded cells are empty. Settings come as number, label and one column an axis (in the
+/// unit of its key, see Setting::texts; for words and overlays their position in the study file).
 std::string summary_csv(const StudySummary& summary);      ///< a row an estimate
 std::string yield_curve_csv(const StudySummary& summary);  ///< a row a time
 std::string survival_csv(const StudySummary& summary);     ///< a row a step, from (0 s, 1) on

@@ -16,7 +16,7 @@ struct RunRow {
   int replicate = 0;  ///< from 0; equal replicates of all settings share a seed
   std::uint64_t seed = 0;
   RunStatus status = RunStatus::ok;
-  std::vector<double> values;  ///< of the axes, in their order
+  std::vector<double> values;  ///< of the axes, in their order; units as in Setting::texts
   double duration = 0;         ///< s, simulated
   int possible = 0;            ///< copies that the modules could make
   int copies = 0;              ///< standing at the end

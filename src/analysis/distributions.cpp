@@ -130,57 +130,60 @@ BodySums radial_density(const SmoothRecording& recording, double tank_radius, co
   return sums;
 }
 
-VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent) {
-  struct Passage {
-    std::size_t cell;
-    double n = 0, vx = 0, vy = 0;
-  };
-  const auto count = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells);
-  VelocityMap map{cells,
-                  extent,
-                  {},
-                  {},
-                  {},
-                  {},
-                  std::vector<std::int64_t>(count, 0),
-                  std::vector<int>(count, 0)};
-  const Bins bins{-extent, extent, cells};
-  std::vector<double> n(count, 0), sx(count, 0), sy(count, 0);
-  std::vector<Passage> passages;  // of every body through every cell that it saw
-  for (const SmoothRecording& recording : recordings) {
-    const std::size_t bodies = BodyNumbers(recording).count();
-    std::vector<Passage> own(bodies * count);
-    for_each_seen(recording, Quantity::speed,
-                  [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
-                    const int ix = bins.of(t.x[f]), iy = bins.of(t.y[f]);
-                    if (ix < 0 || iy < 0) return;
-                    const auto cell = static_cast<std::size_t>(iy * cells + ix);
-                    Passage& p = own[body * count + cell];
-                    ++p.n, p.vx += t.vx[f], p.vy += t.vy[f];
-                  });
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      if (own[i].n == 0) continue;
-      own[i].cell = i % count;
-      passages.push_back(own[i]);
-      n[i % count] += own[i].n, sx[i % count] += own[i].vx, sy[i % count] += own[i].vy;
-    }
+namespace {
+
+// What one body did in one cell.
+struct Passage {
+  std::size_t cell = 0;
+  double n = 0, vx = 0, vy = 0;
+};
+
+void add_passages(const SmoothRecording& recording, const Bins& bins,
+                  std::vector<Passage>& passages) {
+  const auto count = static_cast<std::size_t>(bins.count) * static_cast<std::size_t>(bins.count);
+  std::vector<Passage> own(BodyNumbers(recording).count() * count);
+  for_each_seen(recording, Quantity::speed,
+                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
+                  const int ix = bins.of(t.x[f]), iy = bins.of(t.y[f]);
+                  if (ix < 0 || iy < 0) return;
+                  const auto cell = static_cast<std::size_t>(iy * bins.count + ix);
+                  Passage& p = own[body * count + cell];
+                  p.cell = cell;
+                  ++p.n, p.vx += t.vx[f], p.vy += t.vy[f];
+                });
+  for (const Passage& p : own) {
+    if (p.n > 0) passages.push_back(p);
   }
+}
+
+}  // namespace
+
+VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  map.vx.assign(count, kNone), map.vy.assign(count, kNone);
-  for (std::size_t c = 0; c < count; ++c) {
-    map.samples[c] = std::llround(n[c]);
-    if (n[c] > 0) map.vx[c] = sx[c] / n[c], map.vy[c] = sy[c] / n[c];
+  const auto count = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells);
+  std::vector<Passage> passages, totals(count);
+  for (const SmoothRecording& r : recordings) add_passages(r, {-extent, extent, cells}, passages);
+  for (const Passage& p : passages) {
+    Passage& total = totals[p.cell];
+    total.n += p.n, total.vx += p.vx, total.vy += p.vy;
+  }
+  VelocityMap map;
+  map.cells = cells, map.extent = extent;
+  map.bodies.assign(count, 0), map.se_x.assign(count, 0), map.se_y.assign(count, 0);
+  for (const Passage& total : totals) {
+    map.samples.push_back(std::llround(total.n));
+    map.vx.push_back(total.n > 0 ? total.vx / total.n : kNone);
+    map.vy.push_back(total.n > 0 ? total.vy / total.n : kNone);
   }
   // The error of a ratio of sums over independent bodies, to first order.
-  map.se_x.assign(count, 0), map.se_y.assign(count, 0);
   for (const Passage& p : passages) {
     ++map.bodies[p.cell];
     const double dx = p.vx - p.n * map.vx[p.cell], dy = p.vy - p.n * map.vy[p.cell];
     map.se_x[p.cell] += dx * dx, map.se_y[p.cell] += dy * dy;
   }
   for (std::size_t c = 0; c < count; ++c) {
-    const double m = map.bodies[c];
-    const double k = m > 1 ? m / (m - 1) / (n[c] * n[c]) : kNone;
+    const double m = map.bodies[c], n = totals[c].n;
+    const double k = m > 1 ? m / (m - 1) / (n * n) : kNone;
     map.se_x[c] = std::sqrt(k * map.se_x[c]), map.se_y[c] = std::sqrt(k * map.se_y[c]);
   }
   return map;

@@ -18,30 +18,6 @@ int copy_of(const std::string& name) {
   return plain && k ? static_cast<int>(*k) : 0;
 }
 
-Estimate copies(const std::vector<const RunRow*>& runs) {
-  std::vector<double> values;
-  for (const RunRow* run : runs) values.push_back(run->copies);
-  return mean_interval(values);
-}
-
-Estimate full_yield(const std::vector<const RunRow*>& runs) {
-  std::int64_t full = 0;
-  for (const RunRow* run : runs) full += reached_all(*run);
-  return wilson(full, static_cast<std::int64_t>(runs.size()));
-}
-
-// Copies over the time in which there were modules left to build with.
-Estimate assembly_rate(const std::vector<const RunRow*>& runs) {
-  std::int64_t events = 0;
-  double exposure = 0;
-  for (const RunRow* run : runs) {
-    events += reached_copies(*run);
-    exposure += reached_all(*run) ? run->completion[static_cast<std::size_t>(run->possible - 1)]
-                                  : run->duration;
-  }
-  return poisson_rate(events, exposure);
-}
-
 }  // namespace
 
 bool is_metric(const std::string& name) {
@@ -60,9 +36,9 @@ Estimate metric_estimate(const std::string& name, const std::vector<const RunRow
   for (const RunRow* run : runs) {
     if (run->status == RunStatus::ok) finished.push_back(run);
   }
-  if (name == "copies") return copies(finished);
-  if (name == "full_yield") return full_yield(finished);
-  if (name == "assembly_rate") return assembly_rate(finished);
+  if (name == "copies") return copies_of(finished);
+  if (name == "full_yield") return full_yield_of(finished);
+  if (name == "assembly_rate") return assembly_rate_of(finished);
   return restricted_mean(kaplan_meier(durations_to(finished, copy_of(name))), duration);
 }
 

@@ -53,4 +53,27 @@ std::vector<Duration> durations_to(const std::vector<const RunRow*>& runs, int k
   return durations;
 }
 
+Estimate copies_of(const std::vector<const RunRow*>& runs) {
+  std::vector<double> copies;
+  for (const RunRow* row : runs) copies.push_back(row->copies);
+  return mean_interval(copies);
+}
+
+Estimate full_yield_of(const std::vector<const RunRow*>& runs) {
+  std::int64_t full = 0, judged = 0;
+  for (const RunRow* row : runs) full += reached_all(*row), judged += row->possible > 0;
+  return wilson(full, judged);
+}
+
+Estimate assembly_rate_of(const std::vector<const RunRow*>& runs) {
+  std::int64_t copies = 0;
+  double exposure = 0;
+  for (const RunRow* row : runs) {
+    copies += reached_copies(*row);
+    exposure += reached_all(*row) ? row->completion[static_cast<std::size_t>(row->possible - 1)]
+                                  : row->duration;
+  }
+  return poisson_rate(copies, exposure);
+}
+
 }  // namespace lilytank

@@ -22,6 +22,13 @@ double watched_by_all(const std::vector<std::vector<const RunRow*>>& runs, doubl
 /// left out.
 std::vector<Duration> durations_to(const std::vector<const RunRow*>& runs, int k);
 
+/// Copies standing at the end, mean with Student's interval.
+Estimate copies_of(const std::vector<const RunRow*>& runs);
+/// Share of the runs that had all possible copies, of those that could make any; Wilson's interval.
+Estimate full_yield_of(const std::vector<const RunRow*>& runs);
+/// Copies/s over the time in which there were modules left to build with; Garwood's interval.
+Estimate assembly_rate_of(const std::vector<const RunRow*>& runs);
+
 /// Fills in `all_pairs`, `survival_tests` and `pair_tests`.
 void compare_settings(const std::vector<std::vector<const RunRow*>>& runs, StudySummary& summary);
 

@@ -42,17 +42,6 @@ CurveBand yield_of(const std::vector<const RunRow*>& runs, double horizon) {
   return yield_band(steps, times, kBootstrapSeed);
 }
 
-// Copies over the time in which there were modules left to build with.
-Estimate rate_of(const std::vector<const RunRow*>& runs) {
-  std::int64_t copies = 0;
-  double exposure = 0;
-  for (const RunRow* row : runs) {
-    copies += reached_copies(*row);
-    exposure += reached_all(*row) ? row->completion[row->possible - 1] : row->duration;
-  }
-  return poisson_rate(copies, exposure);
-}
-
 CopyTime copy_time(const std::vector<const RunRow*>& runs, int k, double restricted_to) {
   CopyTime time;
   time.k = k;
@@ -83,16 +72,10 @@ SettingSummary summarise_setting(const StudyTable& table, int setting,
   summary.label =
       at < table.labels.size() ? table.labels[at] : "setting " + std::to_string(setting);
   count_rows(table, setting, summary);
-  std::vector<double> copies;
-  std::int64_t full = 0, judged = 0;
-  for (const RunRow* row : runs) {
-    summary.possible = std::max(summary.possible, row->possible);
-    copies.push_back(row->copies);
-    full += reached_all(*row), judged += row->possible > 0;
-  }
-  summary.copies = mean_interval(copies);
-  summary.full_yield = wilson(full, judged);
-  summary.rate = rate_of(runs);
+  for (const RunRow* row : runs) summary.possible = std::max(summary.possible, row->possible);
+  summary.copies = copies_of(runs);
+  summary.full_yield = full_yield_of(runs);
+  summary.rate = assembly_rate_of(runs);
   return summary;
 }
 

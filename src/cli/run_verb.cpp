@@ -47,6 +47,7 @@ void check_video(const VerbOptions& options, const Scenario& scenario) {
   if (scenario.output.trajectory == TrajectoryFormat::none) {
     options.refuse("--video needs stored poses, but output.trajectory is \"none\"");
   }
+  require_film_program();  // rather than after hours of simulation
 #else
   static_cast<void>(scenario);
   options.refuse("--video: this program was built without the renderer (Cairo was not found)");

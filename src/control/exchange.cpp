@@ -20,8 +20,7 @@ Exchange::Exchange(const Model& model)
     : model_(&model),
       begins_below_(static_cast<std::uint64_t>(model.control.initiative * 0x1p32)),
       log_quiet_(0),
-      // Firmware::waiting is a byte; six seconds of waiting are as good as for ever.
-      begins_at_(std::min(model.control.reply_ticks, 253) + 2) {
+      begins_at_(std::min(model.control.reply_ticks, kMostReplyTicks) + 2) {
   const double rate = model.control.evaluation_rate * kTick;
   if (rate > 0 && rate < 1) log_quiet_ = log_portable(1 - rate);
   answers_.reserve(static_cast<std::size_t>(model.module.count));

@@ -92,7 +92,7 @@ void control_keys(ScenarioDraft& d, Keys& keys) {
                   "turn from face to face within which they latch"});
   keys.push_back({"control.initiative", &c.initiative, "1", 0, 1,
                   "probability per 25 ms that a module begins an exchange"});
-  keys.push_back({"control.reply_ticks", &c.reply_ticks, "1", 1, 255,
+  keys.push_back({"control.reply_ticks", &c.reply_ticks, "1", 1, kMostReplyTicks,
                   "intervals of 25 ms that an initiator waits for its answer"});
   keys.push_back({"control.evaluation_rate", &c.evaluation_rate, "1/s", 1e-6, 40,
                   "evaluations of a bond per second, of the clock \"events\""});

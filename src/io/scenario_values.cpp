@@ -36,7 +36,8 @@ std::string meant(const Assignment& from, const ScenarioKey& key, double value) 
     }
   }
   const bool plain = !std::holds_alternative<std::string>(from.value);
-  return plain ? unit_hint(value, key.unit, key.low, key.high) : "";
+  const bool counted = key.whole || !std::holds_alternative<double*>(key.target);  // no shares
+  return plain && !counted ? unit_hint(value, key.unit, key.low, key.high) : "";
 }
 
 void check_bounds(const ScenarioKey& key, const Assignment& from, double value) {

@@ -78,14 +78,21 @@ double turn_surprise(const Point& from, const Point& to, const Rate& expected) {
   return std::fabs(wrapped(to.theta - from.theta - (to.frame - from.frame) * expected.theta));
 }
 
-/// The lesser of what the steps before and after let expect: a leap is the one step that agrees
-/// with neither, while each of its neighbours still agrees with the other one of its own.
+/// The least of what the step before, the one after and their mean let expect: a leap is the one
+/// step that agrees with none, while each of its neighbours still agrees with the other one of its
+/// own.
 template <class Measure>
 double least(const Step& step, const Measure& measure) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  const double before = step.before ? measure(*step.from, *step.to, *step.before) : kNone;
-  const double after = step.after ? measure(*step.from, *step.to, *step.after) : kNone;
-  return std::min(before, after);
+  double out = std::numeric_limits<double>::infinity();
+  const auto &before = step.before, &after = step.after;
+  if (before) out = std::min(out, measure(*step.from, *step.to, *before));
+  if (after) out = std::min(out, measure(*step.from, *step.to, *after));
+  if (before && after) {
+    const Rate mean{(before->x + after->x) / 2, (before->y + after->y) / 2,
+                    (before->theta + after->theta) / 2};
+    out = std::min(out, measure(*step.from, *step.to, mean));
+  }
+  return out;
 }
 
 class MotionChecks {

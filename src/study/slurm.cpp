@@ -25,7 +25,7 @@ std::string slurm_script(const SlurmJob& job) {
        " shards, for Slurm. Save as study.sbatch, edit the lines #SBATCH for the site,\n"
        "# and submit, with the merging after it:\n"
        "#   job=$(sbatch --parsable study.sbatch)\n"
-       "#   sbatch --dependency=afterok:$job --job-name=merge --wrap " +
+       "#   sbatch --dependency=afterok:$job --kill-on-invalid-dep=yes --job-name=merge --wrap " +
        shell_word(program + " study merge " + out + " && " + program + " study report " + out) +
        "\n"
        "# The tasks share the directory " +
@@ -44,6 +44,7 @@ std::string slurm_script(const SlurmJob& job) {
        job.name + "-%A_%a.log\n\n";
   s += "# TERM, a minute before the time limit, makes the program keep what is finished and end "
        "with 3.\n"
+       "export SLURM_EXIT_ERROR=125  # of srun itself; it would be 1, as of diverged worlds\n"
        "srun --cpus-per-task=\"$SLURM_CPUS_PER_TASK\" \\\n  " +
        command +
        " --threads \"$SLURM_CPUS_PER_TASK\"\n"

@@ -203,6 +203,20 @@ TEST_F(VerbsTest, RenderDrawsFramesAndFilms) {
   EXPECT_EQ(film.out, "a/video.mp4\n");
   EXPECT_GT(lilytank_.here.read("a/video.mp4").size(), 500u);
 }
+
+TEST_F(VerbsTest, AFilmThatCannotBeMadeIsRefusedBeforeTheRun) {
+  const std::string before = std::getenv("PATH");
+  ::setenv("PATH", "/no/programs/here", 1);
+  const Answer run = lilytank_("run pair.toml --out a --video");
+  const Answer dry = lilytank_("run pair.toml --out a --video --dry-run");
+  ::setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err,
+            "films need the program ffmpeg, which is not in PATH; install it, or draw stills\n");
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(dry.code, 2);
+  EXPECT_FALSE(lilytank_.here.has("a"));
+}
 #endif
 
 }  // namespace

@@ -42,6 +42,19 @@ inline Model quiet_model(int modules, std::vector<Ruleset> rulesets) {
   return model;
 }
 
+/// The chain of five modules, as shipped.
+inline Ruleset chain() {
+  return read_ruleset(ruleset_file("chain5"));
+}
+
+/// A model whose bonds are evaluated in every tick: short tests.
+inline Model hasty(int modules, std::vector<Ruleset> rulesets) {
+  Model model = quiet_model(modules, std::move(rulesets));
+  model.control.clock = Clock::events;
+  model.control.evaluation_rate = 40;
+  return model;
+}
+
 /// All modules apart from each other, as they are at the start.
 inline State apart(const Model& model, std::uint64_t seed) {
   State s;

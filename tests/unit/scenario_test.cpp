@@ -276,6 +276,8 @@ TEST_F(ScenarioTest, RefusesWithPlaceAndAdvice) {
       {"[tank]\nradius = -inf\n", "s.toml:2:10: tank.radius = -inf is not a finite number"},
       {"[run]\nseed = 1.5\n", "s.toml:2:8: run.seed is a whole number; 1.5 is not"},
       {"[run]\nseed = -1\n", "s.toml:2:8: run.seed = -1 is outside 0 .. 1e+18"},
+      {"[control]\nreply_ticks = 254\n",
+       "s.toml:2:15: control.reply_ticks = 254 is outside 1 .. 253"},
       {"[run]\nseed = \"1\"\n", "s.toml:2:8: run.seed is a whole number, not text"},
       {"[module]\nshadowing = 1\n",
        "s.toml:2:13: module.shadowing is a switch, true or false, not a whole number"},

@@ -80,6 +80,27 @@ TEST_F(StudyFileTest, RangesAreLinearOrLogarithmic) {
             (Texts{"0.16", "0.15", "0.14"}));
 }
 
+TEST_F(StudyFileTest, ValuesAreInTheUnitsOfTheirKeysAndLabelsAsWritten) {
+  const auto only = [&](const std::string& path, const std::string& value) {
+    return study(kHead + "[[axis]]\npath = \"" + path + "\"\nvalues = [\"" + value + "\"]\n")
+        .plan()
+        .settings.at(0);
+  };
+  const auto expect = [&](const Setting& s, const std::string& text, double value,
+                          const std::string& label) {
+    EXPECT_EQ(s.texts, Texts{text});
+    EXPECT_EQ(s.values, std::vector<double>{value});
+    EXPECT_EQ(s.label, label);
+  };
+  expect(only("run.duration", "0.01 h"), "36", 36, "duration=0.01 h");
+  expect(only("module.mass", "60 g"), "0.06", 0.06, "mass=60 g");
+  expect(only("forces.stochastic.sigma_stoch", "1 mN"), "0.001", 0.001,
+         "stochastic.sigma_stoch=1 mN");
+  expect(only("rules.part.p", "2 %"), "0.02", 0.02, "part.p=2 %");
+  expect(only("flow.pump_power", "60 %"), "60", 60, "pump_power=60 %");
+  expect(only("flow.gusts", "per_module"), "per_module", 0, "gusts=per_module");
+}
+
 TEST_F(StudyFileTest, LabelsAndNamesAreOnesOwn) {
   const Study study =
       this->study(kHead +

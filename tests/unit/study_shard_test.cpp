@@ -136,6 +136,7 @@ TEST(StudyShard, SlurmScriptsQuoteWhatAShellWouldSplit) {
   for (const char* part :
        {"\n#SBATCH --array=0-4\n", "\n#SBATCH --cpus-per-task=4\n", "\n#SBATCH --time=1-12\n",
         "\n#SBATCH --requeue\n", "\n#SBATCH --signal=TERM@60\n",
+        "--dependency=afterok:$job --kill-on-invalid-dep=yes", "\nexport SLURM_EXIT_ERROR=125",
         "'/opt/lily tank/lilytank' study 'it'\\''s.toml' --out out/x --set "
         "'run.duration='\\''1 h'\\''' --threads"}) {
     EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;

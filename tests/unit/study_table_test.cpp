@@ -265,6 +265,9 @@ TEST(StudyMetric, AreThoseOfTheSummary) {
   EXPECT_EQ(metric_estimate("assembly_rate", runs, 100).value, 3.0 / 150);
   EXPECT_EQ(metric_estimate("time_1", runs, 100).value, 20);
   EXPECT_EQ(metric_estimate("time_2", runs, 100).value, 75);
+  RunRow few;  // too few modules for a copy
+  few.duration = 100;
+  EXPECT_EQ(metric_estimate("full_yield", {&full, &half, &few}, 100).value, wilson(1, 2).value);
 }
 
 }  // namespace
