@@ -18,6 +18,10 @@ struct NeighbourQuery {
   const float *x, *y;  // padded by one vector
   const int* id;
   float distance2;
+  const float *own_x, *own_y;  // in order of bodies
+  const int *column, *row;     // cells of bodies
+  const int* start;            // where cells begin
+  int cells;
 };
 constexpr int kWidest = 16;  // lanes of a vector
 }  // namespace lilytank
@@ -62,20 +66,48 @@ void all_bits(const NeighbourQuery& q, int bodies, std::uint64_t* bits) {
   }
 }
 
-// Appends those of [first, last) that are near (x, y), without body `self`; returns the new end.
-// Up to a vector beyond the end may be overwritten.
-int* scan(const NeighbourQuery& q, float x, float y, int self, int first, int last, int* out) {
+// Appends those of [first, last) that are near (x, y) and have numbers from `from` on; returns the
+// new end. Up to a vector beyond the end may be overwritten.
+int* scan(const NeighbourQuery& q, float x, float y, int from, int first, int last, int* out) {
   const Whole w;
   const int lanes = static_cast<int>(hn::Lanes(w));
   for (int k = first; k < last; k += lanes) {
     const auto id = hn::LoadU(w, q.id + k);
     const auto inside = hn::Lt(hn::Iota(w, 0), hn::Set(w, last - k));
-    const auto other = hn::And(hn::Ne(id, hn::Set(w, self)), inside);
+    const auto other = hn::And(hn::Gt(id, hn::Set(w, from - 1)), inside);
     const auto take = hn::And(hn::RebindMask(w, near(q, x, y, k)), other);
     hn::StoreU(hn::Compress(id, take), w, out);
     out += hn::CountTrue(w, take);
   }
   return out;
+}
+
+// Bodies with numbers from `from` on near body i, ascending; returns their end, or null if fewer
+// than `room` may remain behind `out`.
+int* scan_cells(const NeighbourQuery& q, int i, int from, int* out, const int* room) {
+  const int left = std::max(q.column[i] - 1, 0), right = std::min(q.column[i] + 1, q.cells - 1);
+  const int low = std::max(q.row[i] - 1, 0), high = std::min(q.row[i] + 1, q.cells - 1);
+  int* const begin = out;
+  for (int r = low; r <= high; ++r) {
+    const int first = q.start[r * q.cells + left], last = q.start[r * q.cells + right + 1];
+    if (room - out < last - first + kWidest) return nullptr;
+    out = scan(q, q.own_x[i], q.own_y[i], from, first, last, out);
+  }
+  std::sort(begin, out);
+  return out;
+}
+
+// The bodies above each: body i's are who[begin[i]] .. who[begin[i + 1]]. False if there is no
+// room.
+bool scan_all(const NeighbourQuery& q, int bodies, int* begin, int* who, const int* room) {
+  int* out = who;
+  for (int i = 0; i < bodies; ++i) {
+    begin[i] = static_cast<int>(out - who);
+    out = scan_cells(q, i, i + 1, out, room);
+    if (out == nullptr) return false;
+  }
+  begin[bodies] = static_cast<int>(out - who);
+  return true;
 }
 
 }  // namespace lilytank::HWY_NAMESPACE
@@ -85,7 +117,8 @@ HWY_AFTER_NAMESPACE();
 namespace lilytank {
 
 HWY_EXPORT(all_bits);
-HWY_EXPORT(scan);
+HWY_EXPORT(scan_all);
+HWY_EXPORT(scan_cells);
 
 namespace {
 constexpr float kRounding = 3e-6f;  // m, more than float32 can be wrong by in any tank
@@ -101,8 +134,8 @@ Neighbours::Neighbours(int bodies, double extent)
     bits_.assign(n, 0);
     return;
   }
-  begin_.assign(n + 1, 0), above_.assign(n, 0), cell_.assign(n, 0);
-  who_.assign(20 * n + 4 * kWidest, 0);
+  begin_.assign(n + 1, 0), column_.assign(n, 0), row_.assign(n, 0);
+  who_.assign(10 * n + 4 * kWidest, 0), found_.assign(n + kWidest, 0);
   start_.reserve(4 * n + 4);
 }
 
@@ -119,13 +152,13 @@ void Neighbours::sort_into_cells() {
   per_cell_ = static_cast<float>(cells_) / (2 * extent_);
   start_.assign(static_cast<std::size_t>(cells_ * cells_) + 1, 0);
   for (int i = 0; i < bodies_; ++i) {
-    cell_[i] = cell_of(own_y_[i]) * cells_ + cell_of(own_x_[i]);
-    ++start_[cell_[i]];
+    column_[i] = cell_of(own_x_[i]), row_[i] = cell_of(own_y_[i]);
+    ++start_[row_[i] * cells_ + column_[i]];
   }
   int sum = 0;
   for (int& s : start_) sum += s, s = sum;  // ends; filling backwards moves them to the starts
   for (int i = bodies_ - 1; i >= 0; --i) {
-    const int k = --start_[cell_[i]];
+    const int k = --start_[row_[i] * cells_ + column_[i]];
     x_[k] = own_x_[i], y_[k] = own_y_[i], id_[k] = i;
   }
 }
@@ -137,35 +170,34 @@ void Neighbours::search(std::span<const double> x, std::span<const double> y, do
   for (int i = 0; i < bodies_; ++i)
     to_x[i] = static_cast<float>(x[i]), to_y[i] = static_cast<float>(y[i]);
   if (!few) return search_grid();
-  const float reach = static_cast<float>(distance) + kRounding;
-  HWY_DYNAMIC_DISPATCH(all_bits)
-  ({x_.data(), y_.data(), nullptr, reach * reach}, bodies_, bits_.data());
+  HWY_DYNAMIC_DISPATCH(all_bits)(query(), bodies_, bits_.data());
   const std::uint64_t real = bodies_ < 64 ? (std::uint64_t{1} << bodies_) - 1 : ~std::uint64_t{0};
   for (int i = 0; i < bodies_; ++i) bits_[i] &= real & ~(std::uint64_t{1} << i);
 }
 
+NeighbourQuery Neighbours::query() const {
+  const float reach = static_cast<float>(distance_) + kRounding;
+  return {x_.data(),     y_.data(),      id_.data(),  reach * reach, own_x_.data(),
+          own_y_.data(), column_.data(), row_.data(), start_.data(), cells_};
+}
+
+std::span<const int> Neighbours::scan_around(int i) {
+  for (;;) {
+    int* const end = HWY_DYNAMIC_DISPATCH(scan_cells)(query(), i, 0, found_.data(),
+                                                      found_.data() + found_.size());
+    if (end != nullptr) {
+      const int* const others = std::remove(found_.data(), end, i);
+      return {found_.data(), static_cast<std::size_t>(others - found_.data())};
+    }
+    found_.resize(2 * found_.size());
+  }
+}
+
 void Neighbours::search_grid() {
   sort_into_cells();
-  const float reach = static_cast<float>(distance_) + kRounding;
-  const NeighbourQuery query{x_.data(), y_.data(), id_.data(), reach * reach};
-  const auto scan_cells = HWY_DYNAMIC_DISPATCH(scan);
-  int size = 0;
-  for (int i = 0; i < bodies_; ++i) {
-    begin_[i] = size;
-    const int column = cell_[i] % cells_, row = cell_[i] / cells_;
-    const int left = std::max(column - 1, 0), right = std::min(column + 1, cells_ - 1);
-    for (int r = std::max(row - 1, 0); r <= std::min(row + 1, cells_ - 1); ++r) {
-      const int first = start_[r * cells_ + left], last = start_[r * cells_ + right + 1];
-      if (static_cast<int>(who_.size()) < size + last - first + kWidest)
-        who_.resize(2 * who_.size() + static_cast<std::size_t>(last - first));
-      int* out = who_.data() + size;
-      size += static_cast<int>(scan_cells(query, own_x_[i], own_y_[i], i, first, last, out) - out);
-    }
-    const auto end = who_.begin() + size;
-    std::sort(who_.begin() + begin_[i], end);
-    above_[i] = static_cast<int>(std::upper_bound(who_.begin() + begin_[i], end, i) - who_.begin());
-  }
-  begin_[bodies_] = size;
+  while (!HWY_DYNAMIC_DISPATCH(scan_all)(query(), bodies_, begin_.data(), who_.data(),
+                                         who_.data() + who_.size()))
+    who_.resize(2 * who_.size());
 }
 
 }  // namespace lilytank
