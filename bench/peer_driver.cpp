@@ -54,7 +54,8 @@ Options read(const std::vector<std::string>& words) {
       if (text != "facing") throw InputError("--drag = '" + text + "': only facing is known");
     } else if (name == "--variant") {
       if (text != "" && text != "per_point" && text != "per_module" && text != "moment_matched")
-        throw InputError("--variant = '" + text + "' is not per_module, per_point or moment_matched");
+        throw InputError("--variant = '" + text +
+                         "' is not per_module, per_point or moment_matched");
       options.variant = text;
     } else {
       throw InputError("unknown option " + name);
@@ -73,7 +74,7 @@ FlowField swirl(double radius) {
   for (int iy = 0; iy < cells; ++iy) {
     for (int ix = 0; ix < cells; ++ix) {
       const double x = (ix + 0.5) * kCell - extent, y = (iy + 0.5) * kCell - extent;
-      const double r = std::hypot(x, y), q = std::min(1.0, r / radius);
+      const double r = std::max(std::hypot(x, y), 1e-9), q = std::min(1.0, r / radius);
       const double streams = std::cos(7 * (std::atan2(y, x) + 0.26 * q));
       const double in = kSpeed * q * q * (drift + streams);
       const double around = kSpeed * std::min(1.0, q / 0.6);
