@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "io/experiment_file.hpp"
 #include "io/recording_keys.hpp"
 #include "lilytank/experiment.hpp"
 #include "recording/formats.hpp"
@@ -12,16 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How plain files are to be read: body sizes come from the scenario's keys.
-RecordingOptions reading_options(const VerbOptions& options) {
-  RecordingOptions out;
+/// What --read says, over other options; body sizes come from the scenario's keys.
+RecordingOptions with_options(const VerbOptions& options, const Model& model,
+                              RecordingOptions out) {
   for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
     assign_recording_option(a, "recording", out);
   }
-  const Model model = load_scenario({}, options.list("set")).model;
-  out.tank_radius = model.tank.radius;
-  if (out.body == BodyKind::lily) out.body_radius = model.module.side / 2;
-  if (out.body == BodyKind::ball) out.body_radius = model.ball.radius;
+  take_sizes(model, out);
   return out;
 }
 
@@ -41,11 +39,9 @@ bool is_one_track(const std::string& file, const RecordingOptions& options) {
 void add_experiment(const std::string& file, const VerbOptions& options,
                     std::vector<NamedRecording>& out) {
   const auto none = [](const RecordingSource&) { return false; };
-  for (const RecordingSource& s : load_experiment({file}, options.list("set"), none).sources) {
-    out.push_back({s.file, {s.file}, s.options});
-    for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
-      assign_recording_option(a, "recording", out.back().options);
-    }
+  const Experiment experiment = load_experiment({file}, options.list("set"), none);
+  for (const RecordingSource& s : experiment.sources) {
+    out.push_back({s.file, {s.file}, with_options(options, experiment.base.model, s.options)});
   }
 }
 
@@ -64,7 +60,8 @@ std::vector<NamedRecording> named_recordings(const VerbOptions& options,
                                              const std::vector<std::string>& arguments) {
   if (arguments.empty()) options.refuse("which recording? write a file or an experiment file");
   std::vector<NamedRecording> out;
-  const RecordingOptions reading = reading_options(options);
+  const RecordingOptions reading =
+      with_options(options, load_scenario({}, options.list("set")).model, {});
   bool together = false;
   for (const std::string& file : arguments) {
     if (is_experiment(file)) {

@@ -11,14 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the base says about bodies of this kind.
-void take_sizes(const Model& model, RecordingOptions& options) {
-  options.tank_radius = model.tank.radius;
-  options.body_radius = options.body == BodyKind::lily   ? model.module.side / 2
-                        : options.body == BodyKind::ball ? model.ball.radius
-                                                         : 0;
-}
-
 RecordingSource source_of(const CommandTable& table, const RecordingOptions& defaults) {
   RecordingSource out;
   out.options = defaults;
@@ -40,6 +32,13 @@ RecordingSource source_of(const CommandTable& table, const RecordingOptions& def
 }
 
 }  // namespace
+
+void take_sizes(const Model& model, RecordingOptions& options) {
+  options.tank_radius = model.tank.radius;
+  options.body_radius = options.body == BodyKind::lily   ? model.module.side / 2
+                        : options.body == BodyKind::ball ? model.ball.radius
+                                                         : 0;
+}
 
 void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experiment) {
   RecordingOptions defaults;

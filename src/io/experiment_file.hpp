@@ -12,4 +12,7 @@ namespace lilytank {
 /// other than its name hold for all recordings that do not say otherwise. Throws InputError.
 void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experiment);
 
+/// Sets the tank's radius and the body's from what the model says of bodies of the options' kind.
+void take_sizes(const Model& model, RecordingOptions& options);
+
 }  // namespace lilytank

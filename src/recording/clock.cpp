@@ -101,7 +101,7 @@ class ClockFinder {
   void check_span() const {
     const auto span = static_cast<double>(instants_.back().frame - instants_.front().frame) + 1;
     const auto seen = static_cast<double>(instants_.size());
-    if (span <= kMostFrames && span <= 1e6 + 1000 * seen) return;
+    if (span <= kMostFrames && span <= 1e6 + 20 * seen) return;
     throw InputError(file_, "frames run from " + std::to_string(instants_.front().frame) + " to " +
                                 std::to_string(instants_.back().frame) + ", but only " +
                                 std::to_string(instants_.size()) +

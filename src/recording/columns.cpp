@@ -50,6 +50,8 @@ Naming naming_of(RecordingFormat format) {
 /// Numbers beyond this are no lengths, times or angles, and would overflow later.
 constexpr double kLargest = 1e12;
 
+constexpr std::size_t kMostRows = 2'000'000'000;
+
 double bounded(const Table& table, int column) {
   const double value = table.number(column);
   if (std::fabs(value) > kLargest) table.refuse(column, table.quoted(column) + " is too large");
@@ -77,7 +79,7 @@ class ColumnReader {
 
   /// `id`: of all rows, if the file is one track.
   void read(std::optional<std::int64_t> id) {
-    file_ = static_cast<std::int16_t>(out_->files.size() - 1);
+    file_ = static_cast<std::int32_t>(out_->files.size() - 1);
     if (!id && at_.id < 0) out_->identities = false;
     while (table_->next()) row(id);
   }
@@ -137,6 +139,9 @@ class ColumnReader {
     const bool nowhere = std::isnan(s.x) || std::isnan(s.y);
     if (missing || nowhere) return;  // a gap, which is looked for later
     if (!id && at_.id >= 0) s.id = identity();
+    if (out_->rows.size() >= kMostRows) {
+      throw InputError({table_->file(), table_->line(), 0}, "more than two thousand million rows");
+    }
     out_->rows.push_back(s);
   }
 
@@ -180,7 +185,7 @@ class ColumnReader {
   double time_unit_;
   Sightings* out_;
   Columns at_;
-  std::int16_t file_ = 0;
+  std::int32_t file_ = 0;
 };
 
 /// The last number in a file's name: "video_id12.csv" is track 12.
@@ -232,7 +237,7 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
   const std::string& own = options.columns.time;
   int time = own.empty() ? table.find("time") : table.find(own);
   if (own.empty() && time < 0) time = table.find("seconds");
-  const auto file = static_cast<std::int16_t>(out.files.size() - 1);
+  const auto file = static_cast<std::int32_t>(out.files.size() - 1);
   for (std::int64_t frame = 0; table.next(); ++frame) {
     Sighting s;
     s.frame = frame, s.line = table.line(), s.file = file;

@@ -13,6 +13,9 @@ struct Open {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< m, m per frame
 };
 
+/// More cannot be told apart, and would take long.
+constexpr std::size_t kMostInFrame = 1000;
+
 class Linker {
  public:
   Linker(Sightings& s, const FrameClock& clock, const RecordingOptions& options, Report& report)
@@ -44,14 +47,22 @@ class Linker {
   // Nearest pairs first; rows without a track begin one.
   void frame(std::size_t begin, std::size_t end) {
     const std::int64_t now = s_->rows[begin].frame;
+    if (end - begin > kMostInFrame) {
+      throw InputError(s_->place(s_->rows[begin]),
+                       std::to_string(end - begin) +
+                           " sightings without identities in one frame: more than " +
+                           std::to_string(kMostInFrame));
+    }
     std::erase_if(open_, [&](const Open& t) { return now - t.frame > longest_gap_; });
     std::vector<Pair> pairs = candidates(begin, end);
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    const auto of_rows = by_row(pairs, begin, end);
     std::vector<bool> taken(open_.size()), ended(open_.size()), linked(end - begin);
     for (const Pair& pair : pairs) {
       if (taken[pair.track] || linked[pair.row - begin]) continue;
-      if (const std::size_t rival = rival_of(pair, pairs, taken); rival < open_.size()) {
+      if (const std::size_t rival = rival_of(pair, of_rows[pair.row - begin], taken);
+          rival < open_.size()) {
         ended[pair.track] = ended[rival] = true;
         competed(pair, rival);
       }
@@ -83,14 +94,20 @@ class Linker {
     return pairs;
   }
 
+  /// The pairs of each row, nearest first.
+  static std::vector<std::vector<const Pair*>> by_row(const std::vector<Pair>& pairs,
+                                                      std::size_t begin, std::size_t end) {
+    std::vector<std::vector<const Pair*>> out(end - begin);
+    for (const Pair& pair : pairs) out[pair.row - begin].push_back(&pair);
+    return out;
+  }
+
   /// Another track that fits the same row nearly as well.
-  std::size_t rival_of(const Pair& pair, const std::vector<Pair>& pairs,
+  std::size_t rival_of(const Pair& pair, const std::vector<const Pair*>& of_row,
                        const std::vector<bool>& taken) const {
-    for (const Pair& other : pairs) {
-      const bool same_row = other.row == pair.row && other.track != pair.track;
-      if (same_row && !taken[other.track] && other.distance < 2 * pair.distance + 0.2 * gate_) {
-        return other.track;
-      }
+    for (const Pair* other : of_row) {
+      const bool free = other->track != pair.track && !taken[other->track];
+      if (free && other->distance < 2 * pair.distance + 0.2 * gate_) return other->track;
     }
     return open_.size();
   }

@@ -150,7 +150,7 @@ class TrackMaker {
     const double frames = rules.longest_gap * context.clock.rate + 1e-9;
     const Treatment gaps = rules[Check::gap];
     longest_gap_ = gaps == Treatment::split  ? 0
-                   : gaps == Treatment::keep ? 1e5  // bounds the memory of a few wrong frames
+                   : gaps == Treatment::keep ? 1e4  // bounds the memory of a few wrong frames
                                              : std::floor(frames);
   }
 

@@ -21,7 +21,7 @@ struct Sighting {
   double x = 0, y = 0;     ///< in the file's units, later m
   double theta = kUnknown;
   std::int32_t line = 0;
-  std::int16_t file = 0;  ///< index into Sightings::files
+  std::int32_t file = 0;  ///< index into Sightings::files
   bool unseen = false;    ///< counts as not seen, by a check
   bool cut = false;       ///< the track is cut before it, by a check
 };
