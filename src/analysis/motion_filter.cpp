@@ -59,7 +59,7 @@ class Covariance {
   bool predict(bool seen) {
     if (settled_) return false;
     const MotionMatrix next = step_.F * filtered_ * step_.F.transpose() + step_.Q;
-    settled_ = seen && ((next - predicted_).array().abs() <= 1e-12 * next.array().abs()).all();
+    settled_ = seen && ((next - predicted_).array().abs() <= 1e-10 * next.array().abs()).all();
     predicted_ = next;
     return true;
   }
