@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 
 #include "lilytank/render.hpp"
@@ -30,13 +31,10 @@ MapPanel panel(const FlowEstimate& e, const std::string& title, const std::strin
   return out;
 }
 
-// Arrows in every second cell of every second row.
 void add_arrows(const FlowEstimate& e, MapPanel& out,
                 const std::function<std::array<double, 2>(std::size_t)>& vector) {
   for (std::size_t i = 0; i < e.cell.size(); ++i) {
-    const auto cells = static_cast<std::size_t>(e.cells);
-    const bool shown = in_tank(e, i) && i % cells % 2 == 1 && i / cells % 2 == 1;
-    const std::array<double, 2> v = shown ? vector(i) : std::array{kNone, kNone};
+    const std::array<double, 2> v = in_tank(e, i) ? vector(i) : std::array{kNone, kNone};
     out.arrow_x.push_back(v[0]), out.arrow_y.push_back(v[1]);
   }
 }

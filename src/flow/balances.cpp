@@ -147,6 +147,15 @@ double BalanceShape::kick_share(double hold) const {
   return (t - b / 3 - hold * hold / (6 * b)) / (t * t);
 }
 
+double BalanceShape::velocity_wander(double kick, double hold) const {
+  // Half the mean square of v(t) - v(t') over all pairs in the box. Under held forces that square
+  // is |t - t'| - hold / 3 for distant and (t - t')^2 / hold - ... for near times.
+  const double b = box();
+  if (b < hold) return kick * (b * b / (12 * hold) - b * b * b / (60 * hold * hold));
+  const double h = hold / b;
+  return kick * b * (1.0 / 6 - h / 6 + h * h / 12 - h * h * h / 60);
+}
+
 BalanceShape balance_shape(double rate, const TrackNoise& noise, double hold) {
   BalanceShape s;
   s.interval = 1 / rate;
@@ -155,7 +164,7 @@ BalanceShape balance_shape(double rate, const TrackNoise& noise, double hold) {
     BalanceShape tried = s;
     tried.half = half;
     const double error =
-        2 * tried.velocity_wander(noise.kick) + tried.velocity_noise(noise.variance);
+        2 * tried.velocity_wander(noise.kick, hold) + tried.velocity_noise(noise.variance);
     if (least < 0 || error < least) least = error, s.half = half;
   }
   const double kick = std::max(noise.kick, kLeastKick);

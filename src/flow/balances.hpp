@@ -38,7 +38,7 @@ struct BalanceShape {
   double noise_share() const { return 4 / (box() * box() * duration() * duration()); }
   /// Variance of a velocity by noise, and of the true velocity about its mean in the box.
   double velocity_noise(double variance) const { return 2 * variance / (box() * box()); }
-  double velocity_wander(double kick) const { return kick * box() / 6; }
+  double velocity_wander(double kick, double hold) const;
 };
 /// The shape that suits a rate and noise.
 BalanceShape balance_shape(double rate, const TrackNoise& noise, double hold);

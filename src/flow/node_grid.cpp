@@ -23,6 +23,17 @@ double cubic_spline(double t) {
   return 2.0 / 3 - a * a + a * a * a / 2;
 }
 
+// Columns that are not zero everywhere.
+Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& columns) {
+  std::vector<const Eigen::VectorXd*> used;
+  for (const Eigen::VectorXd& column : columns) {
+    if (column.maxCoeff() > 0) used.push_back(&column);
+  }
+  Eigen::MatrixXd out(columns.front().size(), static_cast<Eigen::Index>(used.size()));
+  for (std::size_t c = 0; c < used.size(); ++c) out.col(static_cast<Eigen::Index>(c)) = *used[c];
+  return out;
+}
+
 }  // namespace
 
 NodeGrid::NodeGrid(const FlowGrid& grid, double tank_radius)
@@ -93,13 +104,25 @@ Eigen::MatrixXd NodeGrid::splines(double spacing) const {
       for (int n = 0; n < size(); ++n) {
         column[n] = cubic_spline(x(n) / spacing - i) * cubic_spline(y(n) / spacing - j);
       }
-      if (column.maxCoeff() > 0) columns.push_back(column);
+      columns.push_back(std::move(column));
     }
   }
-  Eigen::MatrixXd out(size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    out.col(static_cast<Eigen::Index>(c)) = columns[c];
-  return out;
+  return joined(columns);
+}
+
+Eigen::MatrixXd NodeGrid::radial_splines(double spacing) const {
+  const int reach = static_cast<int>(std::ceil(grid_.extent / spacing)) + 1;
+  std::vector<Eigen::VectorXd> columns;
+  for (int i = 0; i <= reach; ++i) {
+    Eigen::VectorXd column(size());
+    for (int n = 0; n < size(); ++n) {
+      const double r = std::sqrt(x(n) * x(n) + y(n) * y(n)) / spacing;
+      // Those on both sides of the centre go together, so that the sum is smooth there.
+      column[n] = cubic_spline(r - i) + (i > 0 ? cubic_spline(r + i) : 0);
+    }
+    columns.push_back(std::move(column));
+  }
+  return joined(columns);
 }
 
 }  // namespace lilytank

@@ -31,6 +31,8 @@ class NodeGrid {
   Eigen::SparseMatrix<double> roughness() const;
   /// Values at the nodes of smooth functions that sum to 1: cubic B-splines of this spacing (m).
   Eigen::MatrixXd splines(double spacing) const;
+  /// The same in the distance from the centre alone.
+  Eigen::MatrixXd radial_splines(double spacing) const;
 
  private:
   FlowGrid grid_;

@@ -183,7 +183,8 @@ void SmoothFit::scale(const BalanceSet& set, const FlowUnknowns& now, Work& w) c
   w.kappa = ball_.drag_rate();
   w.kick_share = shape.kick_share(ball_.gust_interval);
   w.noise_part = shape.noise_share() * set.variance;
-  w.wander = shape.velocity_wander(now.kick) - shape.velocity_noise(set.variance);
+  w.wander =
+      shape.velocity_wander(now.kick, ball_.gust_interval) - shape.velocity_noise(set.variance);
   w.blurred = now.kick * shape.lag() / 2 + shape.velocity_noise(set.variance);
   w.gust_share = w.kappa * w.kappa * ball_.gust_interval * w.kick_share;
   w.expected = w.kick_share * now.random_kick + w.noise_part;
