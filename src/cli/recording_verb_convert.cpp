@@ -1,6 +1,7 @@
 // Recordings in other formats, and simulated runs as a camera would have recorded them.
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "cli/recording_verb.hpp"
 #include "io/recording_keys.hpp"
@@ -85,14 +86,7 @@ void write_one(const Recording& recording, const std::string& file, RecordingFor
             << " frames\n";
 }
 
-}  // namespace
-
-int recording_convert(const Arguments& arguments) {
-  VerbOptions options(
-      "recording convert", "FILE...|RUN_DIR",
-      "Writes recordings in another format; what a check refuses is not written, what it\nmarks or "
-      "cuts is missing or has a gap there. The directory of a run is filmed by a camera.");
-  add_reading_options(options);
+void add_writing_options(VerbOptions& options) {
   options.add()("out",
                 "file to write; a directory for several recordings, or for formats with one "
                 "file a track",
@@ -109,14 +103,48 @@ int recording_convert(const Arguments& arguments) {
       "of a run: rate, position_noise, heading_noise, dropped, missed, latency, swaps, "
       "swap_distance, headings, seed",
       cxxopts::value<std::vector<std::string>>(), "KEY=VALUE");
-  if (!options.parse(arguments)) return Exit::done;
-  if (!options.has("out") || options.text("out").empty()) {
-    options.refuse("where to? give --out FILE");
-  }
+}
+
+RecordingFormat format_to_write(const VerbOptions& options) {
   const RecordingFormat format = format_of_word(options.text("to", "tidy"), {"--to", 0, 0});
   if (format == RecordingFormat::automatic || format == RecordingFormat::table) {
     options.refuse("--to " + options.text("to") + " is no format to write");
   }
+  return format;
+}
+
+void convert_files(const VerbOptions& options, const std::string& out, RecordingFormat format) {
+  const std::vector<NamedRecording> all = named_recordings(options, options.positional());
+  std::set<std::string> written;
+  for (const NamedRecording& named : all) {
+    const std::string file = all.size() == 1 ? out : file_in(out, named.files.front(), format);
+    if (!written.insert(file).second) {
+      options.refuse("two recordings would be written to '" + file + "': convert them one by one");
+    }
+    const CheckedRecording checked = check_recording(named.files, named.options);
+    checked.throw_if_refused();
+    if (!checked.findings.empty()) {
+      std::cerr << named.name << ": " << checked.findings.size()
+                << " findings; lilytank recording check names them\n";
+    }
+    write_one(checked.recording, file, format, calibration_of(options, named.options.tank_radius));
+  }
+}
+
+}  // namespace
+
+int recording_convert(const Arguments& arguments) {
+  VerbOptions options(
+      "recording convert", "FILE...|RUN_DIR",
+      "Writes recordings in another format; what a check refuses is not written, what it\nmarks or "
+      "cuts is missing or has a gap there. The directory of a run is filmed by a camera.");
+  add_reading_options(options);
+  add_writing_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (!options.has("out") || options.text("out").empty()) {
+    options.refuse("where to? give --out FILE");
+  }
+  const RecordingFormat format = format_to_write(options);
   const std::string out = options.text("out");
   const auto& words = options.positional();
   if (words.size() == 1 && is_run(words[0])) {
@@ -126,17 +154,7 @@ int recording_convert(const Arguments& arguments) {
     return Exit::done;
   }
   if (options.has("camera")) options.refuse("--camera goes with the directory of one run");
-  const std::vector<NamedRecording> all = named_recordings(options, words);
-  for (const NamedRecording& named : all) {
-    const CheckedRecording checked = check_recording(named.files, named.options);
-    checked.throw_if_refused();
-    if (!checked.findings.empty()) {
-      std::cerr << named.name << ": " << checked.findings.size()
-                << " findings; lilytank recording check names them\n";
-    }
-    const std::string file = all.size() == 1 ? out : file_in(out, named.files.front(), format);
-    write_one(checked.recording, file, format, calibration_of(options, named.options.tank_radius));
-  }
+  convert_files(options, out, format);
   return Exit::done;
 }
 
