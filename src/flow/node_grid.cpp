@@ -96,7 +96,7 @@ Eigen::SparseMatrix<double> NodeGrid::roughness() const {
 }
 
 Eigen::MatrixXd NodeGrid::splines(double spacing) const {
-  const int reach = static_cast<int>(std::ceil(grid_.extent / spacing)) + 1;
+  const int reach = static_cast<int>(std::ceil(grid_.extent / spacing)) + 2;
   std::vector<Eigen::VectorXd> columns;
   for (int j = -reach; j <= reach; ++j) {
     for (int i = -reach; i <= reach; ++i) {
@@ -111,7 +111,7 @@ Eigen::MatrixXd NodeGrid::splines(double spacing) const {
 }
 
 Eigen::MatrixXd NodeGrid::radial_splines(double spacing) const {
-  const int reach = static_cast<int>(std::ceil(grid_.extent / spacing)) + 1;
+  const int reach = static_cast<int>(std::ceil(grid_.extent / spacing)) + 2;
   std::vector<Eigen::VectorXd> columns;
   for (int i = 0; i <= reach; ++i) {
     Eigen::VectorXd column(size());

@@ -15,11 +15,17 @@ namespace {
 
 using test::recording_of;
 
+FlowOptions few_samples() {
+  FlowOptions options;
+  options.least_samples = 5;
+  return options;
+}
+
 // A ball on a circle of radius r at speed v: a = v^2 / r inwards, so by Eq. 3 the water goes round
 // with v and inwards with sqrt(m a / (rho A C / 2)).
 TEST(paperEstimate, circlesGiveTheFlowOfEq3) {
   const double radius = 0.123, speed = 0.2;
-  const Recording r = recording_of(1, 1200, 30, [&](int, int f) {
+  const Recording r = recording_of(1, 3000, 30, [&](int, int f) {
     const double angle = speed / radius * f / 30.0;
     return std::array{radius * std::cos(angle), radius * std::sin(angle)};
   });
@@ -64,7 +70,7 @@ TEST(paperEstimate, cellsWithoutDataAreFilledFromThoseAround) {
   const Recording r = recording_of(2, 301, 100, [](int b, int f) {
     return std::array{-0.15 + 0.1 * f / 100.0, b == 0 ? 0.03 : -0.03};
   });
-  const FlowEstimate e = estimate_paper({&r, 1}, BallPhysics(), {});
+  const FlowEstimate e = estimate_paper({&r, 1}, BallPhysics(), few_samples());
   const FlowCell& between = e.cell[25 * 50 + 20];
   EXPECT_FALSE(between.measured);
   EXPECT_NEAR(between.flow.mu_x, 0.1, 0.001);
@@ -107,7 +113,7 @@ TEST(flowFiles, aRunReadsTheGrid) {
   });
   FlowReport report;
   report.name = "three";
-  report.estimates.push_back(estimate_paper({&r, 1}, report.ball, {}));
+  report.estimates.push_back(estimate_paper({&r, 1}, report.ball, few_samples()));
   const TemporaryDirectory dir;
   write_flow(report, dir.path("out"));
   const FlowField field = read_flow_csv(dir.path("out/flow_paper.csv"), Interpolation::bilinear);

@@ -45,13 +45,15 @@ TEST(normality, withoutLillieforsCorrectionItAlmostNeverRejects) {
   EXPECT_LT(raw, 10);
 }
 
-TEST(normality, criticalValuesAreLillieforsOwn) {
-  // 5 % points: 0.190 at n = 20 in the paper of 1967, 0.886 / sqrt(n) for large n, both from 1000
-  // simulated samples; Stephens' 0.895 of 1974 is in between. 1 % at n = 20: 0.231.
-  EXPECT_NEAR(lilliefors_p(0.190, 20), 0.05, 0.01);
-  EXPECT_NEAR(lilliefors_p(0.231, 20), 0.01, 0.003);
-  EXPECT_NEAR(lilliefors_p(0.895 / std::sqrt(1e6), 1000000), 0.05, 0.005);
-  // Kolmogorov's: 1.358 / sqrt(n).
+TEST(normality, criticalValuesArePublishedOnes) {
+  // Stephens (1974), scaled distances, from 10,000 samples: two digits of p.
+  const double published[][2] = {{0.819, 0.10}, {0.895, 0.05}, {0.955, 0.025}, {1.035, 0.01}};
+  for (const auto& [scaled, p] : published) {
+    const double root = std::sqrt(20.0);
+    EXPECT_NEAR(lilliefors_p(scaled / (root - 0.01 + 0.85 / root), 20) / p, 1, 0.12) << p;
+  }
+  EXPECT_NEAR(lilliefors_p(0.190, 20), 0.05, 0.01);  // Lilliefors (1967), 1000 samples
+  // Kolmogorov's: 1.358 / sqrt(n), and 0.294 for n = 20.
   EXPECT_NEAR(kolmogorov_p(1.358 / std::sqrt(1e6), 1000000), 0.05, 0.0005);
   EXPECT_NEAR(kolmogorov_p(0.294, 20), 0.05, 0.002);
 }
@@ -77,12 +79,12 @@ TEST(normality, littleOrNothingIsNeverRejected) {
 }
 
 TEST(normality, distanceByHand) {
-  // Mean 0, deviation 1 (n - 1 = 2 after the middle one): steps of 1/4 against Phi.
+  // Mean 0, squares 2, deviation sqrt(2/3). The distribution function of the samples steps from 1/4
+  // to 3/4 at 0, where the normal one is 1/2; at -1 it steps from 0 to 1/4 over Phi(-1.225) =
+  // 0.110.
   const NormalityTest t = test_normality({-1, 0, 0, 1});
-  const double s = std::sqrt(2.0 / 3), at = 0.5 * std::erfc(1 / s / std::sqrt(2.0));
-  EXPECT_NEAR(t.deviation, s, 1e-15);
-  EXPECT_NEAR(t.distance, std::max(0.25, 0.25 + 0.0 * at), 0.15);
-  EXPECT_NEAR(t.distance, std::max({0.25 - at, at, 0.25}), 1e-12);
+  EXPECT_NEAR(t.deviation, std::sqrt(2.0 / 3), 1e-15);
+  EXPECT_NEAR(t.distance, 0.25, 1e-12);
 }
 
 // The worked example of Benjamini and Hochberg (1995, section 3.1): 15 hypotheses, 4 rejected.
