@@ -127,7 +127,9 @@ Map error_map(const FlowReport& report) {
     };
     means.push_back(panel(e, e.name + ": error of the mean", "size (m/s)",
                           [&](std::size_t i) { return std::hypot(apart(i)[0], apart(i)[1]); }));
-    add_arrows(e, means.back(), apart);
+    add_arrows(e, means.back(), [&](std::size_t i) {
+      return e.cell[i].measured ? apart(i) : std::array{kNone, kNone};
+    });
     deviations.push_back(
         panel(e, e.name + ": error of the deviation", "difference (m/s)", [&](std::size_t i) {
           const FlowSample& f = e.cell[i].flow;

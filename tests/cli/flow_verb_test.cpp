@@ -1,0 +1,74 @@
+// lilytank flow: what users see.
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "lilytank/flow_field.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kTank = "'" LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml'";
+
+TEST(flowVerb, leavesGridsThatARunReads) {
+  const Program lilytank;
+  Answer a = lilytank("flow " + kTank + " --out f");
+  ASSERT_EQ(a.code, 0) << a.err;
+  for (const char* text : {"flow of tank\n", "measured cells", "median standard error of a mean",
+                           "tracking noise", "stand as discoveries"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+  EXPECT_EQ(lilytank.here.read("f/flow.txt"), a.out);
+  for (const char* name : {"paper", "smooth"}) {
+    const std::string n = name;
+    EXPECT_NO_THROW(
+        read_flow_csv(lilytank.here.path("f/flow_" + n + ".csv"), Interpolation::nearest));
+    EXPECT_NE(lilytank.here.read("f/cells_" + n + ".csv").find("std_vy_se"), std::string::npos);
+#ifdef LILYTANK_HAS_RENDER
+    EXPECT_GT(lilytank.here.read("f/flow_" + n + ".png").size(), 10000u);
+    EXPECT_GT(lilytank.here.read("f/flow_" + n + ".svg").size(), 10000u);
+#endif
+  }
+  a = lilytank("run '" LILYTANK_SOURCE_DIR
+               "/scenarios/tank_balls.toml' f/balls_smooth.toml "
+               "--set run.duration='2 s' --out r --quiet");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(lilytank.here.read("r/resolved.toml").find("C = 0.47"), std::string::npos);
+}
+
+TEST(flowVerb, aTruthGivesErrors) {
+  const Program lilytank;
+  ASSERT_EQ(lilytank("flow " + kTank + " --estimator paper --out p").code, 0);
+  const Answer a =
+      lilytank("flow " + kTank + " --estimator smooth --truth p/flow_paper.csv --out s");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("Errors against p/flow_paper.csv"), std::string::npos) << a.out;
+  EXPECT_EQ(a.out.find("stand as discoveries"), std::string::npos);
+  EXPECT_EQ(lilytank.here.read("s/errors_smooth.csv").substr(0, 6), "ix,iy,");
+}
+
+TEST(flowVerb, refusesWithOneLine) {
+  const Program lilytank;
+  lilytank.here.write("lilies.toml", "[[recording]]\nfile = \"l.csv\"\nbody = \"lily\"\n");
+  lilytank.here.write("l.csv", "frame,time,id,x,y\n0,0,0,0,0\n1,0.1,0,0,0\n");
+  lilytank.here.write("bad.csv", "ix,iy\n");
+  const struct {
+    std::string words, message;
+  } cases[] = {
+      {"", "of what? write lilytank flow EXPERIMENT.toml"},
+      {kTank + " --estimator papr", "did you mean 'paper'?"},
+      {kTank + " --truth none.csv", "cannot read 'none.csv'"},
+      {kTank + " --truth bad.csv", "bad.csv:1:1: the first line is not"},
+      {kTank + " --cells 1", "cells"},
+      {kTank + " --kalman --degree 3", "--kalman has neither"},
+      {kTank + " --bias --estimator paper", "--bias needs --estimator smooth or both"},
+      {"lilies.toml", "no recording is of body = \"ball\""},
+  };
+  for (const auto& c : cases) {
+    const Answer a = lilytank("flow " + c.words);
+    EXPECT_EQ(a.code, 2) << c.words;
+    EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
+  }
+}
+
+}  // namespace
+}  // namespace lilytank
