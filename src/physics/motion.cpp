@@ -26,7 +26,7 @@ Motion::Impl::Impl(const Model& m)
   for (int i = 0; i < m.bodies(); ++i) largest = std::max(largest, builder.size_of(i));
   bound.assign(n, 0);
   slots.assign(n, {});
-  roots.reserve(n), moved.reserve(n);
+  roots.reserve(n), moved.reserve(2 * n);  // an assembly is moved twice if a trial is taken back
   links.reserve(std::min(n * (n + 1) / 2, 10 * n));
   found.reserve(std::min(n * n / 2, 8 * n));
 }

@@ -135,7 +135,7 @@ Neighbours::Neighbours(int bodies, double extent)
     return;
   }
   begin_.assign(n + 1, 0), column_.assign(n, 0), row_.assign(n, 0);
-  who_.assign(10 * n + 4 * kWidest, 0), found_.assign(n + kWidest, 0);
+  who_.assign(24 * n + 4 * kWidest, 0), found_.assign(n + kWidest, 0);
   start_.reserve(4 * n + 4);
 }
 
