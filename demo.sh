@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/packages.sh
 
-duration="10 min"  # simulated; with seed 1 all three chains stand after eight minutes
+duration="20 min"  # simulated; with seed 1 all three chains stand after eighteen minutes
 out=out/demo
 
 need_packages "${build_packages[@]}" "${film_packages[@]}"
