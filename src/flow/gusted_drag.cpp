@@ -23,13 +23,6 @@ void integrate(double u, double& c, double& slope) {
   }
 }
 
-struct Direction {
-  double x, y;
-};
-Direction direction(double ux, double uy, double size) {
-  return size > 0 ? Direction{ux / size, uy / size} : Direction{1, 0};
-}
-
 }  // namespace
 
 GustedDrag::GustedDrag() {
@@ -54,39 +47,53 @@ GustedDrag::Point GustedDrag::at(double u) const {
           (1 - t) * a.slope + t * b.slope};
 }
 
-GustedDrag::Mean GustedDrag::mean(double ux, double uy, double s2) const {
+// What mean and covariance share: U by size and direction, and the table's entry.
+struct GustedDrag::Setting {
+  double s, s2, u, x, y;  // u = |U| / s
+  Point point;
+};
+
+GustedDrag::Setting GustedDrag::setting(double ux, double uy, double s2) const {
   const double s = std::sqrt(s2), size = std::sqrt(ux * ux + uy * uy), u = size / s;
-  const Point p = at(u);
-  const Direction d = direction(ux, uy, size);
-  const double along = s * p.slope, across = s * (u > 1e-6 ? p.c / u : p.slope);
-  const double by_s = s2 * (p.c - u * p.slope / 2);
+  const bool moving = size > 0;
+  return {s, s2, u, moving ? ux / size : 1, moving ? uy / size : 0, at(u)};
+}
+
+GustedDrag::Mean GustedDrag::mean(const Setting& d) {
+  const Point& p = d.point;
+  const double along = d.s * p.slope, across = d.s * (d.u > 1e-6 ? p.c / d.u : p.slope);
+  const double by_s = d.s2 * (p.c - d.u * p.slope / 2);
   const double mixed = along - across;
-  return {s2 * p.c * d.x,
-          s2 * p.c * d.y,
-          across + mixed * d.x * d.x,
-          mixed * d.x * d.y,
-          across + mixed * d.y * d.y,
-          by_s * d.x,
+  return {d.s2 * p.c * d.x,  d.s2 * p.c * d.y,           across + mixed * d.x * d.x,
+          mixed * d.x * d.y, across + mixed * d.y * d.y, by_s * d.x,
           by_s * d.y};
 }
 
-GustedDrag::Covariance GustedDrag::covariance(double ux, double uy, double s2) const {
-  const double size = std::sqrt(ux * ux + uy * uy), u = size / std::sqrt(s2), v = u * u;
-  const Point p = at(u);
-  const Direction d = direction(ux, uy, size);
-  const double s4 = s2 * s2;
+GustedDrag::Covariance GustedDrag::covariance(const Setting& d) {
+  const Point& p = d.point;
+  const double s4 = d.s2 * d.s2, u = d.u, v = u * u;
   // Second moments are polynomials: E |w|^2 w_along^2 = u^4 + 7 u^2 + 4, across u^2 + 4.
   const double along = s4 * (v * v + 7 * v + 4 - p.c * p.c), across = s4 * (v + 4);
   // d/dlog s^2 of s^4 f(u) is s^4 (2 f - u f' / 2).
   const double by_along = 2 * along - s4 * u / 2 * (4 * v * u + 14 * u - 2 * p.c * p.slope);
   const double by_across = 2 * across - s4 * v;
-  const auto turn = [&d](double a, double b, double& xx, double& xy, double& yy) {
-    xx = b + (a - b) * d.x * d.x, xy = (a - b) * d.x * d.y, yy = b + (a - b) * d.y * d.y;
-  };
-  Covariance out{};
-  turn(along, across, out.xx, out.xy, out.yy);
-  turn(by_along, by_across, out.sxx, out.sxy, out.syy);
-  return out;
+  const double xx = d.x * d.x, xy = d.x * d.y, yy = d.y * d.y;
+  return {across + (along - across) * xx, (along - across) * xy,
+          across + (along - across) * yy, by_across + (by_along - by_across) * xx,
+          (by_along - by_across) * xy,    by_across + (by_along - by_across) * yy};
+}
+
+GustedDrag::Mean GustedDrag::mean(double ux, double uy, double s2) const {
+  return mean(setting(ux, uy, s2));
+}
+
+GustedDrag::Covariance GustedDrag::covariance(double ux, double uy, double s2) const {
+  return covariance(setting(ux, uy, s2));
+}
+
+GustedDrag::Moments GustedDrag::moments(double ux, double uy, double s2) const {
+  const Setting d = setting(ux, uy, s2);
+  return {mean(d), covariance(d)};
 }
 
 }  // namespace lilytank

@@ -23,11 +23,22 @@ class GustedDrag {
   };
   Covariance covariance(double ux, double uy, double s2) const;
 
+  /// Both at once.
+  struct Moments {
+    Mean mean;
+    Covariance covariance;
+  };
+  Moments moments(double ux, double uy, double s2) const;
+
  private:
   struct Point {
     double c, slope;
   };
   Point at(double u) const;
+  struct Setting;
+  Setting setting(double ux, double uy, double s2) const;
+  static Mean mean(const Setting& at);
+  static Covariance covariance(const Setting& at);
   std::vector<Point> table_;
 };
 

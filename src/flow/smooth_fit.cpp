@@ -78,8 +78,8 @@ void SmoothFit::instrument(const Balance& b, const BalanceSet& set, const FlowUn
   w.where = nodes_.stencil(b.x0 + lag * (b.vx0 + vx) / 2, b.y0 + lag * (b.vy0 + vy) / 2);
   w.water = water_at(w.where, now);
   w.wx = w.water.ux - vx, w.wy = w.water.uy - vy;
-  w.before = drag_.mean(w.wx, w.wy, w.water.s2 + w.blurred);
-  w.weight = drag_.covariance(w.wx, w.wy, w.water.s2 + w.blurred);
+  const auto moments = drag_.moments(w.wx, w.wy, w.water.s2 + w.blurred);
+  w.before = moments.mean, w.weight = moments.covariance;
 }
 
 void SmoothFit::inside(const Balance& b, const BalanceSet& set, const FlowUnknowns& now,
@@ -95,8 +95,7 @@ void SmoothFit::inside(const Balance& b, const BalanceSet& set, const FlowUnknow
     const double vy = (t.y[i + h] - t.y[i - h]) / shape.box();
     const Water u = water_at(nodes_.stencil(t.x[i], t.y[i]), now);
     const double s2 = std::max(kLeastVariance, u.s2 + w.wander);
-    const auto m = drag_.mean(u.ux - vx, u.uy - vy, s2);
-    const auto c = drag_.covariance(u.ux - vx, u.uy - vy, s2);
+    const auto [m, c] = drag_.moments(u.ux - vx, u.uy - vy, s2);
     // The derivatives are by the log of all variance, of which gusts are a part.
     const double part = u.s2 / s2;
     w.drag.x += share * m.x, w.drag.y += share * m.y;

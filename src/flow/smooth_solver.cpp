@@ -46,7 +46,6 @@ void SmoothSolver::solve(double kick) {
     step_mean();
     set_kick();
   }
-  find_covariance();
   settle(stride);
   if (stride > 1) settle(1);
   find_covariance();
@@ -70,11 +69,11 @@ double SmoothSolver::log_variance(const Eigen::VectorXd& weight) const {
 
 void SmoothSolver::settle(int stride) {
   for (int round = 0; round < kRounds; ++round) {
+    if (round == 0) find_covariance();
     sums_ = fit_.sum(now_, stride, &covariance_);
     const double change = step_both();
     set_kick();
     if (change < kSettled) break;
-    if (round == 0) find_covariance();
   }
 }
 
