@@ -54,12 +54,21 @@ class Finder {
   }
 
  private:
+  // Tracks are sorted by their first frames; frames are asked for in order.
+  void follow(int frame) {
+    while (next_ < out_.tracks.size() && out_.tracks[next_]->first <= frame) {
+      present_.push_back(next_++);
+    }
+    std::erase_if(present_, [&](std::size_t k) { return out_.tracks[k]->last() < frame; });
+  }
+
   void gather(int frame) {
+    follow(frame);
     places_.clear(), complete_.clear();
-    for (std::size_t k = 0; k < out_.tracks.size(); ++k) {
+    for (const std::size_t k : present_) {
       const Track& t = *out_.tracks[k];
       const int at = frame - t.first, n = static_cast<int>(t.x.size());
-      if (at < 0 || at >= n || std::isnan(t.x[static_cast<std::size_t>(at)])) continue;
+      if (std::isnan(t.x[static_cast<std::size_t>(at)])) continue;
       const auto i = static_cast<std::size_t>(at);
       Place p{t.x[i], t.y[i], 0, 0, static_cast<std::int32_t>(k), at};
       const int back = at - 2 * shape_.half;
@@ -134,6 +143,8 @@ class Finder {
   BalanceSet& out_;
   const BalanceShape shape_;
   double margin_ = 0;
+  std::size_t next_ = 0;              // track that has not begun
+  std::vector<std::size_t> present_;  // tracks at this frame
   std::vector<Place> places_;
   std::vector<bool> complete_;
 };

@@ -25,7 +25,8 @@ FlowEstimate empty_estimate(std::span<const Recording> recordings, const BallPhy
   const bool balls = std::any_of(recordings.begin(), recordings.end(),
                                  [](const Recording& r) { return r.body == BodyKind::ball; });
   if (!balls) {
-    throw InputError("the flow is found from balls, and no recording is of body = \"ball\"");
+    throw InputError(
+        "the flow is found from balls, and no recording that may be used is of body = \"ball\"");
   }
   FlowEstimate out;
   out.name = name;

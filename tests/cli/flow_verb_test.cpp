@@ -61,7 +61,7 @@ TEST(flowVerb, refusesWithOneLine) {
       {kTank + " --cells 1", "cells"},
       {kTank + " --kalman --degree 3", "--kalman has neither"},
       {kTank + " --bias --estimator paper", "--bias needs --estimator smooth or both"},
-      {"lilies.toml", "no recording is of body = \"ball\""},
+      {"lilies.toml", "no recording that may be used is of body = \"ball\""},
   };
   for (const auto& c : cases) {
     const Answer a = lilytank("flow " + c.words);
