@@ -1,5 +1,5 @@
 // lilytank flow: the water's velocity from the tracks of balls.
-#include <filesystem>
+#include <algorithm>
 #include <iostream>
 
 #include "cli/options.hpp"
@@ -46,9 +46,12 @@ FlowOptions flow_options(const VerbOptions& options) {
 // The drag coefficient as it was asked for, or as the experiment's files set it.
 BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
   BallPhysics ball = ball_physics(experiment.base.model);
-  for (const ScenarioEntry& entry : experiment.base.entries) {
-    if (entry.path != "forces.ball_drag.C") continue;
-    if (entry.is_default) ball.drag_coefficient = BallPhysics().drag_coefficient;
+  const auto& entries = experiment.base.entries;
+  const bool set = std::any_of(entries.begin(), entries.end(), [](const ScenarioEntry& entry) {
+    return entry.path == "forces.ball_drag.C" && !entry.is_default;
+  });
+  for (const ActiveForce& force : experiment.base.model.forces) {
+    if (set && force.term->name() == "ball_drag") ball.drag_coefficient = force.p[0];
   }
   ball.drag_coefficient = options.number("drag", ball.drag_coefficient, 1e-3, 100);
   return ball;
