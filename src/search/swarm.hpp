@@ -1,0 +1,72 @@
+// Particle swarm optimisation for noisy evaluations.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lilytank/search.hpp"
+#include "search/state_text.hpp"
+#include "search/tally.hpp"
+
+namespace lilytank {
+
+inline constexpr const char* kSwarmKind = "swarm";
+
+class Swarm final : public Search {
+ public:
+  /// Throws InputError on a space or options that make no sense.
+  Swarm(SearchSpace space, SwarmOptions options, std::uint64_t seed);
+  /// Throws InputError where the state makes no sense.
+  explicit Swarm(StateReader& in);
+
+  std::vector<Trial> ask() override;
+  void tell(std::span<const double> values) override;
+  Incumbent best() const override;
+  const std::vector<IterationRecord>& history() const override { return history_; }
+  std::int64_t evaluations() const override { return evaluations_; }
+  std::int64_t budget() const override;
+  const SearchSpace& space() const override { return space_; }
+  std::string save() const override;
+
+ private:
+  using Point = std::vector<double>;  ///< in the unit box
+
+  struct Particle {
+    Point x, v, best_x;
+    Tally now, best;  ///< values of x in this iteration, and of best_x
+  };
+  /// One wanted evaluation: of a particle's position or of its personal best.
+  struct Slot {
+    int particle = 0;
+    bool of_best = false;
+  };
+
+  void place();
+  void plan();
+  void plan_fixed();
+  void plan_shared();
+  void want(int particle, bool of_best, int times);
+  std::int64_t replicate_of(std::size_t slot) const;
+  Tally& tally_of(const Slot& slot);
+  int iteration_budget() const { return options_.particles * options_.evaluations; }
+
+  void finish_iteration();
+  void record();
+  double spread() const;
+  void move();
+  void move_axis(Particle& particle, int i, const Particle& leader, std::size_t axis) const;
+  int leader_of(int i) const;
+  int leader_among(const std::vector<int>& particles) const;
+
+  SearchSpace space_;
+  SwarmOptions options_;
+  std::uint64_t seed_;
+  std::vector<Particle> particles_;
+  int iteration_ = 0;  ///< that are over
+  int spent_ = 0;      ///< evaluations told in this iteration
+  int stage_ = 0;      ///< batches told in this iteration
+  std::int64_t evaluations_ = 0;
+  std::vector<Slot> wanted_;
+  std::vector<IterationRecord> history_;
+};
+
+}  // namespace lilytank
