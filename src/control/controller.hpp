@@ -17,9 +17,6 @@ class Controller {
             Tallies& tallies);
 
  private:
-  void commands(Tick& tick) const;
-  void obey(Tick& tick, const Command& command) const;
-
   const Model* model_;
   Docking docking_;
   Exchange exchange_;
