@@ -59,6 +59,9 @@ class FlowField {
   std::vector<FlowRow> rows_;
 };
 
+/// The same field with mean and deviation multiplied by a factor >= 0.
+FlowField scaled(const FlowField& field, double factor);
+
 /// Settings of the built-in tank.
 struct AnalyticTank {
   double radius = 0.30;    ///< m

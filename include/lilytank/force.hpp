@@ -11,6 +11,7 @@
 
 namespace lilytank {
 
+class FlowField;
 struct Model;
 
 /// A number that a user may set: its name in scenario files, unit, default and bounds (inclusive).
@@ -41,8 +42,12 @@ struct Moment {
   std::int64_t step = 0;  ///< steps of dt since the start
   std::int64_t gust = 0;  ///< 25 ms intervals since the start: a gust is held for one
   std::uint64_t seed = 0;
-  bool gusts = true;  ///< false: the mean flow only
+  bool gusts = true;                 ///< false: the mean flow only
+  const FlowField* water = nullptr;  ///< the flow now; null: the model's
 };
+
+/// The flow field at that moment.
+const FlowField& water(const Model& model, const Moment& now);
 
 /// Factors on twists at the end of a step; 1 leaves them alone.
 struct Decay {

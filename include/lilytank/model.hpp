@@ -75,16 +75,23 @@ struct ControlParameters {
   int reply_ticks = 5;              ///< that an initiator waits, 1 .. kMostReplyTicks
   double evaluation_rate = 0.68;    ///< 1/s per bond, of the event-driven clock
   double off_scale = 256;           ///< an off face returns with probability (ticks off) / scale
+  // Faults, all of them probabilities; 0: the ideal channel and latches.
+  double message_loss = 0;     ///< that a message never arrives
+  double answer_loss = 0;      ///< that a decision's answer never reaches the initiator
+  double latch_failure = 0;    ///< that two faces that meet do not hold; they are then off
+  double release_failure = 0;  ///< that a latch holds on although it is told to let go
 };
 
-enum class CommandKind { pause, resume, switch_off, replace_ruleset, query };
+enum class CommandKind { pause, resume, switch_off, replace_ruleset, query, pump_power };
 
-/// What the base station says, and when.
+/// What the base station says or sets, and when.
 struct Command {
   double at = 0;  ///< s
   CommandKind kind = CommandKind::query;
   std::vector<int> modules;  ///< empty: all
   int ruleset = 0;           ///< index into Model::rulesets, of replace_ruleset
+  int copies = 0;            ///< of Model::feedback: from that many finished copies on
+  int field = 0;             ///< of pump_power: 0 Model::field, i Model::other_fields[i - 1]
 };
 
 enum class Layout { random, lattice, poses };
@@ -108,11 +115,19 @@ struct Model {
   ControlParameters control;
   StartParameters start;
   std::shared_ptr<const FlowField> field;
+  std::vector<std::shared_ptr<const FlowField>> other_fields;  ///< that pump_power commands set
   std::vector<ActiveForce> forces;
   std::vector<Ruleset> rulesets;  ///< [0] is in force at the start; empty: latched bonds never end
   std::vector<Command> commands;  ///< by time
+  /// Rulesets and pump power that go with the number of finished copies that the modules report,
+  /// by Command::copies, rising. The last one of its kind that is reached holds; before the first
+  /// one, what `commands` said.
+  std::vector<Command> feedback;
   int bodies() const { return module.count + ball.count; }
 };
+
+/// The command of an EventKind::command: those of `commands` first, then those of `feedback`.
+const Command& command_at(const Model& model, int index);
 
 /// The paper's tank with 15 Lilies, the baseline forces and the analytic flow; no ruleset.
 Model standard_model();

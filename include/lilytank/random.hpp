@@ -24,6 +24,7 @@ enum class Stream : std::uint32_t {
   latin = 11,      ///< where the samples of a latin hypercube lie (studies only)
   camera = 12,     ///< noise, dropped frames and exchanged bodies of a simulated camera
   search = 13,     ///< where particles start and are drawn to, samples of a search (never a world)
+  fault = 14,      ///< messages that are lost, latches that fail
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

@@ -73,6 +73,10 @@ struct Match {
 /// `standing`: the connection is a bond already (unlink and update rules), else a new latch (link).
 Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u);
 
+/// The labels that final joins leave, a pair a join: those of link rules whose labels no link or
+/// update rule goes on from. A finished copy holds one module of each.
+std::vector<std::array<int, 2>> final_labels(const Ruleset& rules);
+
 /// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file,
 /// line, column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);

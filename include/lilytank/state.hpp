@@ -53,6 +53,7 @@ struct State {
   std::int64_t step = 0;
   std::int32_t ruleset = 0;       ///< index into Model::rulesets
   std::int32_t next_command = 0;  ///< index into Model::commands
+  std::int32_t field = 0;         ///< the flow now: 0 Model::field, i Model::other_fields[i - 1]
   // Assemblies [bodies]: centre of mass (m), heading, twist (m/s, rad/s).
   std::vector<double> x, y, c, s, vx, vy, omega;
   // Bodies [bodies]: assembly slot, lattice cell and quarter turns in the assembly's frame.
@@ -68,6 +69,7 @@ template <class S, class Visit>
 void for_each_field(S& state, Visit&& visit) {
   visit("seed", state.seed), visit("step", state.step);
   visit("ruleset", state.ruleset), visit("next_command", state.next_command);
+  visit("field", state.field);
   visit("x", state.x), visit("y", state.y), visit("c", state.c), visit("s", state.s);
   visit("vx", state.vx), visit("vy", state.vy), visit("omega", state.omega);
   visit("assembly", state.assembly), visit("cell_x", state.cell_x);

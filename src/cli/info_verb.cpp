@@ -48,6 +48,10 @@ void print_derived(const Scenario& scenario) {
               << (command.modules.empty() ? "all" : std::to_string(command.modules.size()))
               << " modules\n";
   }
+  for (const Command& command : m.feedback) {
+    std::cout << "with " << command.copies
+              << " finished copies or more: " << command_word(command.kind) << "\n";
+  }
   for (const Ruleset& rules : m.rulesets) {
     if (!rules.target.empty()) {
       std::cout << "possible copies  " << m.module.count / static_cast<int>(rules.target.size())

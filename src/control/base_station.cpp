@@ -1,5 +1,7 @@
 #include "control/base_station.hpp"
 
+#include <algorithm>
+
 namespace lilytank {
 namespace {
 
@@ -27,29 +29,92 @@ void tell(Tick& tick, CommandKind kind, int module) {
       report(tick, EventKind::report, {module, 0}, {});
       break;
     case CommandKind::replace_ruleset:
+    case CommandKind::pump_power:
       break;  // concerns the world, not a module
   }
 }
 
-void obey(Tick& tick, const Command& command) {
+void announce(Tick& tick, int command) {
   Event event;
   event.step = tick.state.step;
   event.kind = EventKind::command;
-  event.a = tick.state.next_command;
+  event.a = command;
   tick.events.push_back(event);
-  if (command.kind == CommandKind::replace_ruleset) tick.state.ruleset = command.ruleset;
-  for (const int module : command.modules) tell(tick, command.kind, module);
-  if (!command.modules.empty()) return;
-  for (int module = 0; module < tick.model.module.count; ++module) tell(tick, command.kind, module);
 }
 
 }  // namespace
 
-void obey_base_station(Tick& tick) {
-  const auto count = static_cast<std::int32_t>(tick.model.commands.size());
+BaseStation::BaseStation(const Model& model) : model_(&model) {
+  for (const Command& command : model.feedback) {
+    sets_ruleset_ = sets_ruleset_ || command.kind == CommandKind::replace_ruleset;
+    sets_pumps_ = sets_pumps_ || command.kind == CommandKind::pump_power;
+  }
+  for (const Ruleset& rules : model.rulesets) final_labels_.push_back(final_labels(rules));
+}
+
+void BaseStation::speak(Tick& tick) const {
+  const auto count = static_cast<std::int32_t>(model_->commands.size());
   std::int32_t& next = tick.state.next_command;
-  for (; next < count && due(tick.model.commands[next], tick.number); ++next)
-    obey(tick, tick.model.commands[next]);
+  for (; next < count && due(model_->commands[next], tick.number); ++next) obey(tick, next);
+  if (sets_ruleset_ || sets_pumps_) follow_copies(tick);
+}
+
+void BaseStation::obey(Tick& tick, int index) const {
+  const Command& command = model_->commands[index];
+  announce(tick, index);
+  if (command.kind == CommandKind::replace_ruleset) tick.state.ruleset = command.ruleset;
+  if (command.kind == CommandKind::pump_power) tick.state.field = command.field;
+  for (const int module : command.modules) tell(tick, command.kind, module);
+  if (!command.modules.empty()) return;
+  for (int module = 0; module < model_->module.count; ++module) tell(tick, command.kind, module);
+}
+
+int BaseStation::finished_copies(const State& state) const {
+  if (final_labels_.empty()) return 0;
+  const auto& joins = final_labels_[static_cast<std::size_t>(state.ruleset)];
+  int fewest = joins.empty() ? 0 : model_->module.count;
+  for (const auto& [a, b] : joins) {
+    int modules = 0;  // a join has two
+    for (const Firmware& firmware : state.firmware) {
+      if (firmware.label == a || firmware.label == b) ++modules;
+    }
+    fewest = std::min(fewest, modules / 2);
+  }
+  return fewest;
+}
+
+// Index of the command of a kind that holds, those of feedback counted after those of time; -1:
+// none was given yet.
+int BaseStation::last_of(CommandKind kind, const State& state, int copies) const {
+  int last = -1;
+  for (int i = 0; i < state.next_command; ++i) {
+    if (model_->commands[i].kind == kind) last = i;
+  }
+  const int timed = static_cast<int>(model_->commands.size());
+  for (int i = 0; i < static_cast<int>(model_->feedback.size()); ++i) {
+    const Command& command = model_->feedback[i];
+    if (command.kind == kind && command.copies <= copies) last = timed + i;
+  }
+  return last;
+}
+
+void BaseStation::follow_copies(Tick& tick) const {
+  State& state = tick.state;
+  const int copies = finished_copies(state);
+  const auto timed = static_cast<int>(model_->commands.size());
+  const auto choose = [&](CommandKind kind, int Command::*what, std::int32_t& now) {
+    const int index = last_of(kind, state, copies);
+    int wanted = 0;
+    if (index >= timed)
+      wanted = model_->feedback[index - timed].*what;
+    else if (index >= 0)
+      wanted = model_->commands[index].*what;
+    if (wanted == now) return;
+    now = wanted;
+    announce(tick, index);
+  };
+  if (sets_ruleset_) choose(CommandKind::replace_ruleset, &Command::ruleset, state.ruleset);
+  if (sets_pumps_) choose(CommandKind::pump_power, &Command::field, state.field);
 }
 
 }  // namespace lilytank

@@ -1,16 +1,15 @@
 #include "control/controller.hpp"
 
-#include "control/base_station.hpp"
-
 namespace lilytank {
 
-Controller::Controller(const Model& model) : model_(&model), docking_(model), exchange_(model) {}
+Controller::Controller(const Model& model)
+    : model_(&model), base_station_(model), docking_(model), exchange_(model) {}
 
 void Controller::tick(State& state, Assemblies& assemblies, Motion& motion,
                       std::vector<Event>& events, Tallies& tallies) {
   Tick now{
       *model_, state, assemblies, motion, events, tallies, state.step / model_->steps_per_tick};
-  obey_base_station(now);
+  base_station_.speak(now);
   if (model_->control.latches) docking_.run(now);
   exchange_.run(now);
 }

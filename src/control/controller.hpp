@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "control/base_station.hpp"
 #include "control/docking.hpp"
 #include "control/exchange.hpp"
 
@@ -18,6 +19,7 @@ class Controller {
 
  private:
   const Model* model_;
+  BaseStation base_station_;
   Docking docking_;
   Exchange exchange_;
 };

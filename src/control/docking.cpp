@@ -149,6 +149,14 @@ void Docking::latch(Tick& tick, Connector a, Connector b) {
   Candidate now;
   if (!free(a) || !free(b) || !meet(tick.assemblies, a.module, b.module, now)) return;
   if (now.a.face != a.face || now.b.face != b.face) return;
+  if (fails(tick, a, Fault::latch)) {
+    for (const Connector& at : {a, b}) {
+      clear_face(tick.state, at);
+      face_of(tick.state, at).status = FaceStatus::off;
+      tick.assemblies.resting[at.module] = resting_faces(tick.state, at.module);
+    }
+    return;
+  }
   if (join(tick, a, b))
     report(tick, EventKind::latch, a, b);
   else

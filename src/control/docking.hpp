@@ -18,6 +18,7 @@ class Docking {
   /// kRetryTicks ticks before they latch onto anything.
   void run(Tick& tick);
 
+  /// A latch that fails [ControlParameters::latch_failure] leaves both faces off until they part.
   static constexpr int kRetryTicks = 4;
 
  private:

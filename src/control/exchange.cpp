@@ -113,6 +113,7 @@ void Exchange::send(Tick& tick, int module) {
   if (!holds(face)) return;
   const auto bits = random_bits(
       {tick.state.seed, Stream::message, tick.number, static_cast<std::uint32_t>(module), 0});
+  if (fails(tick, {module, f}, Fault::message)) return;
   Face& neighbour = face_of(tick.state, {face.partner, face.partner_face});
   neighbour.random = bits[0];
   std::uint8_t& mail = tick.state.firmware[face.partner].mail;
@@ -129,6 +130,7 @@ void Exchange::events(Tick& tick) {
       face.due = rest(tick, lower);
       // Waiting has no memory, so a pause only passes the time.
       if (fresh || !tick.on(i) || !tick.on(face.partner)) continue;
+      if (fails(tick, lower, Fault::message)) continue;
       const auto bits = random_bits({tick.state.seed, Stream::evaluation, tick.number,
                                      static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(f)});
       const Connector upper{face.partner, face.partner_face};
@@ -161,12 +163,19 @@ void Exchange::decide(Tick& tick, Connector initiator, Connector responder, std:
   ++tick.tallies.evaluations;
   const Match found =
       match(rules(tick), label(initiator), label(responder), standing, unit(random));
+  const bool ends = found.rule < 0 ? !standing && !found.applicable
+                                   : rules(tick).rules[found.rule].kind == RuleKind::unlink;
+  if (ends && fails(tick, responder, Fault::release)) return;
   if (found.rule >= 0) {
+    const Firmware before = state.firmware[initiator.module];
     if (found.swapped)
       apply(tick, found.rule, responder, initiator);
     else
       apply(tick, found.rule, initiator, responder);
-  } else if (!standing && !found.applicable) {
+    if (!fails(tick, initiator, Fault::answer)) return;
+    state.firmware[initiator.module].label = before.label;
+    state.firmware[initiator.module].last = before.last;
+  } else if (ends) {
     release(tick, initiator, responder);
     report(tick, EventKind::unlatch, initiator, responder);
   }

@@ -20,6 +20,10 @@ namespace lilytank {
 ///  - The answer is the decision: the rule is drawn with the initiator's random number, and both
 ///    modules change in the same tick (ideal channel). During the next tick the answer travels;
 ///    after it both are idle.
+/// Faults, where the model has any: a message that is lost is never heard; where an answer is lost,
+/// the responder has decided and the latch follows, but the initiator's labels stay as they were; a
+/// latch that fails to let go leaves everything as it was, to be decided again.
+///
 /// With the standard numbers a bond is evaluated 0.656 times a second in a dimer, 0.670 in a
 /// trimer and 0.700 in a cross of five (over 10^7 ticks and more; authors' machine: 0.66, 0.67,
 /// 0.70). A machine that hears messages while it waits, or keeps them, is half as fast again.

@@ -16,6 +16,22 @@ int reverse_hop(int hop) {
   return hop == 0 ? 0 : ((1 - hop) & 3) + 1;
 }
 
+std::vector<std::array<int, 2>> final_labels(const Ruleset& rules) {
+  const auto goes_on = [&](int label) {
+    return std::any_of(rules.rules.begin(), rules.rules.end(), [&](const Rule& rule) {
+      return rule.kind != RuleKind::unlink &&
+             (rule.before[0].state == label || rule.before[1].state == label);
+    });
+  };
+  std::vector<std::array<int, 2>> out;
+  for (const Rule& rule : rules.rules) {
+    const std::array<int, 2> labels{rule.after[0].state, rule.after[1].state};
+    if (rule.kind == RuleKind::link && !goes_on(labels[0]) && !goes_on(labels[1]))
+      out.push_back(labels);
+  }
+  return out;
+}
+
 Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u) {
   Match found;
   double share = 0;  // of [0,1), taken by the rules before this one

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "lilytank/random.hpp"
+
 namespace lilytank {
 
 void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule) {
@@ -21,6 +23,16 @@ void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule) {
     event.last_b = tick.state.firmware[b.module].last;
   }
   tick.events.push_back(event);
+}
+
+bool fails(const Tick& tick, Connector at, Fault fault) {
+  const ControlParameters& c = tick.model.control;
+  const double probability[] = {c.message_loss, c.answer_loss, c.latch_failure, c.release_failure};
+  const auto kind = static_cast<std::uint32_t>(fault);
+  if (probability[kind] <= 0) return false;
+  return uniform({tick.state.seed, Stream::fault, tick.number,
+                  static_cast<std::uint32_t>(at.module),
+                  4 * kind + static_cast<std::uint32_t>(at.face)}) < probability[kind];
 }
 
 void clear_face(State& state, Connector at) {

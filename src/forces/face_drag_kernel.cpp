@@ -184,7 +184,7 @@ namespace lilytank {
 HWY_EXPORT(drag);
 
 DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
-    : field(model.field.get()),
+    : field(&water(model, now)),
       gusts(model.flow.gusts),
       gusty(now.gusts),
       at(model.flow.at),

@@ -111,4 +111,12 @@ FlowSample FlowField::at(double x, double y) const {
           w00 * a.sigma_y + w10 * b.sigma_y + w01 * c.sigma_y + w11 * d.sigma_y};
 }
 
+FlowField scaled(const FlowField& field, double factor) {
+  std::vector<FlowSample> samples = field.samples();
+  for (FlowSample& s : samples)
+    s = {factor * s.mu_x, factor * s.mu_y, factor * s.sigma_x, factor * s.sigma_y};
+  return {field.cells(), field.extent(), std::move(samples), field.measured(),
+          field.interpolation()};
+}
+
 }  // namespace lilytank

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "lilytank/model.hpp"
+
 namespace lilytank {
 
 std::span<const ForceTerm* const> force_library() {
@@ -11,6 +13,10 @@ std::span<const ForceTerm* const> force_library() {
       &damping(),   &body_force(), &pair_attraction(),
   };
   return terms;
+}
+
+const FlowField& water(const Model& model, const Moment& now) {
+  return now.water != nullptr ? *now.water : *model.field;
 }
 
 const ForceTerm* find_force(std::string_view name) {

@@ -208,9 +208,42 @@ class Loader {
       m.rulesets.push_back(parse_ruleset(f.content, f.file));
     }
     for (ScheduledCommand& scheduled : commands_) {
-      if (scheduled.file >= 0) scheduled.command.ruleset = 1 + scheduled.file;
-      m.commands.push_back(scheduled.command);
+      Command& command = scheduled.command;
+      if (scheduled.file >= 0) command.ruleset = 1 + scheduled.file;
+      if (command.kind == CommandKind::pump_power) command.field = field_at(scheduled.power);
+      (command.copies > 0 ? m.feedback : m.commands).push_back(command);
     }
+    if (m.feedback.empty()) return;
+    for (const Ruleset& rules : m.rulesets) {
+      if (!final_labels(rules).empty()) continue;
+      throw InputError(place("command"), "ruleset '" + rules.name +
+                                             "' has no last join, so no finished copies can be "
+                                             "told from its labels");
+    }
+    if (m.rulesets.empty())
+      throw InputError(place("command"), "command.copies needs a ruleset.file");
+  }
+
+  // Index of the flow at a pump power (%), as Command::field. A measured flow goes with the power.
+  int field_at(double power) {
+    Model& m = draft_.scenario.model;
+    if (draft_.source == FlowSource::still)
+      throw InputError(place("flow.source"), "still water has no pumps to set");
+    if (power == draft_.tank.pump_power) return 0;
+    if (draft_.source == FlowSource::file && draft_.tank.pump_power == 0) {
+      throw InputError(place("flow.pump_power"),
+                       "flow.pump_power, at which flow.file was measured, is 0");
+    }
+    const auto known = std::find(powers_.begin(), powers_.end(), power);
+    const auto index = static_cast<int>(known - powers_.begin());
+    if (known != powers_.end()) return 1 + index;
+    powers_.push_back(power);
+    AnalyticTank tank = draft_.tank;
+    tank.pump_power = power;
+    m.other_fields.push_back(std::make_shared<const FlowField>(
+        draft_.source == FlowSource::tank ? analytic_tank(tank, draft_.interpolation)
+                                          : scaled(*m.field, power / draft_.tank.pump_power)));
+    return 1 + index;
   }
 
   Scenario finish() {
@@ -236,6 +269,7 @@ class Loader {
   std::map<std::string, SourcePlace> places_;  // of what was set
   std::vector<ScheduledCommand> commands_;
   std::vector<RulesetFile> command_files_;
+  std::vector<double> powers_;  // of Model::other_fields
   std::string rules_text_, flow_text_, poses_text_;
 };
 

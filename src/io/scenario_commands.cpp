@@ -1,6 +1,7 @@
 #include "io/scenario_commands.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 /// In the order of CommandKind.
 const std::vector<std::string>& command_words() {
-  static const std::vector<std::string> words{"pause", "resume", "switch_off", "ruleset", "query"};
+  static const std::vector<std::string> words{"pause",   "resume", "switch_off",
+                                              "ruleset", "query",  "pump_power"};
   return words;
 }
 
@@ -25,26 +27,26 @@ class CommandReader {
 
   ScheduledCommand read() {
     for (const Assignment& field : table_->fields) take(field);
-    if (!has_at_)
-      throw InputError(table_->place, "command.at is missing: when, as 3600 or \"1 h\"");
+    take_when();
     if (!has_do_) throw InputError(table_->place, "command.do is missing: what, as \"pause\"");
-    const bool wants_file = out_.command.kind == CommandKind::replace_ruleset;
-    if (wants_file && file_ == nullptr) {
-      throw InputError(table_->place, "command.file is missing: the ruleset to go on with");
-    }
-    if (!wants_file && file_ != nullptr) {
-      throw InputError(file_->place, "command.file goes with do = \"ruleset\" only");
-    }
-    if (wants_file) read_file();
+    check_copies();
+    goes_with(file_, CommandKind::replace_ruleset, "file", "the ruleset to go on with");
+    goes_with(power_, CommandKind::pump_power, "power", "how much, as \"50 %\"");
+    if (file_ != nullptr) read_file();
+    if (power_ != nullptr) out_.power = within(*power_, "power", "%", 100);
     return out_;
   }
 
  private:
   void take(const Assignment& field) {
-    static const std::vector<std::string> names{"at", "do", "modules", "file"};
+    static const std::vector<std::string> names{"at", "copies", "do", "modules", "file", "power"};
     const std::string name = field.path();
     if (name == "at") {
-      take_time(field);
+      at_ = &field;
+    } else if (name == "copies") {
+      copies_ = &field;
+    } else if (name == "power") {
+      power_ = &field;
     } else if (name == "do") {
       take_word(field);
     } else if (name == "modules") {
@@ -57,12 +59,51 @@ class CommandReader {
     }
   }
 
-  void take_time(const Assignment& field) {
-    out_.command.at = number_of(field, "command.at", "s");
-    has_at_ = true;
-    if (out_.command.at >= 0 && out_.command.at <= kLatest) return;
-    throw InputError(field.place, "command.at = " + shortest(out_.command.at) +
-                                      " s is outside 0 .. " + shortest(kLatest) + " s");
+  // A command has a time; one that goes with the number of finished copies has that instead.
+  void take_when() {
+    if (at_ == nullptr && copies_ == nullptr) {
+      throw InputError(table_->place,
+                       "command.at is missing: when, as 3600 or \"1 h\" - or "
+                       "command.copies, as 2");
+    }
+    if (at_ != nullptr) {
+      out_.command.at = within(*at_, "at", "s", kLatest);
+      if (copies_ == nullptr) return;
+      throw InputError(copies_->place, "a command has either a time, at, or copies");
+    }
+    const double copies = within(*copies_, "copies", "1", modules_);
+    if (copies < 1 || copies != std::floor(copies)) {
+      throw InputError(copies_->place,
+                       "command.copies = " + shortest(copies) + " is not 1, 2, 3, ...");
+    }
+    out_.command.copies = static_cast<int>(copies);
+  }
+
+  void check_copies() const {
+    const CommandKind kind = out_.command.kind;
+    if (copies_ == nullptr || kind == CommandKind::replace_ruleset ||
+        kind == CommandKind::pump_power)
+      return;
+    throw InputError(copies_->place,
+                     "command.copies goes with do = \"ruleset\" and \"pump_power\" only");
+  }
+
+  void goes_with(const Assignment* field, CommandKind kind, const std::string& name,
+                 const std::string& what) const {
+    const bool wanted = out_.command.kind == kind;
+    if (wanted == (field != nullptr)) return;
+    if (wanted) throw InputError(table_->place, "command." + name + " is missing: " + what);
+    throw InputError(field->place,
+                     "command." + name + " goes with do = \"" + command_word(kind) + "\" only");
+  }
+
+  static double within(const Assignment& field, const std::string& name, const std::string& unit,
+                       double high) {
+    const double value = number_of(field, "command." + name, unit);
+    if (value >= 0 && value <= high) return value;
+    const std::string shown = unit == "1" ? "" : " " + unit;
+    throw InputError(field.place, "command." + name + " = " + shortest(value) + shown +
+                                      " is outside 0 .. " + shortest(high) + shown);
   }
 
   void take_word(const Assignment& field) {
@@ -103,8 +144,8 @@ class CommandReader {
   int modules_;
   std::vector<RulesetFile>* files_;
   ScheduledCommand out_;
-  const Assignment* file_ = nullptr;
-  bool has_at_ = false, has_do_ = false;
+  const Assignment *at_ = nullptr, *copies_ = nullptr, *file_ = nullptr, *power_ = nullptr;
+  bool has_do_ = false;
 };
 
 }  // namespace
@@ -116,7 +157,8 @@ std::vector<ScheduledCommand> read_commands(const std::vector<CommandTable>& tab
     out.push_back(CommandReader(table, modules, files).read());
   std::stable_sort(out.begin(), out.end(),
                    [](const ScheduledCommand& a, const ScheduledCommand& b) {
-                     return a.command.at < b.command.at;
+                     return std::pair(a.command.copies, a.command.at) <
+                            std::pair(b.command.copies, b.command.at);
                    });
   return out;
 }

@@ -17,9 +17,11 @@ struct RulesetFile {
 struct ScheduledCommand {
   Command command;
   int file = -1;
+  double power = 0;  ///< %, for do = "pump_power"
 };
 
-/// Reads the tables, sorted by time, equal times in the file's order. Files named by do =
+/// Reads the tables, sorted by time, equal times in the file's order; after them those that go with
+/// finished copies, by their number. Files named by do =
 /// "ruleset" are added to `files`, each once. Throws InputError.
 std::vector<ScheduledCommand> read_commands(const std::vector<CommandTable>& tables, int modules,
                                             std::vector<RulesetFile>& files);

@@ -98,6 +98,14 @@ void control_keys(ScenarioDraft& d, Keys& keys) {
                   "evaluations of a bond per second, of the clock \"events\""});
   keys.push_back({"control.off_scale", &c.off_scale, "1", 1, 65535,
                   "an off face returns with probability (25 ms intervals off) / this"});
+  keys.push_back({"control.message_loss", &c.message_loss, "1", 0, 1,
+                  "probability that a message to a neighbour is lost"});
+  keys.push_back({"control.answer_loss", &c.answer_loss, "1", 0, 1,
+                  "probability that the answer is lost: the initiator then knows of no decision"});
+  keys.push_back({"control.latch_failure", &c.latch_failure, "1", 0, 1,
+                  "probability that two faces that meet fail to hold each other"});
+  keys.push_back({"control.release_failure", &c.release_failure, "1", 0, 1,
+                  "probability that a latch told to let go holds on"});
 }
 
 void start_keys(ScenarioDraft& d, Keys& keys) {

@@ -25,9 +25,13 @@ std::string command_text(const ScheduledCommand& scheduled) {
   const Command& command = scheduled.command;
   std::string modules;
   for (const int m : command.modules) modules += (modules.empty() ? "" : ", ") + std::to_string(m);
-  std::string out = "\n[[command]]\nat = " + shortest(command.at) +
-                    "  # s\ndo = " + toml_quoted(command_word(command.kind)) + "\nmodules = [" +
-                    modules + "]" + (modules.empty() ? "  # all" : "") + "\n";
+  const std::string when = command.copies > 0
+                               ? "copies = " + std::to_string(command.copies) + "  # finished\n"
+                               : "at = " + shortest(command.at) + "  # s\n";
+  std::string out = "\n[[command]]\n" + when + "do = " + toml_quoted(command_word(command.kind)) +
+                    "\nmodules = [" + modules + "]" + (modules.empty() ? "  # all" : "") + "\n";
+  if (command.kind == CommandKind::pump_power)
+    out += "power = " + shortest(scheduled.power) + "  # %\n";
   if (scheduled.file >= 0) {
     out += "file = " + toml_quoted(command_ruleset_name(static_cast<std::size_t>(scheduled.file))) +
            "\n";

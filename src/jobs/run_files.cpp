@@ -22,8 +22,7 @@ std::string kind_word(EventKind kind) {
 std::string rule_of(const Event& event, const World& world) {
   const Model& model = world.model();
   if (event.kind == EventKind::command) {
-    const auto index = static_cast<std::size_t>(std::max(event.a, 0));
-    return index < model.commands.size() ? command_word(model.commands[index].kind) : "";
+    return event.a < 0 ? "" : command_word(command_at(model, event.a).kind);
   }
   const auto ruleset = static_cast<std::size_t>(world.state().ruleset);
   if (event.rule < 0 || ruleset >= model.rulesets.size()) return "";

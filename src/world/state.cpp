@@ -7,7 +7,7 @@
 namespace lilytank {
 namespace {
 
-constexpr char kMagic[8] = {'L', 'T', 'S', 'T', 'A', 'T', 'E', '2'};
+constexpr char kMagic[8] = {'L', 'T', 'S', 'T', 'A', 'T', 'E', '3'};
 
 template <class T>
 struct IsVector : std::false_type {};

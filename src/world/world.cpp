@@ -41,7 +41,13 @@ struct World::Impl {
   }
 
   Moment now() const {
-    return {state.step * model->dt, state.step, state.step / model->steps_per_tick, state.seed};
+    const FlowField* water =
+        state.field == 0 ? model->field.get() : model->other_fields[state.field - 1].get();
+    return {.time = state.step * model->dt,
+            .step = state.step,
+            .gust = state.step / model->steps_per_tick,
+            .seed = state.seed,
+            .water = water};
   }
 
   void add_forces();

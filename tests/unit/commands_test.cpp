@@ -5,8 +5,10 @@
 
 using namespace lilytank;
 using lilytank::testing::chain;
+using lilytank::testing::hasty;
 using lilytank::testing::quiet_model;
 using lilytank::testing::Rig;
+using lilytank::testing::rules_of;
 using lilytank::testing::with_p;
 
 namespace {
@@ -113,6 +115,64 @@ TEST(Commands, TimesThatAreNotWholeTicksInBinaryFallOnTheirTick) {
     rig.tick();
     EXPECT_EQ(rig.log.size(), 4u) << tick;
   }
+}
+
+// A pair is the whole target here, so each pair is a copy.
+Ruleset pairs(double p_undone) {
+  return with_p(rules_of("r1: (0,0) (0,0) -> (1,1)-(2,1) p=1\n"
+                         "r1_reverse: (1,1)-(2,1) -> (0,0) (0,0) p=1\n"),
+                RuleKind::unlink, p_undone);
+}
+
+TEST(Commands, RulesetAndPumpsFollowTheNumberOfFinishedCopies) {
+  Model model = hasty(4, {pairs(0), pairs(1)});
+  Command replace{.kind = CommandKind::replace_ruleset, .ruleset = 1, .copies = 2};
+  Command pumps{.kind = CommandKind::pump_power, .copies = 1, .field = 1};
+  model.feedback = {pumps, replace};
+  Rig rig(std::move(model), 1);
+  rig.place(0, 0, 0), rig.place(2, 0, 1);
+  rig.run(10);
+  EXPECT_EQ(rig.state.field, 0);
+  rig.place_at(1, 2, 0, 0);
+  ASSERT_TRUE(rig.until(EventKind::link));
+  rig.tick();
+  EXPECT_EQ(rig.state.field, 1);  // one copy
+  EXPECT_EQ(rig.state.ruleset, 0);
+  rig.place_at(3, 2, 2, 0);
+  ASSERT_TRUE(rig.until(EventKind::link));
+  ASSERT_TRUE(rig.until(EventKind::command));
+  EXPECT_EQ(rig.state.ruleset, 1);  // two copies: the ruleset that undoes them
+  EXPECT_EQ(rig.events[0].a, 1);    // the second command of feedback
+  rig.run(2);                       // a bond is evaluated in every tick
+  EXPECT_GT(rig.count(EventKind::unlink), 0);
+  EXPECT_EQ(rig.state.ruleset, 0);
+}
+
+TEST(Commands, TimedCommandsHoldBeforeTheFirstCopy) {
+  Model model = hasty(2, {pairs(0), pairs(0), pairs(0)});
+  model.commands = {{.at = 1, .kind = CommandKind::replace_ruleset, .ruleset = 1},
+                    {.at = 2, .kind = CommandKind::pump_power, .field = 2}};
+  model.feedback = {{.kind = CommandKind::replace_ruleset, .ruleset = 2, .copies = 1},
+                    {.kind = CommandKind::pump_power, .copies = 1, .field = 1}};
+  Rig rig(std::move(model), 1);
+  rig.place(0, 0, 0);
+  rig.run(100);
+  EXPECT_EQ(rig.state.ruleset, 1);
+  EXPECT_EQ(rig.state.field, 2);
+  rig.place_at(1, 2, 0, 0);
+  ASSERT_TRUE(rig.until(EventKind::link));
+  rig.tick();
+  EXPECT_EQ(rig.state.ruleset, 2);
+  EXPECT_EQ(rig.state.field, 1);
+}
+
+TEST(Commands, FinalLabelsAreThoseThatNothingGoesOnFrom) {
+  EXPECT_EQ(final_labels(chain()), (std::vector<std::array<int, 2>>{{7, 8}}));
+  // A star of four grown on both of its first modules ends in two joins.
+  const Ruleset twice = rules_of(
+      "r1: (0,0) (0,0) -> (1,1)-(2,1) p=1\nr2: (1,3) (0,0) -> (3,1)-(4,1) p=1\n"
+      "r3: (2,3) (0,0) -> (5,1)-(6,1) p=1\n");
+  EXPECT_EQ(final_labels(twice), (std::vector<std::array<int, 2>>{{3, 4}, {5, 6}}));
 }
 
 }  // namespace

@@ -178,6 +178,32 @@ TEST_F(ScenarioTest, CommandsAreReadInOrderOfTime) {
   EXPECT_EQ(s.model.rulesets.size(), 2u);
 }
 
+TEST_F(ScenarioTest, CommandsMayGoWithFinishedCopiesAndSetThePumps) {
+  dir_.write("one.rules", kRules), dir_.write("two.rules", kRules);
+  const std::string text =
+      "[ruleset]\nfile = \"one.rules\"\n[flow]\npump_power = 60\n"
+      "[[command]]\ncopies = 2\ndo = \"ruleset\"\nfile = \"two.rules\"\n"
+      "[[command]]\ncopies = 1\ndo = \"pump_power\"\npower = \"30 %\"\n"
+      "[[command]]\nat = 9\ndo = \"pump_power\"\npower = 30\n"
+      "[[command]]\nat = 12\ndo = \"pump_power\"\npower = 60\n";
+  const Scenario s = load(text);
+  ASSERT_EQ(s.model.commands.size(), 2u);
+  EXPECT_EQ(s.model.commands[0].field, 1);
+  EXPECT_EQ(s.model.commands[1].field, 0);  // as at the start
+  ASSERT_EQ(s.model.feedback.size(), 2u);
+  EXPECT_EQ(s.model.feedback[0].copies, 1);
+  EXPECT_EQ(s.model.feedback[0].field, 1);
+  EXPECT_EQ(s.model.feedback[1].ruleset, 1);
+  ASSERT_EQ(s.model.other_fields.size(), 1u);
+  const FlowSample full = s.model.field->at(0.1, 0.05);
+  const FlowSample half = s.model.other_fields[0]->at(0.1, 0.05);
+  EXPECT_NEAR(half.sigma_x, full.sigma_x / 2, 1e-12);
+  TemporaryDirectory other;
+  for (const auto& file : s.files) other.write(file.name, file.content);
+  const Scenario again = load_scenario({other.write("resolved.toml", s.resolved)}, {});
+  EXPECT_EQ(again.identity, s.identity);
+}
+
 TEST_F(ScenarioTest, CommandsOfALaterFileReplaceThoseBelow) {
   dir_.write("b.toml", "[[command]]\nat = 1\ndo = \"pause\"\n");
   EXPECT_EQ(load("base = \"b.toml\"\n").model.commands.size(), 1u);
@@ -309,13 +335,24 @@ TEST_F(ScenarioTest, RefusesWithPlaceAndAdvice) {
       {"command = 3\n",
        "s.toml:1:11: command is a list of tables, each under its own line [[command]]"},
       {"[[command]]\ndo = \"pause\"\n",
-       "s.toml:1:1: command.at is missing: when, as 3600 or \"1 h\""},
+       "s.toml:1:1: command.at is missing: when, as 3600 or \"1 h\" - or command.copies, as 2"},
+      {"[[command]]\nat = 1\ncopies = 1\ndo = \"ruleset\"\n",
+       "s.toml:3:10: a command has either a time, at, or copies"},
+      {"[[command]]\ncopies = 1.5\ndo = \"pump_power\"\n",
+       "s.toml:2:10: command.copies = 1.5 is not 1, 2, 3, ..."},
+      {"[[command]]\ncopies = 1\ndo = \"pause\"\n",
+       "s.toml:2:10: command.copies goes with do = \"ruleset\" and \"pump_power\" only"},
+      {"[[command]]\nat = 1\ndo = \"pump_power\"\n",
+       "s.toml:1:1: command.power is missing: how much, as \"50 %\""},
+      {"[[command]]\nat = 1\ndo = \"pump_power\"\npower = 120\n",
+       "s.toml:4:9: command.power = 120 % is outside 0 .. 100 %"},
       {"[[command]]\nat = 1\n", "s.toml:1:1: command.do is missing: what, as \"pause\""},
       {"[[command]]\nat = -1\ndo = \"pause\"\n",
        "s.toml:2:6: command.at = -1 s is outside 0 .. 1e+08 s"},
       {"[[command]]\nat = \"1 m\"\n", "s.toml:2:6: command.at is a time in s; 'm' is not"},
       {"[[command]]\nat = 1\ndo = \"paus\"\n",
-       "s.toml:3:6: command.do = \"paus\" is none of pause, resume, switch_off, ruleset, query - "
+       "s.toml:3:6: command.do = \"paus\" is none of pause, resume, switch_off, ruleset, query, "
+       "pump_power - "
        "did you mean 'pause'?"},
       {"[[command]]\nat = 1\ndo = \"pause\"\nmoduls = [1]\n",
        "s.toml:4:1: unknown key 'command.moduls' - did you mean 'modules'?"},
@@ -372,6 +409,11 @@ TEST_F(ScenarioTest, RefusesFilesThatDoNotFit) {
             "p.csv:1:1: the first line is not \"id,x,y,theta\"");
   EXPECT_EQ(refusal("[[command]]\nat = 1\ndo = \"ruleset\"\nfile = \"r.rules\"\n"),
             "command: a command replaces the ruleset, but no ruleset.file is set to begin with");
+  EXPECT_EQ(refusal("[[command]]\ncopies = 1\ndo = \"pump_power\"\npower = 5\n"),
+            "command: command.copies needs a ruleset.file");
+  EXPECT_EQ(refusal("[flow]\nsource = \"still\"\n"
+                    "[[command]]\nat = 1\ndo = \"pump_power\"\npower = 5\n"),
+            "s.toml:2:10: still water has no pumps to set");
 }
 
 }  // namespace
