@@ -10,10 +10,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Colour rgb(int hex) {
-  return {(hex >> 16 & 255) / 255.0, (hex >> 8 & 255) / 255.0, (hex & 255) / 255.0, 1};
-}
-
 // Nine samples of "viridis" (Smith and van der Walt), and P. Tol's "BuRd".
 constexpr std::array<Colour, 9> kRising = {rgb(0x440154), rgb(0x472D7B), rgb(0x3B528B),
                                            rgb(0x2C728E), rgb(0x21918C), rgb(0x28AE80),

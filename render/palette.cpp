@@ -6,10 +6,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Colour rgb(int hex) {
-  return {(hex >> 16 & 255) / 255.0, (hex >> 8 & 255) / 255.0, (hex & 255) / 255.0, 1};
-}
-
 // In an order that keeps the states of the first joins far apart.
 constexpr std::array<Colour, 9> kStates = {rgb(0x44AA99), rgb(0xDDCC77), rgb(0xCC6677),
                                            rgb(0x332288), rgb(0x88CCEE), rgb(0xAA4499),

@@ -4,6 +4,11 @@
 
 namespace lilytank {
 
+/// 0xRRGGBB, opaque.
+constexpr Colour rgb(int hex) {
+  return {(hex >> 16 & 255) / 255.0, (hex >> 8 & 255) / 255.0, (hex & 255) / 255.0, 1};
+}
+
 /// Colours that have one meaning in every picture.
 namespace palette {
 inline constexpr Colour paper{1, 1, 1};

@@ -214,7 +214,7 @@ bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
     state.c[m.slot] = m.pose.r.c, state.s[m.slot] = m.pose.r.s;
   }
   derive_poses(*impl_->model, state, assemblies);
-  poses_changed();
+  impl_->searched = false;
   return true;
 }
 
@@ -234,10 +234,6 @@ std::span<const std::pair<int, int>> Motion::near_pairs(const Assemblies& assemb
     });
   }
   return m.found;
-}
-
-void Motion::poses_changed() {
-  impl_->searched = false;
 }
 
 }  // namespace lilytank

@@ -33,11 +33,9 @@ class Motion {
   bool settle(State& state, Assemblies& assemblies, int slot);
 
   /// Pairs (i < j, ascending) of modules whose centres are closer than `distance`, for latches.
-  /// The span is valid until the next call.
+  /// The span is valid until the next call. The search serves advance() as well, so poses must not
+  /// change in between other than by settle().
   std::span<const std::pair<int, int>> near_pairs(const Assemblies& assemblies, double distance);
-  /// To be told if poses change between near_pairs() and advance() other than by settle(): the
-  /// search of the former otherwise serves the latter.
-  void poses_changed();
 
  private:
   struct Impl;

@@ -1,13 +1,12 @@
 // Signals and kills at any moment: the same command goes on and ends in the same bytes. The moment
 // depends on the machine, the result must not; nothing is asserted about time.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
 
+#include "cli/process.hpp"
 #include "cli/program.hpp"
 #include "lilytank/run.hpp"
 
@@ -32,38 +31,11 @@ class InterruptionTest : public testing::Test {
     return gone ? 0 : n;
   }
 
-  /// Starts the program and leaves it running.
-  pid_t start(const Texts& arguments) const {
-    const pid_t child = ::fork();
-    if (child != 0) return child;
-    if (::chdir(path("").c_str()) != 0) ::_exit(99);
-    std::vector<char*> words{const_cast<char*>("lilytank")};
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
-    const int null = ::open("/dev/null", O_WRONLY);
-    ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
-    ::execv(LILYTANK_PROGRAM, words.data());
-    ::_exit(98);
-  }
-
-  static bool has_ended(pid_t process) {
-    siginfo_t info{};
-    ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT);
-    return info.si_pid != 0;
-  }
+  Process start(const Texts& arguments) const { return {path(""), arguments}; }
 
   /// Waits until a file is longer than `bytes` or the process has ended.
-  void await(pid_t process, const std::string& file, std::uintmax_t bytes) const {
-    while (size(file) <= bytes && !has_ended(process)) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  }
-
-  static int end(pid_t process, int signal) {
-    ::kill(process, signal);
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  void await(const Process& process, const std::string& file, std::uintmax_t bytes) const {
+    process.await([&] { return size(file) > bytes; });
   }
 
   Program lilytank_;
@@ -76,10 +48,9 @@ TEST_F(InterruptionTest, TermStopsAndTheSameCommandGoesOn) {
     const Answer whole = lilytank_("run long.toml --out whole-" + format + set);
     ASSERT_EQ(whole.code, 0) << whole.err;
     const std::string out = "parts-" + format;
-    const pid_t run =
-        start({"run", "long.toml", "--out", out, "--set", "output.trajectory=" + format});
+    Process run = start({"run", "long.toml", "--out", out, "--set", "output.trajectory=" + format});
     await(run, out + poses, 100);
-    const int code = end(run, SIGTERM);
+    const int code = run.end(SIGTERM);
     EXPECT_TRUE(code == 3 || code == 0) << code;
     const Answer rest = lilytank_("run long.toml --out " + out + set);
     EXPECT_EQ(rest.code, 0) << rest.err;
@@ -92,19 +63,17 @@ TEST_F(InterruptionTest, KillsAtAnyMomentDoNoHarm) {
   const Answer whole = lilytank_("run long.toml --out whole");
   ASSERT_EQ(whole.code, 0) << whole.err;
   const Texts command{"run", "long.toml", "--out", "parts"};
-  end(start(command), SIGKILL);  // most likely before there is anything
-  pid_t run = start(command);
-  await(run, "parts/resolved.toml", 0);  // begun, no checkpoint
-  EXPECT_NE(end(run, SIGKILL), 3);
-  run = start(command);
-  await(run, "parts/trajectory.bin", 1000);
-  end(run, SIGTERM);  // leaves a checkpoint
-  for (int i = 0; i < 3; ++i) {
-    const std::uintmax_t length = size("parts/trajectory.bin");
-    run = start(command);
-    await(run, "parts/trajectory.bin", length);  // beyond the checkpoint
-    end(run, SIGKILL);
-  }
+  // Kills or ends the run once `file` is longer than `bytes`.
+  const auto cut = [&](const std::string& file, std::uintmax_t bytes, int signal) {
+    Process run = start(command);
+    await(run, file, bytes);
+    return run.end(signal);
+  };
+  start(command).end(SIGKILL);                           // most likely before there is anything
+  EXPECT_NE(cut("parts/resolved.toml", 0, SIGKILL), 3);  // begun, no checkpoint
+  cut("parts/trajectory.bin", 1000, SIGTERM);            // leaves a checkpoint
+  for (int i = 0; i < 3; ++i)
+    cut("parts/trajectory.bin", size("parts/trajectory.bin"), SIGKILL);  // beyond the checkpoint
   const Answer rest = lilytank_("run long.toml --out parts");
   EXPECT_EQ(rest.code, 0) << rest.err;
   EXPECT_EQ(rest.out, whole.out);
@@ -121,17 +90,11 @@ TEST_F(InterruptionTest, KillsBetweenFrequentCheckpointsDoNoHarm) {
   options.checkpoint_seconds = 0;
   for (int i = 0; i < 5; ++i) {
     const std::string before = lilytank_.here.read("parts/checkpoint.bin");
-    const pid_t child = ::fork();
-    if (child == 0) {
-      run(scenario, options);
-      ::_exit(0);
-    }
-    while (lilytank_.here.read("parts/checkpoint.bin") == before && !has_ended(child)) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    Process child([&] { run(scenario, options); });
+    child.await([&] { return lilytank_.here.read("parts/checkpoint.bin") != before; });
     std::this_thread::sleep_for(std::chrono::milliseconds(7 * i));
-    const bool complete = has_ended(child);
-    end(child, SIGKILL);
+    const bool complete = child.has_ended();
+    child.end(SIGKILL);
     EXPECT_NE(lilytank_.here.read("parts/checkpoint.bin"), before);
     if (complete) break;  // a very fast machine
   }
@@ -144,10 +107,10 @@ TEST_F(InterruptionTest, KillsBetweenFrequentCheckpointsDoNoHarm) {
 }
 
 TEST_F(InterruptionTest, OneProcessADirectory) {
-  const pid_t first = start({"run", "long.toml", "--out", "a", "--set", "run.duration=1e7"});
+  Process first = start({"run", "long.toml", "--out", "a", "--set", "run.duration=1e7"});
   await(first, "a/resolved.toml", 0);
   const Answer second = lilytank_("run long.toml --out a --set run.duration=1e7");
-  end(first, SIGKILL);
+  first.end(SIGKILL);
   EXPECT_EQ(second.code, 2);
   EXPECT_EQ(second.err, "another process is at work in 'a'\n");
 }

@@ -1,4 +1,4 @@
-// The program in the background, to be interrupted.
+// The program, or a piece of work, in a process of its own, to be interrupted.
 #pragma once
 #include <fcntl.h>
 #include <signal.h>
@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,6 +27,12 @@ class Process {
     ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
     ::execv(LILYTANK_PROGRAM, words.data());
     ::_exit(98);
+  }
+  /// Does `work` in a process of its own.
+  explicit Process(const std::function<void()>& work) : child_(::fork()) {
+    if (child_ != 0) return;
+    work();
+    ::_exit(0);
   }
   ~Process() {
     if (!ended_) end(SIGKILL);

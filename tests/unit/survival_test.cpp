@@ -3,23 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "lilytank/random.hpp"
 #include "lilytank/statistics.hpp"
+#include "support/samples.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kZ = 1.959963984540054;  // 97.5 % of the standard normal
-
-double uniform_at(std::uint64_t set, int i, std::uint32_t what = 0) {
-  return uniform({20240607 + set, Stream::evaluation, i, what, 0});
-}
-double exponential_at(std::uint64_t set, int i, std::uint32_t what = 0) {
-  return -std::log(uniform_at(set, i, what));
-}
+using namespace lilytank::testing;
 
 // Exponential times of rate 1, censored by exponential times of rate `censoring`.
 std::vector<Duration> exponentials(std::uint64_t set, int n, double censoring,
