@@ -34,8 +34,9 @@ using SearchSpace = std::vector<SearchAxis>;
 struct Trial {
   std::vector<double> point;  ///< one value an axis, in its unit
   /// Tells repeated evaluations of a point apart; the caller makes a seed of it. Under common
-  /// random numbers the k-th evaluation of every point has replicate k (from 0); otherwise every
-  /// trial of a search has its own.
+  /// random numbers the k-th evaluation of every point has replicate k (from 0), and a final
+  /// selection goes on with the first one that no candidate had; otherwise every trial of a search
+  /// has its own.
   std::int64_t replicate = 0;
 };
 
@@ -123,9 +124,14 @@ struct SwarmOptions {
   Neighbourhood neighbourhood = Neighbourhood::global;
   double velocity_limit = 0.15;  ///< of |v| an iteration, as a share of an axis' (log) range
   AtBound at_bound = AtBound::stop;
-  int evaluations = 2;  ///< of a particle an iteration: the budget is particles * iterations * this
+  /// Of a particle an iteration: the budget is particles * iterations * this + final_evaluations.
+  int evaluations = 2;
   NoiseRule noise = NoiseRule::reevaluate;
   int ocba_stages = 4;  ///< of an iteration, after the new positions' first evaluations
+  /// After the last iteration so many more are shared out by OCBA among the leading personal bests,
+  /// whose earlier values do not count any more: a point leads a search by luck, too. 0, or at
+  /// least 4.
+  int final_evaluations = 0;
   bool common_random_numbers = false;
   /// Where the first particles start, as far as given; the others start uniformly at random.
   std::vector<std::vector<double>> starts;
@@ -146,9 +152,9 @@ struct CmaEsOptions {
   /// distribution [Hansen, Niederberger, Guzzella and Koumoutsakos 2009].
   bool handle_uncertainty = true;
   int most_evaluations = 16;
-  /// Of the budget, kept for the end: spent by OCBA on telling the best of the points that lead
-  /// then.
-  double final_share = 0.1;
+  /// Of the budget, kept for the end and shared out by OCBA among the leading samples and the final
+  /// mean, by new values only. 0, or at least 4.
+  int final_evaluations = 100;
   bool common_random_numbers = false;
 };
 

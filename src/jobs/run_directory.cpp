@@ -1,10 +1,5 @@
 #include "jobs/run_directory.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <filesystem>
 #include <sstream>
 #include <vector>
@@ -68,10 +63,6 @@ RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force
   }
 }
 
-RunDirectory::~RunDirectory() {
-  if (lock_ >= 0) ::close(lock_);
-}
-
 std::string RunDirectory::path(const std::string& name) const {
   return (fs::path(dir_) / name).string();
 }
@@ -133,14 +124,7 @@ void RunDirectory::remove_old() const {
 }
 
 void RunDirectory::open() {
-  std::error_code problem;
-  fs::create_directories(dir_, problem);
-  if (problem) throw InputError("cannot make directory '" + dir_ + "': " + problem.message());
-  // Held until the process ends, however it ends; leaves no file behind.
-  lock_ = ::open(dir_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    throw InputError("another process is at work in '" + dir_ + "'");
-  }
+  lock_.take(dir_);
   if (ours_) return;
   if (force_) remove_old();
   // The resolved scenario comes last: it says that the run was begun.

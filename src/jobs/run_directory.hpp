@@ -4,6 +4,7 @@
 #include <string>
 
 #include "jobs/checkpoint.hpp"
+#include "jobs/directory_lock.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank {
@@ -27,9 +28,6 @@ class RunDirectory {
   /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run or
   /// files that a run would overwrite, unless `force`.
   RunDirectory(std::string dir, const Scenario& scenario, bool force);
-  ~RunDirectory();
-  RunDirectory(const RunDirectory&) = delete;
-  RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// Where this scenario's run stopped, if it was begun here.
   const std::optional<Checkpoint>& checkpoint() const { return checkpoint_; }
@@ -55,7 +53,7 @@ class RunDirectory {
   bool force_;
   bool ours_ = false;  ///< this scenario's run was begun here
   std::optional<Checkpoint> checkpoint_;
-  int lock_ = -1;
+  DirectoryLock lock_;
 };
 
 }  // namespace lilytank

@@ -9,7 +9,7 @@
 namespace lilytank {
 namespace {
 
-constexpr std::int64_t kMostAxes = 1000, kMostIterations = 10'000'000;
+constexpr std::int64_t kMostAxes = 1000;
 
 bool is_word(const std::string& name) {
   const std::string_view allowed = "_.-";
@@ -110,34 +110,6 @@ SearchSpace load_space(StateReader& in) {
   }
   check_space(space);
   return space;
-}
-
-void save_history(StateWriter& out, const std::vector<IterationRecord>& history) {
-  out.whole("records", static_cast<std::int64_t>(history.size()));
-  for (const IterationRecord& record : history) {
-    const std::int64_t counts[] = {record.iteration, record.evaluations};
-    out.wholes("iteration", counts);
-    const double values[] = {record.best, record.median, record.worst, record.spread};
-    out.numbers("values", values);
-    out.numbers("best", record.best_point);
-  }
-}
-
-std::vector<IterationRecord> load_history(StateReader& in, std::size_t axes) {
-  const auto count = in.whole("records", 0, kMostIterations);
-  std::vector<IterationRecord> history;
-  for (std::int64_t i = 0; i < count; ++i) {
-    IterationRecord record;
-    const auto counts = in.wholes("iteration");
-    if (counts.size() != 2) in.refuse("two whole numbers were expected");
-    record.iteration = static_cast<int>(counts[0]), record.evaluations = counts[1];
-    const auto values = in.numbers("values", 4);
-    record.best = values[0], record.median = values[1], record.worst = values[2];
-    record.spread = values[3];
-    record.best_point = in.numbers("best", axes);
-    history.push_back(std::move(record));
-  }
-  return history;
 }
 
 }  // namespace lilytank

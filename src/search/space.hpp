@@ -23,7 +23,5 @@ std::vector<double> to_unit(const SearchSpace& space, const std::vector<double>&
 void save_space(StateWriter& out, const SearchSpace& space);
 /// Throws InputError on what check_space refuses.
 SearchSpace load_space(StateReader& in);
-void save_history(StateWriter& out, const std::vector<IterationRecord>& history);
-std::vector<IterationRecord> load_history(StateReader& in, std::size_t axes);
 
 }  // namespace lilytank

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "lilytank/random.hpp"
 #include "search/candidates.hpp"
+#include "search/records.hpp"
 #include "search/space.hpp"
 #include "search/swarm_options.hpp"
 
@@ -48,17 +48,41 @@ void Swarm::place() {
 }
 
 std::int64_t Swarm::budget() const {
-  return std::int64_t{options_.iterations} * iteration_budget();
+  return std::int64_t{options_.iterations} * iteration_budget() + options_.final_evaluations;
 }
 
 std::vector<Trial> Swarm::ask() {
-  if (wanted_.empty() && iteration_ < options_.iterations) plan();
+  if (iteration_ == options_.iterations) {
+    if (options_.final_evaluations > 0 && !selection_.begun()) begin_selection();
+    return selection_.ask(space_, evaluations_, options_.common_random_numbers);
+  }
+  if (wanted_.empty()) plan();
   std::vector<Trial> trials;
   for (std::size_t s = 0; s < wanted_.size(); ++s) {
     const Particle& p = particles_[static_cast<std::size_t>(wanted_[s].particle)];
     trials.push_back({from_unit(space_, wanted_[s].of_best ? p.best_x : p.x), replicate_of(s)});
   }
   return trials;
+}
+
+/// Of the leading personal bests.
+void Swarm::begin_selection() {
+  std::vector<int> order(particles_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto best_of = [&](int i) -> const Particle& {
+    return particles_[static_cast<std::size_t>(i)];
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return best_of(a).best.mean < best_of(b).best.mean; });
+  std::vector<UnitPoint> points;
+  int most = 0;
+  for (const int i : order) {
+    if (static_cast<int>(points.size()) == selection_size(options_.final_evaluations)) break;
+    if (std::find(points.begin(), points.end(), best_of(i).best_x) != points.end()) continue;
+    points.push_back(best_of(i).best_x);
+    most = std::max(most, best_of(i).best.count);
+  }
+  selection_ = Selection(std::move(points), options_.final_evaluations, most);
 }
 
 std::int64_t Swarm::replicate_of(std::size_t slot) const {
@@ -122,9 +146,12 @@ Tally& Swarm::tally_of(const Slot& slot) {
 }
 
 void Swarm::tell(std::span<const double> values) {
-  if (values.size() != wanted_.size() || wanted_.empty()) {
-    throw std::logic_error("a search was told " + std::to_string(values.size()) +
-                           " values where it asked for " + std::to_string(wanted_.size()));
+  check_count(values.size(), wanted_.size() + selection_.asked());
+  if (selection_.begun()) {
+    selection_.tell(values);
+    evaluations_ += static_cast<std::int64_t>(values.size());
+    if (selection_.over()) record(selection_.means());
+    return;
   }
   for (std::size_t s = 0; s < values.size(); ++s) tally_of(wanted_[s]).add(values[s]);
   evaluations_ += static_cast<std::int64_t>(values.size());
@@ -140,21 +167,17 @@ void Swarm::finish_iteration() {
     p.best_x = p.x, p.best = p.now;
   }
   ++iteration_;
-  record();
+  std::vector<double> means;
+  for (const Particle& p : particles_) means.push_back(p.now.mean);
+  record(std::move(means));
   if (iteration_ < options_.iterations) move();
   for (Particle& p : particles_) p.now = {};
   spent_ = 0, stage_ = 0;
 }
 
-void Swarm::record() {
-  std::vector<double> means;
-  for (const Particle& p : particles_) means.push_back(p.now.mean);
-  std::sort(means.begin(), means.end());
-  const std::size_t half = means.size() / 2;
-  const double median = means.size() % 2 == 1 ? means[half] : (means[half - 1] + means[half]) / 2;
-  const Incumbent leader = best();
-  history_.push_back(
-      {iteration_, evaluations_, leader.mean, median, means.back(), leader.point, spread()});
+void Swarm::record(std::vector<double> means) {
+  history_.push_back(record_of(std::move(means), evaluations_, best(), spread()));
+  history_.back().iteration = static_cast<int>(history_.size());
 }
 
 double Swarm::spread() const {
@@ -170,8 +193,12 @@ double Swarm::spread() const {
 
 Incumbent Swarm::best() const {
   if (iteration_ == 0) return {};
+  if (selection_.known()) {
+    const int leader = selection_.leader();
+    return incumbent_of(space_, selection_.point(leader), selection_.tally(leader));
+  }
   const Particle& p = particles_[static_cast<std::size_t>(leader_of(-1))];
-  return {from_unit(space_, p.best_x), p.best.mean, p.best.standard_error(), p.best.count};
+  return incumbent_of(space_, p.best_x, p.best);
 }
 
 /// Of particle i's neighbourhood, or of all with i = -1.

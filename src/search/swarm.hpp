@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lilytank/search.hpp"
+#include "search/selection.hpp"
 #include "search/state_text.hpp"
 #include "search/tally.hpp"
 
@@ -28,10 +29,8 @@ class Swarm final : public Search {
   std::string save() const override;
 
  private:
-  using Point = std::vector<double>;  ///< in the unit box
-
   struct Particle {
-    Point x, v, best_x;
+    UnitPoint x, v, best_x;
     Tally now, best;  ///< values of x in this iteration, and of best_x
   };
   /// One wanted evaluation: of a particle's position or of its personal best.
@@ -49,8 +48,9 @@ class Swarm final : public Search {
   Tally& tally_of(const Slot& slot);
   int iteration_budget() const { return options_.particles * options_.evaluations; }
 
+  void begin_selection();
   void finish_iteration();
-  void record();
+  void record(std::vector<double> means);
   double spread() const;
   void move();
   void move_axis(Particle& particle, int i, const Particle& leader, std::size_t axis) const;
@@ -66,6 +66,7 @@ class Swarm final : public Search {
   int stage_ = 0;      ///< batches told in this iteration
   std::int64_t evaluations_ = 0;
   std::vector<Slot> wanted_;
+  Selection selection_;  ///< begun after the last iteration
   std::vector<IterationRecord> history_;
 };
 

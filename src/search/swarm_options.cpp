@@ -10,6 +10,7 @@ namespace lilytank {
 namespace {
 
 constexpr int kMostParticles = 100'000, kMostIterations = 1'000'000, kMostEvaluations = 10'000;
+constexpr int kMostFinal = 100'000'000;
 
 template <class T>
 struct Named {
@@ -79,6 +80,8 @@ void check_swarm_options(const SwarmOptions& o, const SearchSpace& space) {
   check_whole("evaluations" + (again ? " with the noise rule " + name_of(o.noise) : ""),
               o.evaluations, again ? 2 : 1, kMostEvaluations);
   check_whole("stages", o.ocba_stages, 1, kMostEvaluations);
+  if (o.final_evaluations != 0)
+    check_whole("final evaluations", o.final_evaluations, 4, kMostFinal);
   check_number("inertia", o.inertia);
   check_number("personal weight", o.personal);
   check_number("neighbour weight", o.neighbour);
@@ -105,6 +108,7 @@ void save_swarm_options(StateWriter& out, const SwarmOptions& o) {
   out.whole("evaluations", o.evaluations);
   out.word("noise", name_of(o.noise));
   out.whole("stages", o.ocba_stages);
+  out.whole("final", o.final_evaluations);
   out.whole("common", o.common_random_numbers ? 1 : 0);
   out.whole("starts", static_cast<std::int64_t>(o.starts.size()));
   for (const auto& start : o.starts) out.numbers("start", start);
@@ -122,6 +126,7 @@ SwarmOptions load_swarm_options(StateReader& in, const SearchSpace& space) {
   o.evaluations = static_cast<int>(in.whole("evaluations", 1, kMostEvaluations));
   o.noise = noise_rule_named(in.word("noise"));
   o.ocba_stages = static_cast<int>(in.whole("stages", 1, kMostEvaluations));
+  o.final_evaluations = static_cast<int>(in.whole("final", 0, kMostFinal));
   o.common_random_numbers = in.whole("common", 0, 1) == 1;
   o.starts.resize(static_cast<std::size_t>(in.whole("starts", 0, o.particles)));
   for (auto& start : o.starts) start = in.numbers("start", space.size());

@@ -1,6 +1,7 @@
 // A swarm as text and back.
 #include <limits>
 
+#include "search/records.hpp"
 #include "search/space.hpp"
 #include "search/swarm.hpp"
 #include "search/swarm_options.hpp"
@@ -9,20 +10,6 @@ namespace lilytank {
 namespace {
 
 constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
-
-void save_tally(StateWriter& out, const Tally& tally) {
-  out.whole("count", tally.count);
-  const double values[] = {tally.mean, tally.squares};
-  out.numbers("tally", values);
-}
-
-Tally load_tally(StateReader& in) {
-  Tally tally;
-  tally.count = static_cast<int>(in.whole("count", 0, std::numeric_limits<int>::max()));
-  const auto values = in.numbers("tally", 2);
-  tally.mean = values[0], tally.squares = values[1];
-  return tally;
-}
 
 }  // namespace
 
@@ -45,6 +32,7 @@ std::string Swarm::save() const {
   std::vector<std::int64_t> wanted;
   for (const Slot& slot : wanted_) wanted.push_back(2 * slot.particle + (slot.of_best ? 1 : 0));
   out.wholes("wanted", wanted);
+  selection_.save(out);
   save_history(out, history_);
   return out.finish();
 }
@@ -67,8 +55,8 @@ Swarm::Swarm(StateReader& in)
     if (slot < 0 || slot / 2 >= options_.particles) in.refuse("there is no such particle");
     wanted_.push_back({static_cast<int>(slot / 2), slot % 2 == 1});
   }
+  selection_ = Selection(in, space_.size());
   history_ = load_history(in, space_.size());
-  if (history_.size() != static_cast<std::size_t>(iteration_)) in.refuse("iterations are missing");
   in.end();
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "search/state_text.hpp"
+
 namespace lilytank {
 
 /// Running mean and variance [Welford 1962]. A value that is not finite makes the mean +infinity
@@ -29,5 +31,8 @@ struct Tally {
   }
   double standard_error() const { return std::sqrt(variance() / count); }
 };
+
+void save_tally(StateWriter& out, const Tally& tally);
+Tally load_tally(StateReader& in);
 
 }  // namespace lilytank

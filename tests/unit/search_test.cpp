@@ -6,24 +6,15 @@
 #include <cmath>
 
 #include "lilytank/error.hpp"
+#include "support/search_functions.hpp"
 
 namespace lilytank {
 namespace {
 
-const SearchSpace kPlane{{"x", -5, 5}, {"y", -5, 5}};
-
-double sphere(const std::vector<double>& p) {
-  double sum = 0;
-  for (const double x : p) sum += (x - 1) * (x - 1);
-  return sum;
-}
+const SearchSpace kPlane = box(2);
 
 void run(Search& search) {
-  for (auto trials = search.ask(); !trials.empty(); trials = search.ask()) {
-    std::vector<double> values;
-    for (const Trial& t : trials) values.push_back(sphere(t.point));
-    search.tell(values);
-  }
+  carry_through(search, [](const Trial& t) { return sphere(t.point); });
 }
 
 TEST(Swarm, FindsTheLowestPointOfASphere) {
@@ -41,6 +32,18 @@ TEST(Swarm, GoesOnFromItsText) {
   const auto search = make_swarm(kPlane, {}, 1);
   run(*search);
   EXPECT_EQ(restore_search(search->save(), "saved")->save(), search->save());
+}
+
+TEST(CmaEs, FindsTheLowestPoints) {
+  const std::pair<const char*, double (*)(const Point&)> functions[] = {
+      {"sphere", sphere}, {"ellipsoid", ellipsoid}, {"rosenbrock", rosenbrock}};
+  for (const auto& [name, function] : functions) {
+    CmaEsOptions options;
+    options.budget = 6000, options.handle_uncertainty = false, options.final_evaluations = 0;
+    const auto search = make_cma_es(box(5), options, 1);
+    carry_through(*search, [&, f = function](const Trial& t) { return f(t.point); });
+    EXPECT_LT(search->best().mean, 1e-8) << name;
+  }
 }
 
 }  // namespace

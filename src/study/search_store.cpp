@@ -1,0 +1,198 @@
+#include "study/search_store.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "lilytank/search_run.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMagic = "lilytank search run 1";
+constexpr auto kBetweenFlushes = std::chrono::milliseconds(500);
+constexpr auto kBetweenCheckpoints = std::chrono::seconds(2);
+
+std::string hex(std::uint64_t value) {
+  char buffer[17];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, 16).ptr};
+}
+
+bool exists(const std::string& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+std::string header_of(const std::vector<std::string>& axes) {
+  std::string out = "batch,trial,replicate";
+  for (const std::string& axis : axes) out += "," + axis;
+  return out + ",value";
+}
+
+/// A row up to its value.
+std::string beginning(std::int64_t batch, std::int64_t number, const Trial& trial) {
+  std::string out = std::to_string(batch) + "," + std::to_string(number) + "," +
+                    std::to_string(trial.replicate) + ",";
+  for (const double x : trial.point) out += shortest(x) + ",";
+  return out;
+}
+
+/// The first three lines of a checkpoint.
+std::string head_of(std::uint64_t identity, std::int64_t batches, bool finished) {
+  return std::string(kMagic) + "\nidentity " + hex(identity) + "\nbatches " +
+         std::to_string(batches) + (finished ? " finished\n" : " begun\n");
+}
+
+}  // namespace
+
+SearchStore::SearchStore(std::string dir, const std::string& what, const Search& fresh, bool force)
+    : dir_(std::move(dir)) {
+  Fnv hash;
+  hash.add(what), hash.add(fresh.save());
+  identity_ = hash.value();
+  for (const SearchAxis& axis : fresh.space()) axes_.push_back(axis.name);
+  lock_.take(dir_);
+  const bool begun = exists(path(search_file::state));
+  const std::string state = begun ? read_whole(path(search_file::state)) : "";
+  const bool ours = state.starts_with(std::string(kMagic) + "\nidentity " + hex(identity_) + "\n");
+  if (ours) {
+    resume(state);
+    return;
+  }
+  const std::string advice = "; choose another directory, or --force to replace it";
+  if (begun && !force) throw InputError("'" + dir_ + "' holds another search" + advice);
+  for (const char* name : {search_file::evaluations, search_file::history}) {
+    if (begun || force || !exists(path(name))) continue;
+    throw InputError("'" + dir_ + "' holds a file '" + name + "' that is not of a search" + advice);
+  }
+  clear();
+  open(fresh);
+}
+
+std::string SearchStore::path(const char* name) const {
+  return (fs::path(dir_) / name).string();
+}
+
+void SearchStore::clear() const {
+  std::error_code ignored;
+  // The checkpoint first: without it the others are nobody's.
+  for (const char* name : {search_file::state, search_file::evaluations, search_file::history}) {
+    fs::remove(path(name), ignored);
+  }
+}
+
+/// The checkpoint comes first: it says whose the files are.
+void SearchStore::open(const Search& fresh) {
+  write_atomically(path(search_file::state), head_of(identity_, 0, false) + fresh.save());
+  saved_ = Clock::now();
+  log_.emplace(path(search_file::evaluations));
+  log_->append(header_of(axes_) + "\n");
+  log_->flush();
+}
+
+void SearchStore::resume(const std::string& state) {
+  const std::string file = path(search_file::state);
+  std::istringstream in(state);
+  std::string line, word, end;
+  std::getline(in, line), std::getline(in, line);
+  if (!(in >> word >> batch_ >> end) || word != "batches" || batch_ < 0 || in.get() != '\n') {
+    throw InputError(SourcePlace{file, 3, 1}, "the checkpoint of the search is damaged");
+  }
+  finished_ = end == "finished";
+  stored_ =
+      restore_search(std::string_view(state).substr(static_cast<std::size_t>(in.tellg())), file);
+  saved_ = Clock::now();
+  if (exists(path(search_file::evaluations))) {
+    read_log();
+  } else if (batch_ == 0) {  // killed before there was one
+    log_.emplace(path(search_file::evaluations));
+    log_->append(header_of(axes_) + "\n");
+  } else {
+    refuse_changed("is missing");
+  }
+  std::int64_t before = 0;
+  for (const auto& [key, row] : rows_) before += key.first <= batch_ ? 1 : 0;
+  if (before != stored_->evaluations()) refuse_changed("lacks values that the checkpoint knows");
+}
+
+void SearchStore::refuse_changed(const std::string& how) const {
+  throw InputError("'" + path(search_file::evaluations) + "' " + how + ": it was changed");
+}
+
+void SearchStore::read_log() {
+  const std::string file = path(search_file::evaluations);
+  std::string text = read_whole(file);
+  text.resize(text.rfind('\n') + 1);  // what a kill cut off is evaluated again
+  if (text.empty() && batch_ == 0) text = header_of(axes_) + "\n", write_atomically(file, text);
+  CsvReader csv(text, file, {header_of(axes_)});
+  const auto most = std::numeric_limits<std::int64_t>::max();
+  while (csv.next()) {
+    const Key key{csv.whole(0, 1, most), csv.whole(1, 1, most)};
+    std::string row;
+    for (std::size_t c = 0; c < axes_.size() + 4; ++c) row.append(csv.text(c)).append(",");
+    row.pop_back();
+    if (csv.text(axes_.size() + 3) != "inf") static_cast<void>(csv.number(axes_.size() + 3));
+    if (!rows_.emplace(key, row).second) csv.refuse(1, "this trial is there twice");
+  }
+  log_.emplace(file, static_cast<std::int64_t>(text.size()));
+}
+
+std::vector<std::optional<double>> SearchStore::known(const std::vector<Trial>& trials) const {
+  std::vector<std::optional<double>> out(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const auto number = static_cast<std::int64_t>(i) + 1;
+    const auto found = rows_.find({batch_ + 1, number});
+    if (found == rows_.end()) continue;
+    const std::string start = beginning(batch_ + 1, number, trials[i]);
+    if (!found->second.starts_with(start)) refuse_changed("holds trials of another search");
+    const std::string value = found->second.substr(start.size());
+    out[i] = parse_number(value).value_or(std::numeric_limits<double>::infinity());
+  }
+  return out;
+}
+
+void SearchStore::keep(std::size_t index, const Trial& trial, double value) {
+  const auto number = static_cast<std::int64_t>(index) + 1;
+  const std::lock_guard hold(log_lock_);
+  const std::string row = beginning(batch_ + 1, number, trial) +
+                          (std::isfinite(value) ? shortest(value) : std::string("inf"));
+  rows_.emplace(Key{batch_ + 1, number}, row);
+  log_->append(row + "\n");
+  if (Clock::now() - logged_ < kBetweenFlushes) return;
+  log_->flush();
+  logged_ = Clock::now();
+}
+
+void SearchStore::told(const Search& search) {
+  ++batch_;
+  if (Clock::now() - saved_ >= kBetweenCheckpoints) checkpoint(search);
+}
+
+void SearchStore::checkpoint(const Search& search) {
+  if (finished_) return;
+  log_->flush();
+  write_atomically(path(search_file::history), history_text(search));
+  write_atomically(path(search_file::state), head_of(identity_, batch_, false) + search.save());
+  saved_ = Clock::now();
+}
+
+void SearchStore::finish(const Search& search) {
+  if (finished_) return;
+  log_->flush();
+  std::string text = header_of(axes_) + "\n";
+  for (const auto& [key, row] : rows_) text += row + "\n";
+  write_atomically(path(search_file::evaluations), text);
+  write_atomically(path(search_file::history), history_text(search));
+  write_atomically(path(search_file::state), head_of(identity_, batch_, true) + search.save());
+  finished_ = true;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,71 @@
+// The directory of a search: whose it is, a checkpoint, and every value.
+//
+// A value is logged as soon as it is there; the checkpoint only spares replaying the search from
+// its start. It is never ahead of the log, so whatever is lost in a kill is evaluated again.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/append_file.hpp"
+#include "jobs/directory_lock.hpp"
+#include "lilytank/search.hpp"
+
+namespace lilytank {
+
+namespace search_file {
+inline constexpr const char* state = "search.state";
+inline constexpr const char* evaluations = "evaluations.csv";
+inline constexpr const char* history = "history.csv";
+}  // namespace search_file
+
+class SearchStore {
+ public:
+  /// Takes the directory. `what`: names the search beside its own options. Throws InputError if the
+  /// directory is in use, or holds another search or damaged files and not `force`.
+  SearchStore(std::string dir, const std::string& what, const Search& fresh, bool force);
+
+  /// The stored search, if there is one.
+  std::unique_ptr<Search> stored() { return std::move(stored_); }
+  /// The values of a batch that are there. Throws InputError if the log tells of other trials.
+  std::vector<std::optional<double>> known(const std::vector<Trial>& trials) const;
+  /// Logs a value of the batch, from any thread.
+  void keep(std::size_t index, const Trial& trial, double value);
+  /// The batch is complete and was told; now and then makes a checkpoint.
+  void told(const Search& search);
+  /// Checkpoint and history now.
+  void checkpoint(const Search& search);
+  /// Checkpoint and history after the last batch, and the log in the order of the trials.
+  void finish(const Search& search);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Key = std::pair<std::int64_t, std::int64_t>;  ///< batch and trial, from 1
+
+  std::string path(const char* name) const;
+  void open(const Search& fresh);
+  void resume(const std::string& state);
+  void read_log();
+  void clear() const;
+  [[noreturn]] void refuse_changed(const std::string& how) const;
+
+  std::string dir_;
+  std::uint64_t identity_;
+  std::vector<std::string> axes_;
+  DirectoryLock lock_;
+  std::unique_ptr<Search> stored_;
+  std::int64_t batch_ = 0;  ///< complete ones
+  bool finished_ = false;   ///< as stored
+  std::map<Key, std::string> rows_;
+  std::optional<AppendFile> log_;
+  std::mutex log_lock_;
+  Clock::time_point logged_{}, saved_{};
+};
+
+}  // namespace lilytank
