@@ -75,8 +75,9 @@ layer io io analysis text
 layer jobs jobs io analysis text
 layer recording recording io analysis text
 layer flow flow recording io analysis text
+layer synthesis synthesis io analysis text
 layer study study jobs io analysis text
-layer cli cli study jobs recording flow io analysis text
+layer cli cli study jobs recording flow synthesis io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 exit "$faults"

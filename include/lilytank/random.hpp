@@ -25,6 +25,8 @@ enum class Stream : std::uint32_t {
   camera = 12,     ///< noise, dropped frames and exchanged bodies of a simulated camera
   search = 13,     ///< where particles start and are drawn to, samples of a search (never a world)
   fault = 14,      ///< messages that are lost, latches that fail
+  lattice = 15,    ///< meetings and evaluations of the lattice model (never a world)
+  gillespie = 16,  ///< reactions of the well-mixed model (never a world)
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

@@ -1,0 +1,208 @@
+// What can be proved about a ruleset, and the report of it.
+#include <algorithm>
+#include <set>
+
+#include "lilytank/lattice.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string many(std::int64_t n, const std::string& one, const std::string& more) {
+  return std::to_string(n) + " " + (n == 1 ? one : more);
+}
+
+void judge_species(const Ruleset& rules, RulesetCheck& check) {
+  const ReactionNetwork& network = check.network;
+  std::set<int> broken;
+  for (const Reaction& reaction : network.reactions)
+    if (reaction.kind == RuleKind::unlink && reaction.to.size() > 1)
+      broken.insert(reaction.from.front());
+  check.target_stable = true;
+  for (std::size_t k = 0; k < network.species.size(); ++k) {
+    const Species& species = network.species[k];
+    if (species.target) {
+      check.target_reached = true;
+      if (broken.count(static_cast<int>(k)) > 0) check.target_stable = false;
+    } else if (species.size >= check.target_size && check.target_size > 0) {
+      check.other_finals.push_back(static_cast<int>(k));
+    }
+  }
+  if (rules.target.empty()) {
+    check.notes.push_back("the ruleset names no target: nothing is said about copies");
+    return;
+  }
+  if (!network.closed)
+    check.faults.push_back("there are more assemblies than were explored: nothing is proved");
+  if (!check.target_reached) check.faults.push_back("the rules cannot build the target");
+  if (!check.other_finals.empty())
+    check.faults.push_back(
+        "the rules build " +
+        many(static_cast<std::int64_t>(check.other_finals.size()), "other assembly",
+             "other assemblies") +
+        " of the target's size or more, as " +
+        network.species[static_cast<std::size_t>(check.other_finals.front())].drawing);
+  if (check.target_reached && !check.target_stable)
+    check.notes.push_back("finished copies can fall apart again");
+}
+
+void judge_rules(const Ruleset& rules, RulesetCheck& check) {
+  for (const auto& [rule, why] : check.unrestored) check.faults.push_back(why);
+  std::set<int> used;
+  for (const Reaction& reaction : check.network.reactions) used.insert(reaction.rule);
+  for (std::size_t k = 0; k < rules.rules.size(); ++k) {
+    if (rules.rules[k].p > 0 && used.count(static_cast<int>(k)) == 0)
+      check.notes.push_back(rules.rules[k].name + " never fires");
+  }
+  std::set<std::string> lost;
+  for (const Reaction& reaction : check.network.blocked)
+    lost.insert(rules.rules[static_cast<std::size_t>(reaction.rule)].name);
+  for (const std::string& name : lost)
+    check.notes.push_back("some joins of " + name + " have no straight way in and are left out");
+}
+
+void judge_population(const Ruleset& rules, RulesetCheck& check) {
+  if (check.modules <= 0) return;
+  check.population = population_graph(rules, check.network, check.modules);
+  const PopulationGraph& graph = check.population;
+  if (!graph.complete) {
+    check.notes.push_back("more than " + std::to_string(graph.states - 1) +
+                          " states of " + std::to_string(check.modules) +
+                          " modules: deadlocks are not proved or excluded");
+    return;
+  }
+  const auto deadlocks = graph.deadlocks();
+  if (!deadlocks.empty())
+    check.faults.push_back(many(static_cast<std::int64_t>(deadlocks.size()), "deadlock", "deadlocks") +
+                           ": states that are never left and miss a copy");
+  const bool wavering = std::any_of(graph.ends.begin(), graph.ends.end(), [&](const EndState& end) {
+    return end.fewest_copies < graph.possible && end.copies == graph.possible;
+  });
+  if (wavering) check.notes.push_back("full yield is reached again and again, but not kept");
+}
+
+void judge_lattice(const Ruleset& rules, const CheckOptions& options, RulesetCheck& check) {
+  NetworkOptions legal;
+  legal.sterics = false;
+  legal.largest = std::max(options.modules, 1);
+  const ReactionNetwork network = reaction_network(rules, legal);
+  for (int run = 0; run < options.lattice_runs; ++run) {
+    LatticeOptions one = options.lattice;
+    one.modules = options.modules;
+    one.seed = derived_seed(options.lattice.seed, static_cast<std::uint64_t>(run));
+    if (one.stop != nullptr && one.stop->load()) return;
+    check.lattice.push_back(run_lattice(rules, network, one));
+    if (options.progress) options.progress((run + 1.0) / options.lattice_runs);
+  }
+  std::int64_t illegal = 0, unrestored = 0;
+  for (const LatticeResult& result : check.lattice)
+    illegal += result.illegal, unrestored += result.unrestored;
+  if (illegal > 0)
+    check.faults.push_back(many(illegal, "assembly", "assemblies") +
+                           " in the lattice worlds that the rules cannot make one at a time");
+  if (unrestored > 0)
+    check.faults.push_back(many(unrestored, "join", "joins") +
+                           " in the lattice worlds that undoing did not take back");
+}
+
+std::string contents(const ReactionNetwork& network, const std::vector<int>& counts) {
+  std::string out;
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (counts[k] > 0)
+      out += (out.empty() ? "" : ", ") + std::to_string(counts[k]) + " x " +
+             network.species[k].drawing;
+  return out;
+}
+
+std::string species_text(const RulesetCheck& check) {
+  std::map<int, int> sizes;
+  for (const Species& species : check.network.species) ++sizes[species.size];
+  std::string out = many(static_cast<std::int64_t>(check.network.species.size()),
+                         "kind of assembly", "kinds of assembly");
+  std::string list;
+  for (const auto& [size, number] : sizes)
+    list += (list.empty() ? "" : ", ") + std::to_string(number) + " of " + std::to_string(size);
+  out += " (" + list + (sizes.size() == 1 && sizes.begin()->first == 1 ? " module)" : " modules)");
+  const std::size_t joins =
+      static_cast<std::size_t>(std::count_if(check.network.reactions.begin(), check.network.reactions.end(),
+                                             [](const Reaction& r) { return r.kind == RuleKind::link; }));
+  return out + ", " + std::to_string(joins) + " ways to join, " +
+         std::to_string(check.network.reactions.size() - joins) + " to change or fall apart\n";
+}
+
+std::string population_text(const RulesetCheck& check) {
+  const PopulationGraph& graph = check.population;
+  if (check.modules <= 0 || !graph.complete) return "";
+  std::string out = std::to_string(check.modules) + " modules have " +
+                    many(graph.states, "state", "states") + " and end in " +
+                    many(static_cast<std::int64_t>(graph.ends.size()), "way", "ways") + "\n";
+  constexpr std::size_t kShown = 5;
+  for (std::size_t k = 0; k < graph.ends.size() && k < kShown; ++k) {
+    const EndState& end = graph.ends[k];
+    const std::string range = end.fewest_copies == end.copies
+                                  ? std::to_string(end.copies)
+                                  : std::to_string(end.fewest_copies) + " .. " + std::to_string(end.copies);
+    out += "  " + range + " of " + std::to_string(graph.possible) + " copies" +
+           (end.copies < graph.possible ? ", a deadlock" : "") + ": " +
+           contents(check.network, end.counts) +
+           (end.states > 1 ? " and " + std::to_string(end.states - 1) + " other states" : "") + "\n";
+  }
+  if (graph.ends.size() > kShown)
+    out += "  ... and " + std::to_string(graph.ends.size() - kShown) + " more\n";
+  return out;
+}
+
+std::string lattice_text(const RulesetCheck& check) {
+  if (check.lattice.empty()) return "";
+  std::int64_t attempts = 0, links = 0, unlinks = 0, illegal = 0, restored = 0, full = 0, blocked = 0;
+  for (const LatticeResult& r : check.lattice) {
+    attempts += r.attempts, links += r.links, unlinks += r.unlinks, illegal += r.illegal;
+    restored += r.restored, blocked += r.blocked;
+    full += r.possible > 0 && r.copies == r.possible ? 1 : 0;
+  }
+  return many(static_cast<std::int64_t>(check.lattice.size()), "lattice world", "lattice worlds") +
+         ": " + std::to_string(attempts) + " meetings, " + std::to_string(links) + " joins, " +
+         std::to_string(unlinks) + " undone, " + std::to_string(blocked) + " without a way in; " +
+         std::to_string(illegal) + " illegal assemblies; " + std::to_string(restored) +
+         " joins undone on a copy and found as before; full yield in " + std::to_string(full) + "\n";
+}
+
+}  // namespace
+
+RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options) {
+  check_probabilities(rules);
+  RulesetCheck check;
+  check.modules = options.modules;
+  check.target_size = static_cast<int>(rules.target.size());
+  NetworkOptions network;
+  network.largest = std::max(options.modules, 1);
+  check.network = reaction_network(rules, network);
+  network.never = true;
+  check.unrestored = reaction_network(rules, network).unrestored;
+  check.irreversible_size = first_irreversible_size(rules, check.network);
+  judge_species(rules, check);
+  judge_rules(rules, check);
+  judge_population(rules, check);
+  judge_lattice(rules, options, check);
+  return check;
+}
+
+std::string check_text(const Ruleset& rules, const RulesetCheck& check) {
+  std::string out = "ruleset " + rules.name + ": " +
+                    many(static_cast<std::int64_t>(rules.rules.size()), "rule", "rules") + "\n";
+  out += species_text(check) + population_text(check) + lattice_text(check);
+  if (check.unrestored.empty())
+    out += "every reverse rule gives back the states that its join found\n";
+  if (check.irreversible_size > 0 && check.modules > 0 && check.target_size > 0) {
+    const int s = check.irreversible_size, n = check.target_size, m = check.modules;
+    out += "assemblies from " + many(s, "module", "modules") + " on may last: floor(M/s) = " +
+           std::to_string(m / s) + (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) +
+           " = floor(M/n)" + (deadlock_risk(m, s, n) ? ", deadlocks are possible" : "") + "\n";
+  }
+  for (const std::string& note : check.notes) out += "note: " + note + "\n";
+  for (const std::string& fault : check.faults) out += "fault: " + fault + "\n";
+  if (check.faults.empty()) out += "no fault found\n";
+  return out;
+}
+
+}  // namespace lilytank
