@@ -24,15 +24,15 @@ struct Reaction {
   RuleKind kind = RuleKind::link;
   std::vector<int> from;  ///< one species (unlink, update, closing a loop) or two
   std::vector<int> to;    ///< rising
-  int places = 1;         ///< pairs of faces, or bonds, at which it happens, of one pair or assembly
+  int places = 1;  ///< pairs of faces, or bonds, at which it happens, of one pair or assembly
 };
 
 /// What a ruleset makes of single modules.
 struct ReactionNetwork {
   std::vector<Species> species;  ///< [0]: a single module, (0,0)
   std::vector<Reaction> reactions;
-  /// Joins that fit on the lattice but that no straight way leads to (see src/synthesis/steric.hpp);
-  /// `to` is empty where nothing else makes what they would make.
+  /// Joins that fit on the lattice but that no straight way leads to (see
+  /// src/synthesis/steric.hpp); `to` is empty where nothing else makes what they would make.
   std::vector<Reaction> blocked;
   /// Indices of rules whose unlinking does not give back what their link rule needs, and how.
   std::map<int, std::string> unrestored;
@@ -42,10 +42,10 @@ struct ReactionNetwork {
 };
 
 struct NetworkOptions {
-  bool never = false;    ///< rules with p = 0 fire, too
-  bool sterics = true;   ///< leave joins out that no straight way leads to
-  int limit = 4096;      ///< species
-  int largest = 64;      ///< modules of one assembly
+  bool never = false;   ///< rules with p = 0 fire, too
+  bool sterics = true;  ///< leave joins out that no straight way leads to
+  int limit = 4096;     ///< species
+  int largest = 64;     ///< modules of one assembly
 };
 /// Explores from single modules. The state that each unlink rule leaves is checked against its link
 /// rule on the way, whatever its p.
@@ -59,9 +59,9 @@ struct EndState {
   int fewest_copies = 0;    ///< the least
 };
 struct PopulationGraph {
-  bool complete = true;      ///< false: more states than the limit, nothing is proved
-  std::int64_t states = 0;   ///< that can be reached
-  int possible = 0;          ///< copies: floor(M / n)
+  bool complete = true;     ///< false: more states than the limit, nothing is proved
+  std::int64_t states = 0;  ///< that can be reached
+  int possible = 0;         ///< copies: floor(M / n)
   std::vector<EndState> ends;
   /// Ends in which some copy is always missing.
   std::vector<EndState> deadlocks() const;
@@ -77,8 +77,8 @@ int first_irreversible_size(const Ruleset& rules, const ReactionNetwork& network
 /// does not hold, growth by one module cannot deadlock; where it does, it may.
 bool deadlock_risk(int modules, int irreversible_size, int target_size);
 /// Exactly, for growth by one module at a time in which everything smaller than s falls apart: some
-/// b < floor(M / n) and k >= 1 have k s <= M - b n <= k (n - 1), so that all modules can be bound in b
-/// copies and k assemblies that last.
+/// b < floor(M / n) and k >= 1 have k s <= M - b n <= k (n - 1), so that all modules can be bound
+/// in b copies and k assemblies that last.
 bool serial_deadlock(int modules, int irreversible_size, int target_size);
 
 struct LatticeOptions {
@@ -93,10 +93,10 @@ struct LatticeOptions {
 struct LatticeResult {
   std::int64_t attempts = 0;
   std::int64_t links = 0, unlinks = 0, refusals = 0;
-  std::int64_t blocked = 0;   ///< meetings that could not be, as no way led there
-  std::int64_t crowded = 0;   ///< meetings in which cells would have overlapped
-  std::int64_t illegal = 0;   ///< appearances of assemblies that the network does not know
-  std::string first_illegal;  ///< drawing
+  std::int64_t blocked = 0;       ///< meetings that could not be, as no way led there
+  std::int64_t crowded = 0;       ///< meetings in which cells would have overlapped
+  std::int64_t illegal = 0;       ///< appearances of assemblies that the network does not know
+  std::string first_illegal;      ///< drawing
   std::int64_t double_bonds = 0;  ///< meetings that made more than one bond (closures)
   std::int64_t restored = 0, unrestored = 0;  ///< joins that were undone on a copy, and compared
   int copies = 0, possible = 0;
@@ -115,9 +115,9 @@ struct RulesetCheck {
   PopulationGraph population;  ///< only if modules > 0
   int modules = 0, target_size = 0;
   int irreversible_size = 0;
-  bool target_reached = false;      ///< some species has the target's shape
-  bool target_stable = false;       ///< no species of that shape can be taken apart
-  std::vector<int> other_finals;    ///< species of the target's size or more with another shape
+  bool target_reached = false;    ///< some species has the target's shape
+  bool target_stable = false;     ///< no species of that shape can be taken apart
+  std::vector<int> other_finals;  ///< species of the target's size or more with another shape
   std::map<int, std::string> unrestored;
   std::vector<LatticeResult> lattice;
   /// Sentences, one a fault; empty: proved as far as `notes` say.

@@ -7,6 +7,7 @@
 #include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/study_summary.hpp"
+#include "lilytank/synthesis.hpp"
 
 namespace lilytank {
 
@@ -144,6 +145,12 @@ std::vector<FlowMap> flow_maps(const FlowReport& report);
 /// The whole report of a flow in a directory, made if absent: write_flow()'s files, and each map as
 /// .png and .svg. Throws InputError if it cannot be written.
 void report_flow(const FlowReport& report, const std::string& dir);
+
+/// The stages of an assembly, one after each join [paper, Figs. 9 and 11]: control states in the
+/// modules, hops at their faces, the connector engaged last in blue, the rule above; .png, .svg or
+/// .pdf by the ending. Throws InputError if it cannot be written.
+void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
+                 const std::string& file);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

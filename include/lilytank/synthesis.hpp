@@ -48,9 +48,9 @@ Plan singleton_plan(const Target& target, const std::vector<Contact>& tree);
 Plan linchpin_plan(const Target& target, const std::vector<Contact>& tree, int linchpin = -1);
 /// Splits at the edge with the most equal parts, each part again, and joins in reverse.
 Plan balanced_plan(const Target& target, const std::vector<Contact>& tree);
-/// A plan by an algorithm's name. Without drawn bonds the breadth-first tree is used; where its plan
-/// has several maximal joins or a blocked one, the first of all spanning trees whose plan is better.
-/// Algorithm::plan needs a target whose bonds are numbered. Throws InputError.
+/// A plan by an algorithm's name. Without drawn bonds the breadth-first tree is used; where its
+/// plan has several maximal joins or a blocked one, the first of all spanning trees whose plan is
+/// better. Algorithm::plan needs a target whose bonds are numbered. Throws InputError.
 Plan make_plan(const Target& target, Algorithm algorithm);
 /// Throws InputError if the joins are not a spanning tree of the target.
 void check_plan(const Target& target, const Plan& plan);
@@ -65,7 +65,8 @@ std::vector<Contact> open_contacts(const Target& target, const Plan& plan);
 
 struct EmitOptions {
   /// Probabilities of r1_reverse, r2_reverse, ...; those not given are 0 for maximal joins, and
-  /// else 0.01, 0.005 or 0.000025 for joins that make 2, 3, or more modules (after the paper's p_e).
+  /// else 0.01, 0.005 or 0.000025 for joins that make 2, 3, or more modules (after the paper's
+  /// p_e).
   std::vector<double> p;
   /// Rules c1, c2, ... for contacts that close a loop between modules that have made their last
   /// join. Such a rule can only fire if its contact is evaluated after the join that made it.
@@ -102,17 +103,21 @@ PlanList all_plans(const Target& target, const PlanLimits& limits = {});
 /// Equal for rulesets that differ only in the naming and order of control states and rules.
 std::uint64_t structure_of(const Ruleset& rules);
 
-/// What stands after each join, for drawings: in the target's cells, every module placed so far.
+/// A rule's two sides, "(1,3) (0,0) -> (3,1)-(4,1)".
+std::string rule_text(const Rule& rule);
+
+/// What stands after each join, for drawings [paper, Figs. 9 and 11]: a module in a cell of the
+/// target.
 struct StageModule {
-  int cell = 0;         ///< index into Target::cells
-  int label = 0;        ///< l_a
-  int last = -1;        ///< direction of l_n, -1: isolated
-  unsigned bonds = 0;   ///< bit d: bonded towards direction d
-  bool fresh = false;   ///< engaged by this stage's join
+  int cell = 0;          ///< index into Target::cells
+  int label = 0;         ///< l_a
+  int last = -1;         ///< direction of l_n, -1: isolated
+  unsigned bonds = 0;    ///< bit d: bonded towards direction d
+  bool engaged = false;  ///< by this stage's join
 };
 struct Stage {
-  std::string rule;                  ///< "r2"; empty for the first stage
-  std::vector<StageModule> modules;  ///< stage 0: the first module alone
+  std::string rule, text;  ///< "r2", "(1,3) (0,0) -> (3,1)-(4,1)"; empty for the first stage
+  std::vector<StageModule> modules;  ///< all placed so far; of the first stage a single module
 };
 std::vector<Stage> stages_of(const Target& target, const Plan& plan);
 

@@ -18,6 +18,9 @@ const std::vector<Verb>& verbs() {
       {"recording", "read, check and convert trackers' files; film a run", recording_verb},
       {"analyze", "what runs and recordings show, alone and against each other", analyze_verb},
       {"flow", "find the water's velocity from the tracks of balls", flow_verb},
+      {"synthesize", "make a ruleset from the drawing of a target", synthesize_verb},
+      {"check", "prove what a ruleset can build, where it gets stuck, how fast it would be",
+       check_verb},
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},
@@ -31,12 +34,12 @@ void print_help() {
                "usage: lilytank VERB ...\n\n";
   for (const Verb& verb : verbs()) {
     std::string name = verb.name;
-    name.resize(10, ' ');
+    name.resize(12, ' ');
     std::cout << "  " << name << verb.summary << "\n";
   }
-  std::cout
-      << "  help      lilytank help VERB: the options of a verb\n\n"
-         "exit codes: 0 done, 1 a world diverged, 2 bad input, 3 stopped (run again to go on)\n";
+  std::cout << "  help        lilytank help VERB: the options of a verb\n\n"
+               "exit codes: 0 done, 1 a world diverged or a check found a fault, 2 bad input, 3 "
+               "stopped (run again to go on)\n";
 }
 
 const Verb& find_verb(const std::string& name) {

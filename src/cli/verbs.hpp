@@ -11,6 +11,7 @@ using Arguments = std::vector<std::string>;
 enum Exit : int {
   done = 0,
   diverged = 1,   ///< a world was given up; its files are there
+  fault = 1,      ///< a check found one
   bad_input = 2,  ///< one line on stderr says what is wrong
   stopped = 3,    ///< by a signal; the same command goes on
 };
@@ -31,5 +32,7 @@ int render_verb(const Arguments& arguments);
 int study_verb(const Arguments& arguments);
 int analyze_verb(const Arguments& arguments);
 int recording_verb(const Arguments& arguments);
+int synthesize_verb(const Arguments& arguments);
+int check_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

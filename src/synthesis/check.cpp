@@ -66,15 +66,16 @@ void judge_population(const Ruleset& rules, RulesetCheck& check) {
   check.population = population_graph(rules, check.network, check.modules);
   const PopulationGraph& graph = check.population;
   if (!graph.complete) {
-    check.notes.push_back("more than " + std::to_string(graph.states - 1) +
-                          " states of " + std::to_string(check.modules) +
+    check.notes.push_back("more than " + std::to_string(graph.states - 1) + " states of " +
+                          std::to_string(check.modules) +
                           " modules: deadlocks are not proved or excluded");
     return;
   }
   const auto deadlocks = graph.deadlocks();
   if (!deadlocks.empty())
-    check.faults.push_back(many(static_cast<std::int64_t>(deadlocks.size()), "deadlock", "deadlocks") +
-                           ": states that are never left and miss a copy");
+    check.faults.push_back(
+        many(static_cast<std::int64_t>(deadlocks.size()), "deadlock", "deadlocks") +
+        ": states that are never left and miss a copy");
   const bool wavering = std::any_of(graph.ends.begin(), graph.ends.end(), [&](const EndState& end) {
     return end.fewest_copies < graph.possible && end.copies == graph.possible;
   });
@@ -123,9 +124,9 @@ std::string species_text(const RulesetCheck& check) {
   for (const auto& [size, number] : sizes)
     list += (list.empty() ? "" : ", ") + std::to_string(number) + " of " + std::to_string(size);
   out += " (" + list + (sizes.size() == 1 && sizes.begin()->first == 1 ? " module)" : " modules)");
-  const std::size_t joins =
-      static_cast<std::size_t>(std::count_if(check.network.reactions.begin(), check.network.reactions.end(),
-                                             [](const Reaction& r) { return r.kind == RuleKind::link; }));
+  const std::size_t joins = static_cast<std::size_t>(
+      std::count_if(check.network.reactions.begin(), check.network.reactions.end(),
+                    [](const Reaction& r) { return r.kind == RuleKind::link; }));
   return out + ", " + std::to_string(joins) + " ways to join, " +
          std::to_string(check.network.reactions.size() - joins) + " to change or fall apart\n";
 }
@@ -139,13 +140,15 @@ std::string population_text(const RulesetCheck& check) {
   constexpr std::size_t kShown = 5;
   for (std::size_t k = 0; k < graph.ends.size() && k < kShown; ++k) {
     const EndState& end = graph.ends[k];
-    const std::string range = end.fewest_copies == end.copies
-                                  ? std::to_string(end.copies)
-                                  : std::to_string(end.fewest_copies) + " .. " + std::to_string(end.copies);
+    const std::string range =
+        end.fewest_copies == end.copies
+            ? std::to_string(end.copies)
+            : std::to_string(end.fewest_copies) + " .. " + std::to_string(end.copies);
     out += "  " + range + " of " + std::to_string(graph.possible) + " copies" +
            (end.copies < graph.possible ? ", a deadlock" : "") + ": " +
            contents(check.network, end.counts) +
-           (end.states > 1 ? " and " + std::to_string(end.states - 1) + " other states" : "") + "\n";
+           (end.states > 1 ? " and " + std::to_string(end.states - 1) + " other states" : "") +
+           "\n";
   }
   if (graph.ends.size() > kShown)
     out += "  ... and " + std::to_string(graph.ends.size() - kShown) + " more\n";
@@ -154,7 +157,8 @@ std::string population_text(const RulesetCheck& check) {
 
 std::string lattice_text(const RulesetCheck& check) {
   if (check.lattice.empty()) return "";
-  std::int64_t attempts = 0, links = 0, unlinks = 0, illegal = 0, restored = 0, full = 0, blocked = 0;
+  std::int64_t attempts = 0, links = 0, unlinks = 0, illegal = 0, restored = 0, full = 0,
+               blocked = 0;
   for (const LatticeResult& r : check.lattice) {
     attempts += r.attempts, links += r.links, unlinks += r.unlinks, illegal += r.illegal;
     restored += r.restored, blocked += r.blocked;
@@ -164,7 +168,8 @@ std::string lattice_text(const RulesetCheck& check) {
          ": " + std::to_string(attempts) + " meetings, " + std::to_string(links) + " joins, " +
          std::to_string(unlinks) + " undone, " + std::to_string(blocked) + " without a way in; " +
          std::to_string(illegal) + " illegal assemblies; " + std::to_string(restored) +
-         " joins undone on a copy and found as before; full yield in " + std::to_string(full) + "\n";
+         " joins undone on a copy and found as before; full yield in " + std::to_string(full) +
+         "\n";
 }
 
 }  // namespace
@@ -195,9 +200,10 @@ std::string check_text(const Ruleset& rules, const RulesetCheck& check) {
     out += "every reverse rule gives back the states that its join found\n";
   if (check.irreversible_size > 0 && check.modules > 0 && check.target_size > 0) {
     const int s = check.irreversible_size, n = check.target_size, m = check.modules;
-    out += "assemblies from " + many(s, "module", "modules") + " on may last: floor(M/s) = " +
-           std::to_string(m / s) + (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) +
-           " = floor(M/n)" + (deadlock_risk(m, s, n) ? ", deadlocks are possible" : "") + "\n";
+    out += "assemblies from " + many(s, "module", "modules") +
+           " on may last: floor(M/s) = " + std::to_string(m / s) +
+           (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) + " = floor(M/n)" +
+           (deadlock_risk(m, s, n) ? ", deadlocks are possible" : "") + "\n";
   }
   for (const std::string& note : check.notes) out += "note: " + note + "\n";
   for (const std::string& fault : check.faults) out += "fault: " + fault + "\n";

@@ -90,7 +90,8 @@ void set_probabilities(const Target& target, const Plan& plan, const EmitOptions
   int seeds = 0;
   for (std::size_t k = 0; k < plan.joins.size(); ++k) {
     parts.join(plan.joins[k].a, plan.joins[k].b);
-    const bool last = std::find(maximal.begin(), maximal.end(), static_cast<int>(k)) != maximal.end();
+    const bool last =
+        std::find(maximal.begin(), maximal.end(), static_cast<int>(k)) != maximal.end();
     double& p = rules.reverse[k].p;
     p = k < options.p.size() ? options.p[k] : last ? 0 : usual_p(parts.size(plan.joins[k].a));
     if (rules.forward[k].before[0] == Label{} && rules.forward[k].before[1] == Label{}) ++seeds;
@@ -122,6 +123,17 @@ Ruleset emit(const Target& target, const Plan& plan, const EmitOptions& options)
   return rules;
 }
 
+std::string rule_text(const Rule& rule) {
+  const auto side = [](const std::array<Label, 2>& labels, bool held) {
+    const auto text = [](const Label& l) {
+      return "(" + std::to_string(l.state) + "," + std::to_string(l.hop) + ")";
+    };
+    return text(labels[0]) + (held ? "-" : " ") + text(labels[1]);
+  };
+  return side(rule.before, rule.kind != RuleKind::link) + " -> " +
+         side(rule.after, rule.kind != RuleKind::unlink);
+}
+
 std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
   check_plan(target, plan);
   const Ruleset rules = emit(target, plan);
@@ -129,17 +141,17 @@ std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
   std::vector<bool> placed(target.cells.size(), false);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].cell = static_cast<int>(k);
   std::vector<Stage> stages;
-  const auto take = [&](const std::string& rule) {
+  const auto take = [&](const Rule* rule) {
     Stage stage;
-    stage.rule = rule;
+    if (rule != nullptr) stage.rule = rule->name, stage.text = rule_text(*rule);
     for (std::size_t k = 0; k < all.size(); ++k)
       if (placed[k]) stage.modules.push_back(all[k]);
     stages.push_back(std::move(stage));
   };
   placed[static_cast<std::size_t>(plan.joins.front().a)] = true;
-  take("");
+  take(nullptr);
   for (std::size_t k = 0; k < plan.joins.size(); ++k) {
-    for (StageModule& module : all) module.fresh = false;
+    for (StageModule& module : all) module.engaged = false;
     const Contact& join = plan.joins[k];
     const int out = direction_of(target, join.a, join.b);
     for (int side = 0; side < 2; ++side) {
@@ -149,9 +161,9 @@ std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
       module.label = rules.rules[k].after[static_cast<std::size_t>(side)].state;
       module.last = direction;
       module.bonds |= 1u << direction;
-      module.fresh = placed[cell] = true;
+      module.engaged = placed[cell] = true;
     }
-    take(rules.rules[k].name);
+    take(&rules.rules[k]);
   }
   return stages;
 }

@@ -88,10 +88,10 @@ void Network::check_undone(const Pattern& before, const Pattern& after, std::siz
   const std::string& name = rules_.rules[rule].name;
   for (const std::size_t k : {a, b}) {
     if ((after[k].label == 0) != (after[k].bonds == 0)) {
-      unrestored_.try_emplace(static_cast<int>(rule),
-                              name + (after[k].label == 0
-                                          ? " makes a module isolated that others still hold"
-                                          : " leaves a control state to a module that nobody holds"));
+      unrestored_.try_emplace(
+          static_cast<int>(rule),
+          name + (after[k].label == 0 ? " makes a module isolated that others still hold"
+                                      : " leaves a control state to a module that nobody holds"));
       return;
     }
   }
@@ -111,7 +111,8 @@ void Network::check_undone(const Pattern& before, const Pattern& after, std::siz
   }
   unrestored_.try_emplace(
       static_cast<int>(rule),
-      name + " leaves the labels " + text_of(la) + " and " + text_of(lb) + " at the faces it releases, " +
+      name + " leaves the labels " + text_of(la) + " and " + text_of(lb) +
+          " at the faces it releases, " +
           (known ? "which join to something else than before" : "which no rule joins again"));
 }
 
@@ -167,8 +168,8 @@ void Network::join(int i, int j, const Pattern& host, const Site& ours, const Pa
   if (free)
     record(rule, {i, j}, {add(*whole)});
   else
-    ++blocked_[{static_cast<int>(rule), {std::min(i, j), std::max(i, j)},
-                key_of(canonical(*whole))}];
+    ++blocked_[{
+        static_cast<int>(rule), {std::min(i, j), std::max(i, j)}, key_of(canonical(*whole))}];
 }
 
 // All joins of an assembly of species i with one of species j.

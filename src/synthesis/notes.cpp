@@ -46,9 +46,10 @@ void note_joins(const Target& target, const Plan& plan, const Ruleset& rules,
     std::string text = "the finished shape has " + std::to_string(maximal.size()) +
                        " joins that can be taken back, those of " + listed(all);
     if (!stuck.empty())
-      text += "; p is 0 for " + listed(stuck) +
-              (loose.empty() ? " so that it lasts, which leaves parts that cannot be taken apart either"
-                             : "");
+      text +=
+          "; p is 0 for " + listed(stuck) +
+          (loose.empty() ? " so that it lasts, which leaves parts that cannot be taken apart either"
+                         : "");
     notes.push_back({NoteKind::maximal, true, text});
   }
   if (!loose.empty())
@@ -56,9 +57,10 @@ void note_joins(const Target& target, const Plan& plan, const Ruleset& rules,
                      "a finished copy can fall apart: p is not 0 for " + listed(loose)});
   if (!is_caterpillar(static_cast<int>(target.cells.size()), plan.joins) &&
       plan.algorithm == Algorithm::singleton)
-    notes.push_back({NoteKind::caterpillar, true,
-                     "the bonds are not a caterpillar (a path with leaves), so growth by one module "
-                     "at a time has several last joins; linchpin has one on any tree"});
+    notes.push_back(
+        {NoteKind::caterpillar, true,
+         "the bonds are not a caterpillar (a path with leaves), so growth by one module "
+         "at a time has several last joins; linchpin has one on any tree"});
 }
 
 void note_shape(const Target& target, const Plan& plan, const Ruleset& rules,
@@ -71,16 +73,17 @@ void note_shape(const Target& target, const Plan& plan, const Ruleset& rules,
     std::vector<std::string> names;
     for (const Contact& contact : open) names.push_back(drawn(target, contact));
     std::string text = "the shape has loops: no rule holds " +
-                       std::to_string(open.size() - static_cast<std::size_t>(closing)) + " of its " +
-                       std::to_string(contacts_of(target).size()) + " contacts";
+                       std::to_string(open.size() - static_cast<std::size_t>(closing)) +
+                       " of its " + std::to_string(contacts_of(target).size()) + " contacts";
     if (closing > 0) text += "; closure rules hold " + std::to_string(closing);
     text += " (bonds left open by the tree: " + listed(names) + ")";
     notes.push_back({NoteKind::loops, false, text});
   }
   if (is_chiral(target))
-    notes.push_back({NoteKind::chirality, false,
-                     "the shape is handed: these rules build it as drawn, and never its mirror image "
-                     "(exchange hops 2 and 4 for that one)"});
+    notes.push_back(
+        {NoteKind::chirality, false,
+         "the shape is handed: these rules build it as drawn, and never its mirror image "
+         "(exchange hops 2 and 4 for that one)"});
 }
 
 void note_ways(const Target& target, const Plan& plan, std::vector<Note>& notes) {

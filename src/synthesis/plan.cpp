@@ -133,7 +133,8 @@ Plan balanced_plan(const Target& target, const std::vector<Contact>& tree) {
 Plan make_plan(const Target& target, Algorithm algorithm) {
   switch (algorithm) {
     case Algorithm::singleton:
-      return best_over_trees(target, [&](const auto& tree) { return singleton_plan(target, tree); });
+      return best_over_trees(target,
+                             [&](const auto& tree) { return singleton_plan(target, tree); });
     case Algorithm::linchpin:
       return best_over_trees(target, [&](const auto& tree) { return linchpin_plan(target, tree); });
     case Algorithm::balanced:

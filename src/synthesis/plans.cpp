@@ -180,8 +180,9 @@ std::uint64_t structure_of(const Ruleset& rules) {
       const Rule& rule = rules.rules[k];
       std::uint64_t side[2];
       for (std::size_t s = 0; s < 2; ++s) {
-        side[s] = hash({colour[rule.before[s].state], static_cast<std::uint64_t>(rule.before[s].hop),
-                        colour[rule.after[s].state], static_cast<std::uint64_t>(rule.after[s].hop)});
+        side[s] =
+            hash({colour[rule.before[s].state], static_cast<std::uint64_t>(rule.before[s].hop),
+                  colour[rule.after[s].state], static_cast<std::uint64_t>(rule.after[s].hop)});
       }
       of_rules[k] = hash({static_cast<std::uint64_t>(rule.kind), std::min(side[0], side[1]),
                           std::max(side[0], side[1])});

@@ -148,7 +148,8 @@ std::vector<EndState> PopulationGraph::deadlocks() const {
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
                                  std::int64_t limit) {
   if (modules < 1 || modules > std::numeric_limits<std::int16_t>::max())
-    throw InputError("a population of " + std::to_string(modules) + " modules: expected 1 .. 32767");
+    throw InputError("a population of " + std::to_string(modules) +
+                     " modules: expected 1 .. 32767");
   std::vector<const Reaction*> reactions;
   for (const Reaction& reaction : network.reactions)
     if (rules.rules[static_cast<std::size_t>(reaction.rule)].p > 0) reactions.push_back(&reaction);

@@ -8,9 +8,9 @@ namespace lilytank {
 
 /// Room that a latch gives, in sides of a module.
 struct Approach {
-  double capture = 0.005 / 0.035;    ///< distance of face centres from which they latch
-  double angle = 0.2;                ///< rad, turn from face to face within which they latch
-  double clearance = 0.0002 / 0.035; ///< to be kept from other modules on the way
+  double capture = 0.005 / 0.035;     ///< distance of face centres from which they latch
+  double angle = 0.2;                 ///< rad, turn from face to face within which they latch
+  double clearance = 0.0002 / 0.035;  ///< to be kept from other modules on the way
 };
 
 /// Whether there is a straight way from afar for `guest`, the cells as they shall lie in the end,

@@ -59,11 +59,14 @@ void Reader::name(const std::string& raw) {
            c == '-';
   };
   const std::string word = begin == std::string::npos ? "" : raw.substr(begin, end - begin);
-  const bool letter = !word.empty() && good(word[0]) && word[0] != '-' && !(word[0] >= '0' && word[0] <= '9');
+  const bool letter =
+      !word.empty() && good(word[0]) && word[0] != '-' && !(word[0] >= '0' && word[0] <= '9');
   if (!letter || !std::all_of(word.begin(), word.end(), good)) {
-    const int column = begin == std::string::npos ? static_cast<int>(raw.size()) + 1 : static_cast<int>(begin) + 1;
-    throw InputError({target_.file, row_, column},
-                     "'" + word + "' is not a name: expected a letter, then letters, digits, '_' or '-'");
+    const int column =
+        begin == std::string::npos ? static_cast<int>(raw.size()) + 1 : static_cast<int>(begin) + 1;
+    throw InputError(
+        {target_.file, row_, column},
+        "'" + word + "' is not a name: expected a letter, then letters, digits, '_' or '-'");
   }
   if (!target_.name.empty()) throw InputError({target_.file, row_, 1}, "'name' is given twice");
   target_.name = word;
@@ -116,8 +119,9 @@ void Reader::bond(const Sign& sign, int column, int row) {
   const bool upright = (column & 1) == 0 && (row & 1) != 0;
   const std::string shown = "'" + std::string(1, sign.c) + "'";
   if (!across && !upright)
-    fail(sign, shown + " is not between two cells: where bonds are drawn, cells take every second "
-                       "column and row");
+    fail(sign, shown +
+                   " is not between two cells: where bonds are drawn, cells take every second "
+                   "column and row");
   if ((sign.c == '-' && upright) || (sign.c == '|' && across))
     fail(sign, shown + " is turned the wrong way: '-' is a bond to the right, '|' one downwards");
   Drawn found;
@@ -136,8 +140,9 @@ void Reader::spaced() {
   const Sign origin = cells_.front();
   for (const Sign& sign : cells_) {
     if (((sign.column - origin.column) & 1) != 0 || ((sign.row - origin.row) & 1) != 0)
-      fail(sign, "this '#' is out of step with the first one: where bonds are drawn, cells take "
-                 "every second column and row");
+      fail(sign,
+           "this '#' is out of step with the first one: where bonds are drawn, cells take "
+           "every second column and row");
   }
   for (const Sign& sign : marks_) bond(sign, sign.column - origin.column, sign.row - origin.row);
 }
@@ -167,12 +172,14 @@ void Reader::bonds() {
   std::map<Cell, int> index;
   for (std::size_t k = 0; k < target_.cells.size(); ++k)
     index[target_.cells[k]] = static_cast<int>(k);
-  const auto low_x = std::min_element(cells_.begin(), cells_.end(), [](const Sign& a, const Sign& b) {
-                       return a.column < b.column;
-                     })->column;
-  const auto low_y = -std::max_element(cells_.begin(), cells_.end(), [](const Sign& a, const Sign& b) {
-                        return a.row < b.row;
-                      })->row;
+  const auto low_x =
+      std::min_element(cells_.begin(), cells_.end(), [](const Sign& a, const Sign& b) {
+        return a.column < b.column;
+      })->column;
+  const auto low_y =
+      -std::max_element(cells_.begin(), cells_.end(), [](const Sign& a, const Sign& b) {
+         return a.row < b.row;
+       })->row;
   const auto cell = [&](const Cell& c) { return index.at({(c.x - low_x) / 2, (c.y - low_y) / 2}); };
   for (const Drawn& bond : drawn_) {
     const int a = cell(bond.a), b = cell(bond.b);
@@ -202,9 +209,11 @@ Target Reader::run() {
   target_.cells = std::move(made.cells);
   if (target_.name.empty()) {
     const std::size_t slash = target_.file.find_last_of("/\\");
-    const std::string base = slash == std::string::npos ? target_.file : target_.file.substr(slash + 1);
+    const std::string base =
+        slash == std::string::npos ? target_.file : target_.file.substr(slash + 1);
     target_.name = base.substr(0, base.find('.'));
-    const bool letter = !target_.name.empty() && (std::isalpha(static_cast<unsigned char>(target_.name[0])) != 0);
+    const bool letter =
+        !target_.name.empty() && (std::isalpha(static_cast<unsigned char>(target_.name[0])) != 0);
     if (!letter) target_.name = "target";
   }
   bonds();
@@ -218,8 +227,8 @@ Target Reader::run() {
 Target target_of(std::vector<Cell> cells, const std::string& name) {
   if (cells.size() < 2) throw InputError("a target needs two modules or more");
   if (cells.size() > static_cast<std::size_t>(kMostCells))
-    throw InputError("a target of " + std::to_string(cells.size()) + " modules is too large: " +
-                     std::to_string(kMostCells) + " at most");
+    throw InputError("a target of " + std::to_string(cells.size()) +
+                     " modules is too large: " + std::to_string(kMostCells) + " at most");
   Cell low = cells.front();
   for (const Cell& cell : cells) low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
   for (Cell& cell : cells) cell = {cell.x - low.x, cell.y - low.y};
@@ -245,8 +254,9 @@ std::string to_text(const Target& target) {
   Cell high;
   for (const Cell& cell : target.cells) high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
   const int pitch = target.bonds.empty() ? 1 : 2;
-  std::vector<std::string> rows(static_cast<std::size_t>(pitch * high.y + 1),
-                                std::string(static_cast<std::size_t>(pitch * high.x + 1), pitch == 1 ? '.' : ' '));
+  std::vector<std::string> rows(
+      static_cast<std::size_t>(pitch * high.y + 1),
+      std::string(static_cast<std::size_t>(pitch * high.x + 1), pitch == 1 ? '.' : ' '));
   const auto at = [&](int x, int y) -> char& {  // in places of the drawing, y up
     return rows[static_cast<std::size_t>(pitch * high.y - y)][static_cast<std::size_t>(x)];
   };
@@ -269,7 +279,8 @@ std::vector<Contact> contacts_of(const Target& target) {
   std::vector<Contact> found;
   for (std::size_t k = 0; k < target.cells.size(); ++k) {
     const Cell at = target.cells[k];
-    for (const Cell& next : {Cell{at.x + 1, at.y}, Cell{at.x, at.y - 1}}) {  // later in raster order
+    for (const Cell& next :
+         {Cell{at.x + 1, at.y}, Cell{at.x, at.y - 1}}) {  // later in raster order
       const auto other = index.find(next);
       if (other != index.end()) found.push_back({static_cast<int>(k), other->second});
     }

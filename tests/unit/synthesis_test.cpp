@@ -36,26 +36,20 @@ std::vector<std::string> printed(const Ruleset& rules) {
 }
 
 TEST(Synthesis, ChainOfFiveIsThePapersTable) {
-  const std::vector<std::string> table = {"r1 (0,0) (0,0) -> (1,1)-(2,1)",
-                                          "r2 (1,3) (0,0) -> (3,1)-(4,1)",
-                                          "r3 (4,3) (0,0) -> (5,1)-(6,1)",
-                                          "r4 (6,3) (0,0) -> (7,1)-(8,1)",
-                                          "r1_reverse (1,1)-(2,1) -> (0,0) (0,0)",
-                                          "r2_reverse (3,1)-(4,1) -> (1,3) (0,0)",
-                                          "r3_reverse (5,1)-(6,1) -> (4,3) (0,0)",
-                                          "r4_reverse (7,1)-(8,1) -> (6,3) (0,0)"};
+  const std::vector<std::string> table = {
+      "r1 (0,0) (0,0) -> (1,1)-(2,1)",         "r2 (1,3) (0,0) -> (3,1)-(4,1)",
+      "r3 (4,3) (0,0) -> (5,1)-(6,1)",         "r4 (6,3) (0,0) -> (7,1)-(8,1)",
+      "r1_reverse (1,1)-(2,1) -> (0,0) (0,0)", "r2_reverse (3,1)-(4,1) -> (1,3) (0,0)",
+      "r3_reverse (5,1)-(6,1) -> (4,3) (0,0)", "r4_reverse (7,1)-(8,1) -> (6,3) (0,0)"};
   EXPECT_EQ(printed(singleton("#####")), table);
 }
 
 TEST(Synthesis, CrossOfFiveIsThePapersTableWithItsGarbledLineCorrected) {
-  const std::vector<std::string> table = {"r1 (0,0) (0,0) -> (1,1)-(2,1)",
-                                          "r2 (1,2) (0,0) -> (3,1)-(4,1)",
-                                          "r3 (3,3) (0,0) -> (5,1)-(6,1)",
-                                          "r4 (5,4) (0,0) -> (7,1)-(8,1)",
-                                          "r1_reverse (1,1)-(2,1) -> (0,0) (0,0)",
-                                          "r2_reverse (3,1)-(4,1) -> (1,4) (0,0)",
-                                          "r3_reverse (5,1)-(6,1) -> (3,3) (0,0)",
-                                          "r4_reverse (7,1)-(8,1) -> (5,2) (0,0)"};
+  const std::vector<std::string> table = {
+      "r1 (0,0) (0,0) -> (1,1)-(2,1)",         "r2 (1,2) (0,0) -> (3,1)-(4,1)",
+      "r3 (3,3) (0,0) -> (5,1)-(6,1)",         "r4 (5,4) (0,0) -> (7,1)-(8,1)",
+      "r1_reverse (1,1)-(2,1) -> (0,0) (0,0)", "r2_reverse (3,1)-(4,1) -> (1,4) (0,0)",
+      "r3_reverse (5,1)-(6,1) -> (3,3) (0,0)", "r4_reverse (7,1)-(8,1) -> (5,2) (0,0)"};
   EXPECT_EQ(printed(singleton(".#.\n###\n.#.")), table);
 }
 
@@ -128,8 +122,10 @@ TEST(Synthesis, BalancedTakesAboutLog2StepsInDepth) {
   std::vector<int> part = {0, 1, 2, 3, 4, 5, 6, 7};
   int deepest = 0;
   for (const Contact& join : plan.joins) {
-    const int a = part[static_cast<std::size_t>(join.a)], b = part[static_cast<std::size_t>(join.b)];
-    const int made = 1 + std::max(depth[static_cast<std::size_t>(a)], depth[static_cast<std::size_t>(b)]);
+    const int a = part[static_cast<std::size_t>(join.a)],
+              b = part[static_cast<std::size_t>(join.b)];
+    const int made =
+        1 + std::max(depth[static_cast<std::size_t>(a)], depth[static_cast<std::size_t>(b)]);
     for (int& p : part)
       if (p == b) p = a;
     depth[static_cast<std::size_t>(a)] = made;
@@ -221,7 +217,8 @@ TEST(Synthesis, ClosureRulesHoldALoopThatIsFinished) {
 TEST(Synthesis, RulesReadBack) {
   for (const auto& shape : one_sided_polyominoes(5)) {
     const Target target = target_of(shape, "shape");
-    for (const Algorithm algorithm : {Algorithm::singleton, Algorithm::linchpin, Algorithm::balanced}) {
+    for (const Algorithm algorithm :
+         {Algorithm::singleton, Algorithm::linchpin, Algorithm::balanced}) {
       const Ruleset rules = emit(target, make_plan(target, algorithm));
       const Ruleset read = parse_ruleset(to_text(rules), "x.rules");
       EXPECT_EQ(printed(read), printed(rules));
@@ -282,7 +279,8 @@ std::set<NoteKind> kinds(const std::string& drawing, Algorithm algorithm, int mo
   const Target target = parse_target(drawing, "target.txt");
   const Plan plan = make_plan(target, algorithm);
   std::set<NoteKind> found;
-  for (const Note& note : notes_on(target, plan, emit(target, plan), modules)) found.insert(note.kind);
+  for (const Note& note : notes_on(target, plan, emit(target, plan), modules))
+    found.insert(note.kind);
   return found;
 }
 

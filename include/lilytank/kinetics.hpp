@@ -1,0 +1,138 @@
+// Assembly as chemistry: rates counted in worlds, a well-mixed stochastic model that runs on them
+// [Gillespie, J. Phys. Chem. 81, 1977], and its export to other simulators of rules.
+//
+// The model knows assemblies by species and nothing of where they are: every pair of two species
+// docks at one constant rate, every bond is evaluated at one constant rate.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lilytank/lattice.hpp"
+#include "lilytank/world.hpp"
+
+namespace lilytank {
+
+/// Two species by Species::key, a <= b.
+struct SpeciesPair {
+  std::string a, b;
+  friend auto operator<=>(const SpeciesPair&, const SpeciesPair&) = default;
+};
+
+/// What was counted in worlds; tables of several worlds add up.
+struct RateTable {
+  struct Meeting {
+    std::int64_t dockings = 0;                  ///< latches between two assemblies of these species
+    double exposure = 0;                        ///< s, of pairs: n_a n_b dt, or n (n-1)/2 dt
+    std::map<std::string, std::int64_t> links;  ///< by rule
+  };
+  struct Standing {
+    double exposure = 0;                          ///< s, of assemblies
+    std::map<std::string, std::int64_t> changes;  ///< unlinks and updates by rule
+  };
+  int worlds = 0;
+  double seconds = 0;  ///< simulated, of all worlds
+  std::map<SpeciesPair, Meeting> meetings;
+  std::map<std::string, Standing> standing;
+  std::int64_t evaluations = 0;  ///< of standing bonds; -1 where they were not counted
+  double bond_seconds = 0;
+  std::int64_t contacts = 0;  ///< new latches that were decided, and how long that took
+  double contact_seconds = 0;
+
+  void add(const RateTable& other);
+};
+/// CSV `kind,rule,a,b,events,exposure_s`; keys have blanks for commas. Reads back the same.
+std::string to_csv(const RateTable& table);
+/// Throws InputError with line and column.
+RateTable rate_table_from(const std::string& text, const std::string& file);
+
+/// Follows the events of one world from its start. An assembly is what bonds connect.
+class RateRecord {
+ public:
+  RateRecord(const Ruleset& rules, int modules);
+  /// Time passes (s) up to `time`, then the event happens.
+  void observe(const Event& event, double time);
+  /// After every step; takes the number of evaluations from the world.
+  void observe(const World& world);
+  /// The counts up to `time` (s).
+  RateTable table(double time) const;
+
+ private:
+  struct Module {
+    int label = 0, last = -1, assembly = 0;
+    int partner[4] = {-1, -1, -1, -1}, partner_face[4] = {0, 0, 0, 0};
+    double latched_at[4] = {-1, -1, -1, -1};
+  };
+  void pass(double time);
+  void enter(const Event& event);
+  void regroup(int module);
+  int species_of_parts(int first, std::vector<int>& members);
+  void end_contact(const Event& event);
+  const Ruleset* rules_;
+  std::vector<Module> modules_;
+  std::vector<std::string> keys_;  // species by number
+  std::map<std::string, int> numbers_;
+  std::vector<int> count_;    // assemblies by species
+  std::vector<int> species_;  // of the assembly in a slot (its lowest module)
+  std::map<std::pair<int, int>, double> pair_seconds_;
+  std::vector<double> seconds_;  // by species
+  int bonds_ = 0;
+  double bond_seconds_ = 0, time_ = 0;
+  std::map<std::pair<int, int>, RateTable::Meeting> meetings_;
+  std::map<int, std::map<std::string, std::int64_t>> changes_;
+  std::int64_t contacts_ = 0, decisions_ = 0, evaluations_ = -1;
+  double contact_seconds_ = 0;
+};
+
+/// A world's counts and when its copies first stood.
+struct MeasuredWorld {
+  RateTable rates;
+  std::vector<double> completion;  ///< s
+  bool stopped = false, diverged = false;
+};
+/// Runs one world of `model` (which must have one ruleset) for `duration` (s).
+MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double duration,
+                            const std::atomic<bool>* stop = nullptr);
+/// The counts of a stored run, from its events.csv. Throws InputError.
+RateTable rates_of_run(const std::string& dir);
+
+/// A ruleset's reactions with their rates.
+struct Kinetics {
+  ReactionNetwork network;
+  std::vector<double> rate;        ///< 1/s, by reaction: of one pair of assemblies, or of one
+  std::vector<std::int64_t> seen;  ///< how often it was counted
+  double evaluation_rate = 0;      ///< 1/s, of a bond
+  double face_rate = 0;            ///< 1/s, links of one pair of faces that fit, over all reactions
+};
+/// Links: counts over exposure, drawn towards face_rate times places by the weight of one event, so
+/// that what was never seen has a rate, too. Unlinks: p times the evaluation rate times places.
+/// `table` may come from other p of the same rules. Throws InputError if it has no links.
+Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules);
+/// The same from two numbers, for tests and where nothing was measured.
+Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
+
+struct GillespieOptions {
+  int modules = 15;
+  double duration = 14400;  ///< s
+  std::uint64_t seed = 1;
+};
+struct GillespieResult {
+  std::vector<double> completion;  ///< s, when 1, 2, ... copies first stood
+  std::vector<int> counts;         ///< of each species at the end
+  int copies = 0;
+  std::int64_t reactions = 0;
+};
+GillespieResult run_gillespie(const Ruleset& rules, const Kinetics& kinetics,
+                              const GillespieOptions& options);
+
+/// The rules for KaSim (Kappa 4) and BioNetGen: one agent with its control state, its connector l_n
+/// and four faces; sixteen rules for each of ours, one for every way to turn two modules. Space is
+/// left out: two modules join wherever they are, and what would overlap is not seen. Rates are of a
+/// pair of faces and of a bond (1/s).
+std::string to_kappa(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
+std::string to_bngl(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
+
+}  // namespace lilytank

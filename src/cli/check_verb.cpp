@@ -1,0 +1,53 @@
+// lilytank check: what can be proved about a ruleset without physics.
+#include <algorithm>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "lilytank/lattice.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+void add_options(VerbOptions& options) {
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("modules", "how many (15)", text(), "M")(
+      "lattice", "worlds of the lattice model to run (20)", text(), "N")(
+      "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
+                                                           text(), "N")("quiet", "no progress");
+}
+
+}  // namespace
+
+int check_verb(const Arguments& arguments) {
+  VerbOptions options("check", "RULESET",
+                      "Proves what a ruleset can build, where it gets stuck and whether its "
+                      "reverse rules undo their joins.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().size() != 1)
+    options.refuse("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");
+  const Ruleset rules = read_ruleset(options.positional().front());
+  CheckOptions job;
+  job.modules = static_cast<int>(options.whole("modules", 15, 1, 1000));
+  job.lattice_runs = static_cast<int>(options.whole("lattice", 20, 0, 100000));
+  job.lattice.attempts = options.whole("attempts", 20000, 1, 1000000000);
+  job.lattice.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  job.lattice.stop = &stop_signal();
+  RulesetCheck check;
+  {
+    Progress progress(options.has("quiet"));
+    job.progress = [&](double done) { progress.tell(done, "of the lattice worlds"); };
+    check = check_ruleset(rules, job);
+    progress.clear();
+  }
+  if (stop_signal().load()) {
+    std::cerr << "stopped; nothing was written\n";
+    return Exit::stopped;
+  }
+  std::cout << check_text(rules, check) << std::flush;
+  return check.faults.empty() ? Exit::done : Exit::fault;
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,156 @@
+// lilytank synthesize: a ruleset from the drawing of a target.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "io/atomic_file.hpp"
+#include "lilytank/synthesis.hpp"
+#include "text/number.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> probabilities(const VerbOptions& options) {
+  std::vector<double> found;
+  std::string text = options.text("p");
+  if (!options.has("p")) return found;
+  text += ',';
+  for (std::size_t at = 0, end; (end = text.find(',', at)) != std::string::npos; at = end + 1) {
+    const std::string word(trimmed(std::string_view(text).substr(at, end - at)));
+    const auto value = parse_number(word);
+    if (!value || !(*value >= 0 && *value <= 1))
+      options.refuse("--p: '" + word + "' is not a probability 0 .. 1");
+    found.push_back(*value);
+  }
+  return found;
+}
+
+// The bonds of another drawing of the same cells, laid over the target.
+void take_bonds(const VerbOptions& options, const std::string& option, Target& target) {
+  const Target drawn = read_target(options.text(option));
+  if (drawn.cells != target.cells)
+    options.refuse("--" + option + " " + drawn.file + " draws other cells than " + target.file);
+  if (option == "order" && !drawn.ordered)
+    options.refuse("--order " + drawn.file + " has no numbered bonds, as '#1#2#'");
+  if (drawn.bonds.size() + 1 != drawn.cells.size())
+    options.refuse("--" + option + " " + drawn.file + ": " + std::to_string(drawn.bonds.size()) +
+                   " bonds are drawn, a tree of " + std::to_string(drawn.cells.size()) +
+                   " modules has " + std::to_string(drawn.cells.size() - 1));
+  target.bonds = drawn.bonds;
+  target.ordered = drawn.ordered;
+}
+
+Algorithm algorithm(const VerbOptions& options, const Target& target) {
+  const bool ordered = target.ordered && !options.has("tree");
+  const std::string word = options.text("algorithm", ordered ? "plan" : "singleton");
+  const Algorithm found = algorithm_of(word);
+  if (options.has("order") && found != Algorithm::plan)
+    options.refuse("--order gives the whole plan: --algorithm " + word + " has no say in it");
+  return found;
+}
+
+// The file: rules, with what made them and what is to be known as comments.
+std::string file_text(const Plan& plan, const Ruleset& rules, const std::vector<Note>& notes) {
+  const std::string text = to_text(rules);
+  const std::size_t first = text.find('\n') + 1;
+  std::string comments = "# Made by lilytank synthesize, algorithm " +
+                         algorithm_names()[static_cast<std::size_t>(plan.algorithm)] + ".\n";
+  for (const Note& note : notes)
+    comments += std::string(note.warning ? "# Warning: " : "# Note: ") + note.text + ".\n";
+  return text.substr(0, first) + comments + text.substr(first);
+}
+
+void draw(const VerbOptions& options, const Target& target, const Plan& plan) {
+  if (!options.has("figure")) return;
+#ifdef LILYTANK_HAS_RENDER
+  draw_stages(target, stages_of(target, plan), target.name, options.text("figure"));
+#else
+  options.refuse("--figure: this program was built without the renderer (Cairo was not found)");
+#endif
+}
+
+// Every plan's rules as NAME-01.rules, ... in a directory.
+int write_all(const VerbOptions& options, const Target& target, const EmitOptions& emitting,
+              int modules) {
+  const std::string dir = options.text("all");
+  const PlanList list = all_plans(target);
+  std::error_code error;
+  fs::create_directories(dir, error);
+  if (error) options.refuse("--all " + dir + ": " + error.message());
+  const std::size_t digits = std::to_string(list.plans.size()).size();
+  for (std::size_t k = 0; k < list.plans.size(); ++k) {
+    const Plan& plan = list.plans[k];
+    std::string number = std::to_string(k + 1);
+    number.insert(0, digits - number.size(), '0');
+    Ruleset rules = emit(target, plan, emitting);
+    rules.name = target.name + "-" + number;
+    const std::string file = (fs::path(dir) / (rules.name + ".rules")).string();
+    write_atomically(file, file_text(plan, rules, notes_on(target, plan, rules, modules)));
+    std::cout << file << "  " << algorithm_names()[static_cast<std::size_t>(plan.algorithm)]
+              << "\n";
+  }
+  std::cout << std::flush;
+  std::cerr << list.plans.size() << (list.plans.size() == 1 ? " ruleset" : " rulesets") << " in "
+            << dir << (list.complete ? "" : "; there are more (a limit was met)") << "\n";
+  return Exit::done;
+}
+
+void add_options(VerbOptions& options) {
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("algorithm", "singleton (the default), linchpin, balanced, or plan", text(),
+                "WORD")("tree", "a drawing of the same cells with the bonds to use", text(),
+                        "FILE")("order", "a drawing whose bonds are numbered: the whole plan",
+                                text(), "FILE")(
+      "modules", "how many there will be: warns of deadlocks", text(), "M")(
+      "p", "probabilities of r1_reverse, r2_reverse, ... as 0.01,0.005", text(), "LIST")(
+      "closures", "rules for the contacts that close a finished loop")(
+      "name", "of the ruleset (default: the target's)", text(), "WORD")(
+      "out", "file for the rules (default: the terminal)", text(), "FILE")(
+      "figure", "the stages of the assembly as .svg, .png or .pdf", text(), "FILE")(
+      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR");
+}
+
+}  // namespace
+
+int synthesize_verb(const Arguments& arguments) {
+  VerbOptions options("synthesize", "TARGET.txt",
+                      "Makes a ruleset that builds a target: a drawing of '#' for modules, with "
+                      "bonds '-' and '|' between spaced ones where they matter.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().size() != 1)
+    options.refuse("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
+  Target target = read_target(options.positional().front());
+  if (options.has("name")) {
+    // The same rule for names as in a drawing.
+    target.name = parse_target("name " + options.text("name") + "\n##\n", "--name").name;
+  }
+  if (options.has("tree") && options.has("order")) options.refuse("--tree or --order, not both");
+  for (const char* option : {"tree", "order"})
+    if (options.has(option)) take_bonds(options, option, target);
+  EmitOptions emitting;
+  emitting.p = probabilities(options);
+  emitting.closures = options.has("closures");
+  const int modules = static_cast<int>(options.whole("modules", 0, 1, 100000));
+  if (options.has("all")) return write_all(options, target, emitting, modules);
+  const Plan plan = make_plan(target, algorithm(options, target));
+  const Ruleset rules = emit(target, plan, emitting);
+  const std::vector<Note> notes = notes_on(target, plan, rules, modules);
+  const std::string text = file_text(plan, rules, notes);
+  draw(options, target, plan);
+  if (options.has("out"))
+    write_atomically(options.text("out"), text);
+  else
+    std::cout << text << std::flush;
+  for (const Note& note : notes)
+    std::cerr << (note.warning ? "warning: " : "note: ") << note.text << "\n";
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,155 @@
+// Counted rates as a table: adding up, text, and stored runs.
+#include <algorithm>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "lilytank/kinetics.hpp"
+#include "lilytank/scenario.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kColumns = "kind,rule,a,b,events,exposure_s";
+const std::string kEventColumns =
+    "time,step,kind,module_a,face_a,module_b,face_b,rule,label_a,last_a,label_b,last_b,copies";
+
+// Keys have commas, which cells may not.
+std::string cell_of(std::string key) {
+  std::replace(key.begin(), key.end(), ',', ' ');
+  return key;
+}
+std::string key_in(std::string_view cell) {
+  std::string key(cell);
+  std::replace(key.begin(), key.end(), ' ', ',');
+  return key;
+}
+
+EventKind kind_in(const CsvReader& rows) {
+  constexpr std::string_view kWords[] = {"latch",  "unlatch", "link",   "unlink",
+                                         "update", "report",  "command"};
+  for (std::size_t k = 0; k < std::size(kWords); ++k)
+    if (rows.text(2) == kWords[k]) return static_cast<EventKind>(k);
+  if (rows.text(2) == "copy") return EventKind::report;  // nothing happens between modules
+  rows.refuse(2, "is not a kind of event");
+}
+
+int rule_in(const CsvReader& rows, const Ruleset& rules) {
+  for (std::size_t k = 0; k < rules.rules.size(); ++k)
+    if (rows.text(7) == rules.rules[k].name) return static_cast<int>(k);
+  rows.refuse(7, "is not a rule of " + rules.name);
+}
+
+}  // namespace
+
+void RateTable::add(const RateTable& other) {
+  worlds += other.worlds;
+  seconds += other.seconds;
+  for (const auto& [pair, meeting] : other.meetings) {
+    Meeting& sum = meetings[pair];
+    sum.dockings += meeting.dockings;
+    sum.exposure += meeting.exposure;
+    for (const auto& [rule, links] : meeting.links) sum.links[rule] += links;
+  }
+  for (const auto& [key, alone] : other.standing) {
+    Standing& sum = standing[key];
+    sum.exposure += alone.exposure;
+    for (const auto& [rule, changes] : alone.changes) sum.changes[rule] += changes;
+  }
+  evaluations = evaluations < 0 || other.evaluations < 0 ? -1 : evaluations + other.evaluations;
+  bond_seconds += other.bond_seconds;
+  contacts += other.contacts;
+  contact_seconds += other.contact_seconds;
+}
+
+std::string to_csv(const RateTable& table) {
+  std::string out = kColumns + "\n";
+  const auto row = [&](const std::string& kind, const std::string& rule, const std::string& a,
+                       const std::string& b, std::int64_t events, double exposure) {
+    out += kind + "," + rule + "," + cell_of(a) + "," + cell_of(b) + "," + std::to_string(events) +
+           "," + shortest(exposure) + "\n";
+  };
+  row("worlds", "", "", "", table.worlds, table.seconds);
+  row("evaluations", "", "", "", table.evaluations, table.bond_seconds);
+  row("contacts", "", "", "", table.contacts, table.contact_seconds);
+  for (const auto& [key, standing] : table.standing) {
+    row("standing", "", key, "", 0, standing.exposure);
+    for (const auto& [rule, n] : standing.changes)
+      row("change", rule, key, "", n, standing.exposure);
+  }
+  for (const auto& [pair, meeting] : table.meetings) {
+    row("dockings", "", pair.a, pair.b, meeting.dockings, meeting.exposure);
+    for (const auto& [rule, n] : meeting.links)
+      row("links", rule, pair.a, pair.b, n, meeting.exposure);
+  }
+  return out;
+}
+
+RateTable rate_table_from(const std::string& text, const std::string& file) {
+  CsvReader rows(text, file, {kColumns});
+  RateTable table;
+  bool headed = false;
+  while (rows.next()) {
+    const std::string_view kind = rows.text(0);
+    const std::string rule(rows.text(1)), a = key_in(rows.text(2)), b = key_in(rows.text(3));
+    const std::int64_t events = rows.whole(4, -1, std::int64_t{1} << 60);
+    const double exposure = rows.number(5);
+    if (exposure < 0) rows.refuse(5, "is less than 0");
+    if (kind == "worlds") {
+      headed = true;
+      table.worlds = static_cast<int>(rows.whole(4, 0, 1000000000)), table.seconds = exposure;
+    } else if (kind == "evaluations") {
+      table.evaluations = events, table.bond_seconds = exposure;
+    } else if (kind == "contacts") {
+      table.contacts = events, table.contact_seconds = exposure;
+    } else if (kind == "standing") {
+      table.standing[a].exposure = exposure;
+    } else if (kind == "change") {
+      table.standing[a].changes[rule] = events;
+    } else if (kind == "dockings") {
+      table.meetings[{a, b}].dockings = events, table.meetings[{a, b}].exposure = exposure;
+    } else if (kind == "links") {
+      table.meetings[{a, b}].links[rule] = events;
+    } else {
+      rows.refuse(0, "is not a kind of count");
+    }
+  }
+  if (!headed) throw InputError({file, 0, 0}, "the row 'worlds' is missing: the file is cut");
+  return table;
+}
+
+RateTable rates_of_run(const std::string& dir) {
+  namespace fs = std::filesystem;
+  const std::string scenario_file = (fs::path(dir) / "resolved.toml").string();
+  const Scenario scenario = load_scenario({scenario_file}, {});
+  if (scenario.model.rulesets.size() != 1)
+    throw InputError(scenario_file + ": rates are of one ruleset; this run has " +
+                     std::to_string(scenario.model.rulesets.size()));
+  const Ruleset& rules = scenario.model.rulesets.front();
+  const int modules = scenario.model.module.count;
+  RateRecord record(rules, modules);
+  const std::string file = (fs::path(dir) / "events.csv").string();
+  const std::string text = read_whole(file);
+  CsvReader rows(text, file, {kEventColumns}, true);
+  while (rows.next()) {
+    Event event;
+    event.kind = kind_in(rows);
+    const double time = rows.number(0);
+    if (event.kind == EventKind::report || event.kind == EventKind::command) continue;
+    const auto small = [&](std::size_t column, int low, int high) {
+      return rows.empty(column) ? -1 : static_cast<int>(rows.whole(column, low, high));
+    };
+    event.a = static_cast<int>(rows.whole(3, 0, modules - 1));
+    event.face_a = static_cast<std::int8_t>(rows.whole(4, 0, 3));
+    event.b = static_cast<int>(rows.whole(5, 0, modules - 1));
+    event.face_b = static_cast<std::int8_t>(rows.whole(6, 0, 3));
+    if (!rows.empty(7)) event.rule = static_cast<std::int16_t>(rule_in(rows, rules));
+    event.label_a = small(8, 0, 255), event.last_a = static_cast<std::int8_t>(small(9, 0, 3));
+    event.label_b = small(10, 0, 255), event.last_b = static_cast<std::int8_t>(small(11, 0, 3));
+    record.observe(event, time);
+  }
+  return record.table(scenario.duration);
+}
+
+}  // namespace lilytank
