@@ -96,8 +96,17 @@ struct MeasuredWorld {
 /// Runs one world of `model` (which must have one ruleset) for `duration` (s).
 MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double duration,
                             const std::atomic<bool>* stop = nullptr);
+/// A measured world as text, to be kept: the table with rows `scenario` (its identity) and `copy`
+/// (k, time). Reads back the same; throws InputError, also if it is of another scenario.
+std::string to_csv(const MeasuredWorld& world, std::uint64_t identity);
+MeasuredWorld measured_world_from(const std::string& text, const std::string& file,
+                                  std::uint64_t identity);
 /// The counts of a stored run, from its events.csv. Throws InputError.
 RateTable rates_of_run(const std::string& dir);
+
+/// Of the standard tank, where nothing else was measured: links of one pair of faces that fit
+/// (1/s), and evaluations of a standing bond (1/s); see docs/synthesis.md.
+inline constexpr double kStandardFaceRate = 1e-5, kStandardEvaluationRate = 0.68;
 
 /// A ruleset's reactions with their rates.
 struct Kinetics {
@@ -125,8 +134,11 @@ struct GillespieResult {
   int copies = 0;
   std::int64_t reactions = 0;
 };
-GillespieResult run_gillespie(const Ruleset& rules, const Kinetics& kinetics,
-                              const GillespieOptions& options);
+/// Reactions by Gillespie's direct method, from single modules. Draws depend on the seed and the
+/// number of reactions so far only.
+GillespieResult run_gillespie(const Kinetics& kinetics, const GillespieOptions& options);
+/// What rates are used and how often they were seen, a line a reaction.
+std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics);
 
 /// The rules for KaSim (Kappa 4) and BioNetGen: one agent with its control state, its connector l_n
 /// and four faces; sixteen rules for each of ours, one for every way to turn two modules. Space is

@@ -88,9 +88,9 @@ std::vector<Note> notes_on(const Target& target, const Plan& plan, const Ruleset
                            int modules);
 
 struct PlanLimits {
-  std::size_t trees = 1000;  ///< spanning trees
-  std::size_t orders = 200;  ///< orders per tree and algorithm
-  std::size_t plans = 5000;  ///< in all
+  std::size_t trees = 1000;   ///< spanning trees
+  std::size_t orders = 2000;  ///< per tree and algorithm
+  std::size_t plans = 5000;   ///< in all
 };
 /// Plans of a target: all spanning trees, algorithms and orders of visiting, those with the fewest
 /// maximal joins that an algorithm has on a tree; none blocked if there are any such. Plans whose

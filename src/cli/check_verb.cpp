@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "cli/check_kinetics.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
@@ -16,6 +17,7 @@ void add_options(VerbOptions& options) {
       "lattice", "worlds of the lattice model to run (20)", text(), "N")(
       "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
                                                            text(), "N")("quiet", "no progress");
+  add_kinetics_options(options);
 }
 
 }  // namespace
@@ -23,7 +25,8 @@ void add_options(VerbOptions& options) {
 int check_verb(const Arguments& arguments) {
   VerbOptions options("check", "RULESET",
                       "Proves what a ruleset can build, where it gets stuck and whether its "
-                      "reverse rules undo their joins.");
+                      "reverse rules undo their joins; counts rates in worlds and runs a "
+                      "well-mixed model on them.");
   add_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().size() != 1)
@@ -42,11 +45,14 @@ int check_verb(const Arguments& arguments) {
     check = check_ruleset(rules, job);
     progress.clear();
   }
-  if (stop_signal().load()) {
-    std::cerr << "stopped; nothing was written\n";
+  if (!stop_signal().load()) std::cout << check_text(rules, check) << std::flush;
+  const auto kinetics =
+      stop_signal().load() ? std::nullopt : run_kinetics(options, rules, job.modules);
+  if (!kinetics) {
+    std::cerr << "stopped; the same command goes on with the worlds that are done\n";
     return Exit::stopped;
   }
-  std::cout << check_text(rules, check) << std::flush;
+  std::cout << *kinetics << std::flush;
   return check.faults.empty() ? Exit::done : Exit::fault;
 }
 

@@ -1,6 +1,7 @@
 // The well-mixed model: rates from counts, and Gillespie's direct method.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "lilytank/kinetics.hpp"
 #include "lilytank/math.hpp"
@@ -67,7 +68,38 @@ double evaluation_rate_of(const Ruleset& rules, const ReactionNetwork& network,
   return fired >= kEnough ? fired / chances : kFirmware;
 }
 
+std::string three_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 }  // namespace
+
+std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics) {
+  std::string out = "a pair of faces that fit docks " + three_digits(kinetics.face_rate) +
+                    " times a second; a bond is evaluated " +
+                    three_digits(kinetics.evaluation_rate) + " times a second\n";
+  for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
+    const Reaction& reaction = kinetics.network.reactions[k];
+    const auto side = [&](const std::vector<int>& list) {
+      std::string text;
+      for (const int species : list)
+        text += (text.empty() ? "" : " + ") +
+                kinetics.network.species[static_cast<std::size_t>(species)].drawing;
+      return text;
+    };
+    out += "  " + rules.rules[static_cast<std::size_t>(reaction.rule)].name + ": " +
+           side(reaction.from) + " -> " + side(reaction.to) + "  " +
+           three_digits(kinetics.rate[k]) + "/s";
+    if (reaction.kind == RuleKind::link)
+      out += ", " + three_digits(kinetics.rate[k] / reaction.places) + "/s for each of " +
+             std::to_string(reaction.places) + " pairs of faces, seen " +
+             std::to_string(kinetics.seen[k]) + " times";
+    out += "\n";
+  }
+  return out;
+}
 
 Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) {
   Kinetics kinetics;
@@ -120,9 +152,7 @@ Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_r
   return kinetics;
 }
 
-GillespieResult run_gillespie(const Ruleset& rules, const Kinetics& kinetics,
-                              const GillespieOptions& options) {
-  static_cast<void>(rules);
+GillespieResult run_gillespie(const Kinetics& kinetics, const GillespieOptions& options) {
   const ReactionNetwork& network = kinetics.network;
   GillespieResult result;
   result.counts.assign(network.species.size(), 0);

@@ -111,12 +111,38 @@ RateTable rate_table_from(const std::string& text, const std::string& file) {
       table.meetings[{a, b}].dockings = events, table.meetings[{a, b}].exposure = exposure;
     } else if (kind == "links") {
       table.meetings[{a, b}].links[rule] = events;
-    } else {
+    } else if (kind != "copy" && kind != "scenario") {
       rows.refuse(0, "is not a kind of count");
     }
   }
   if (!headed) throw InputError({file, 0, 0}, "the row 'worlds' is missing: the file is cut");
   return table;
+}
+
+std::string to_csv(const MeasuredWorld& world, std::uint64_t identity) {
+  std::string out = to_csv(world.rates);
+  out += "scenario," + hex(identity) + ",,," + (world.diverged ? "1" : "0") + ",0\n";
+  for (std::size_t k = 0; k < world.completion.size(); ++k)
+    out += "copy,,,," + std::to_string(k + 1) + "," + shortest(world.completion[k]) + "\n";
+  return out;
+}
+
+MeasuredWorld measured_world_from(const std::string& text, const std::string& file,
+                                  std::uint64_t identity) {
+  MeasuredWorld world;
+  world.rates = rate_table_from(text, file);
+  CsvReader rows(text, file, {kColumns});
+  bool known = false;
+  while (rows.next()) {
+    if (rows.text(0) == "copy") world.completion.push_back(rows.number(5));
+    if (rows.text(0) != "scenario") continue;
+    if (rows.text(1) != hex(identity))
+      throw InputError({file, 0, 0}, "this world is of another scenario: take another --out");
+    known = true;
+    world.diverged = rows.whole(4, 0, 1) == 1;
+  }
+  if (!known) throw InputError({file, 0, 0}, "the row 'scenario' is missing: the file is cut");
+  return world;
 }
 
 RateTable rates_of_run(const std::string& dir) {

@@ -140,9 +140,10 @@ void Reader::spaced() {
   const Sign origin = cells_.front();
   for (const Sign& sign : cells_) {
     if (((sign.column - origin.column) & 1) != 0 || ((sign.row - origin.row) & 1) != 0)
-      fail(sign,
-           "this '#' is out of step with the first one: where bonds are drawn, cells take "
-           "every second column and row");
+      fail(sign, "this '#' is out of step with the first one: as there is a bond, '" +
+                     std::string(1, marks_.front().c) + "' in line " +
+                     std::to_string(marks_.front().row) +
+                     ", cells take every second column and row");
   }
   for (const Sign& sign : marks_) bond(sign, sign.column - origin.column, sign.row - origin.row);
 }

@@ -1,0 +1,18 @@
+// The part of `lilytank check` that counts rates in worlds and runs the well-mixed model on them.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "cli/options.hpp"
+#include "lilytank/kinetics.hpp"
+
+namespace lilytank::cli {
+
+/// Options --measure, --rates, --gillespie, --kappa, --bngl and what belongs to them.
+void add_kinetics_options(VerbOptions& options);
+/// Does what they ask for; the text for the report, or nothing if a signal stopped it. Throws
+/// InputError.
+std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,
+                                        int modules);
+
+}  // namespace lilytank::cli

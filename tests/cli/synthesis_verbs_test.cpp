@@ -1,0 +1,206 @@
+// lilytank synthesize and check: what users see.
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "lilytank/ruleset.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kTargets = LILYTANK_SOURCE_DIR "/scenarios/targets/";
+const std::string kRulesets = LILYTANK_SOURCE_DIR "/scenarios/rulesets/";
+
+std::vector<std::string> words_of(const std::vector<Rule>& rules) {
+  std::vector<std::string> words;
+  Ruleset one;
+  for (const Rule& rule : rules) {
+    one.rules = {rule};
+    words.push_back(to_text(one));
+  }
+  return words;
+}
+
+TEST(SynthesizeVerb, MakesTheShippedRulesets) {
+  const Program lilytank;
+  for (const std::string name :
+       {"chain5", "cross5", "i4", "l4", "j4", "t4", "s4", "o4", "p5", "caterpillar7", "arms7"}) {
+    const std::string algorithm = name == "arms7" ? " --algorithm linchpin" : "";
+    const Answer a =
+        lilytank("synthesize '" + kTargets + name + ".txt'" + algorithm + " --out made.rules");
+    ASSERT_EQ(a.code, 0) << a.err;
+    EXPECT_EQ(a.out, "");
+    const Ruleset made = read_ruleset(lilytank.here.path("made.rules"));
+    const Ruleset shipped = read_ruleset(kRulesets + name + ".rules");
+    EXPECT_EQ(words_of(made.rules), words_of(shipped.rules)) << name;
+    EXPECT_EQ(canonical_shape(made.target), canonical_shape(shipped.target)) << name;
+    EXPECT_EQ(made.name, name);
+  }
+}
+
+TEST(SynthesizeVerb, ScenariosOfTheTargetsRun) {
+  const Program lilytank;
+  for (const std::string name :
+       {"i4", "l4", "j4", "t4", "s4", "o4", "p5", "caterpillar7", "arms7"}) {
+    const Answer a = lilytank("run '" LILYTANK_SOURCE_DIR "/scenarios/" + name +
+                              ".toml' --set run.duration='2 s' --quiet --out " + name);
+    EXPECT_EQ(a.code, 0) << a.err;
+  }
+}
+
+TEST(SynthesizeVerb, WarnsInPlainWords) {
+  const Program lilytank;
+  lilytank.here.write("l.txt", "#.\n#.\n##\n");
+  Answer a = lilytank("synthesize l.txt");
+  EXPECT_EQ(a.code, 0);
+  EXPECT_NE(a.err.find("never its mirror image"), std::string::npos) << a.err;
+  EXPECT_NE(a.out.find("# Note: the shape is handed"), std::string::npos) << a.out;
+  a = lilytank("synthesize '" + kTargets + "arms7.txt' --modules 24");
+  for (const char* words : {"warning: the finished shape has 2 joins that can be taken back",
+                            "not a caterpillar", "24 modules can all be bound"})
+    EXPECT_NE(a.err.find(words), std::string::npos) << a.err;
+  a = lilytank("synthesize '" + kTargets + "arms7.txt' --algorithm linchpin");
+  EXPECT_NE(a.err.find("3 rules compete for two single modules"), std::string::npos) << a.err;
+  a = lilytank("synthesize '" + kTargets + "o4.txt' --closures");
+  EXPECT_NE(a.err.find("closure rules hold 1"), std::string::npos) << a.err;
+  a = lilytank("synthesize '" + kTargets + "chain5.txt' --p 0.5,0.4,0 --modules 24");
+  EXPECT_NE(a.err.find("6 assemblies of 4 modules"), std::string::npos) << a.err;
+  EXPECT_NE(a.out.find("p=0.4\n"), std::string::npos) << a.out;
+}
+
+TEST(SynthesizeVerb, TakesTreesOrdersAndAllPlans) {
+  const Program lilytank;
+  lilytank.here.write("o4.txt", "##\n##\n");
+  lilytank.here.write("tree.txt", "#-#\n|\n#-#\n");
+  lilytank.here.write("order.txt", "#3#\n1\n#2#\n");
+  EXPECT_EQ(lilytank("synthesize o4.txt --tree tree.txt").code, 0);
+  const Answer a = lilytank("synthesize o4.txt --order order.txt");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("algorithm plan"), std::string::npos) << a.out;
+  EXPECT_EQ(lilytank("synthesize order.txt").out.substr(0, 60), a.out.substr(0, 60));
+  const Answer all = lilytank("synthesize o4.txt --all plans");
+  EXPECT_EQ(all.code, 0) << all.err;
+  const auto names = lilytank.names("plans");
+  EXPECT_GT(names.size(), 1u);
+  for (const std::string& name : names)
+    EXPECT_NO_THROW(read_ruleset(lilytank.here.path("plans/" + name)));
+}
+
+TEST(SynthesizeVerb, RefusesWithOneLine) {
+  const Program lilytank;
+  lilytank.here.write("o4.txt", "##\n##\n");
+  lilytank.here.write("i3.txt", "#-#-#\n");
+  lilytank.here.write("loop.txt", "#-#\n| |\n#-#\n");
+  lilytank.here.write("bad.txt", "##\n#!\n");
+  const struct {
+    std::string words, message;
+  } cases[] = {
+      {"", "one target, please"},
+      {"none.txt", "none.txt"},
+      {"bad.txt", "bad.txt:2:2: '!' in a drawing"},
+      {"o4.txt --algorithm singelton", "did you mean 'singleton'?"},
+      {"o4.txt --algorithm plan", "needs a drawing whose bonds are numbered"},
+      {"o4.txt --tree i3.txt", "draws other cells"},
+      {"o4.txt --tree loop.txt", "4 bonds are drawn, a tree of 4 modules has 3"},
+      {"o4.txt --order loop.txt", "has no numbered bonds"},
+      {"o4.txt --p 0.1,x", "'x' is not a probability"},
+      {"o4.txt --p 0.1,0.1,0.1,0.1", "4 probabilities are given for 3 joins"},
+      {"o4.txt --name 4o", "'4o' is not a name"},
+      {"o4.txt --modules 0", "--modules 0 is outside"},
+      {"o4.txt --figure f.jpg", "must end in .png, .svg or .pdf"},
+  };
+  for (const auto& c : cases) {
+    const Answer a = lilytank("synthesize " + c.words + " --out x.rules");
+    EXPECT_EQ(a.code, 2) << c.words;
+    EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
+    EXPECT_EQ(std::count(a.err.begin(), a.err.end(), '\n'), 1) << a.err;
+  }
+  for (const std::string& name : lilytank.names()) EXPECT_NE(name, "x.rules");
+}
+
+TEST(CheckVerb, ProvesThePapersRulesets) {
+  const Program lilytank;
+  for (const std::string name : {"chain5", "cross5"}) {
+    const Answer a = lilytank("check '" + kRulesets + name + ".rules' --lattice 2 --attempts 2000");
+    EXPECT_EQ(a.code, 0) << a.err;
+    for (const char* words : {"15 modules have 84 states and end in 1 way", "3 of 3 copies",
+                              "every reverse rule gives back", "0 illegal assemblies", "no fault"})
+      EXPECT_NE(a.out.find(words), std::string::npos) << a.out;
+  }
+}
+
+TEST(CheckVerb, FindsFaultsAndSaysSoInItsExitCode) {
+  const Program lilytank;
+  ASSERT_EQ(lilytank("synthesize '" + kTargets + "chain5.txt' --p 0.5,0.4,0 --out c.rules").code,
+            0);
+  EXPECT_EQ(lilytank("check c.rules --lattice 0").code, 0);
+  const Answer a = lilytank("check c.rules --lattice 0 --modules 24");
+  EXPECT_EQ(a.code, 1);
+  EXPECT_NE(a.out.find("fault: 1 deadlock"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("6 x ####"), std::string::npos) << a.out;
+}
+
+TEST(CheckVerb, CountsRatesAndGoesOnAfterAStop) {
+  const Program lilytank;
+  const std::string words = "check '" + kRulesets +
+                            "chain5.rules' --lattice 0 --measure '" LILYTANK_SOURCE_DIR
+                            "/scenarios/chain5.toml' --duration '4 min' --gillespie 20 --quiet";
+  ASSERT_EQ(lilytank(words + " --worlds 2 --out a --kappa a.ka --bngl a.bngl").code, 0);
+  const Answer b = lilytank(words + " --worlds 3 --out b");
+  ASSERT_EQ(b.code, 0) << b.err;
+  const auto first = lilytank.files("a"), second = lilytank.files("b");
+  EXPECT_EQ(first.at("world-1-2.csv"), second.at("world-1-2.csv"));
+  EXPECT_EQ(second.count("world-1-3.csv"), 1u);
+  for (const char* name : {"rates.csv", "yield.csv"}) EXPECT_EQ(second.count(name), 1u) << name;
+  // The missing world is added to those that are there.
+  ASSERT_EQ(lilytank(words + " --worlds 3 --out a").code, 0);
+  EXPECT_EQ(lilytank.files("a"), second);
+  // Another scenario's worlds are not taken.
+  const Answer other = lilytank(words + " --worlds 3 --out a --set tank.radius=0.29");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("of another scenario"), std::string::npos) << other.err;
+  // Rates serve again, without worlds.
+  const Answer again = lilytank("check '" + kRulesets +
+                                "chain5.rules' --lattice 0 --rates a/rates.csv --gillespie 10");
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_NE(again.out.find("well-mixed model, 10 runs of 4 h"), std::string::npos) << again.out;
+  EXPECT_NE(lilytank.here.read("a.ka").find("%agent: M("), std::string::npos);
+  EXPECT_NE(lilytank.here.read("a.bngl").find("begin reaction rules"), std::string::npos);
+}
+
+// What is counted while a world runs, and from the events that a run stores, is the same.
+TEST(CheckVerb, RatesOfAStoredRun) {
+  const Program lilytank;
+  ASSERT_EQ(lilytank("run '" LILYTANK_SOURCE_DIR
+                     "/scenarios/chain5.toml' --set run.duration='4 min' --quiet --out r")
+                .code,
+            0);
+  const Answer a = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r --out c");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("rates from 1 world, 0.0667 h"), std::string::npos) << a.out;
+  EXPECT_NE(lilytank.here.read("c/rates.csv").find("evaluations,,,,-1,"), std::string::npos);
+}
+
+TEST(CheckVerb, RefusesWithOneLine) {
+  const Program lilytank;
+  const std::string chain = "'" + kRulesets + "chain5.rules' --lattice 0 ";
+  const struct {
+    std::string words, message;
+  } cases[] = {
+      {"", "one ruleset, please"},
+      {"none.rules", "cannot be read"},
+      {chain + "--modules 0", "--modules 0 is outside"},
+      {chain + "--worlds 3", "--worlds belongs to --measure"},
+      {chain + "--gillespie 3", "--gillespie needs rates"},
+      {chain + "--rates nowhere.csv", "nowhere.csv"},
+      {chain + "--rates a --measure b", "--measure or --rates, not both"},
+      {chain + "--measure nothing.toml", "nothing.toml"},
+  };
+  for (const auto& c : cases) {
+    const Answer a = lilytank("check " + c.words);
+    EXPECT_EQ(a.code, 2) << c.words;
+    EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
+  }
+}
+
+}  // namespace
+}  // namespace lilytank

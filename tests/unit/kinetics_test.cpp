@@ -1,0 +1,271 @@
+#include "lilytank/kinetics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lilytank/synthesis.hpp"
+#include "support/control_rig.hpp"
+#include "support/kappa.hpp"
+
+using namespace lilytank;
+using lilytank::testing::KappaMixture;
+using lilytank::testing::KappaModel;
+using lilytank::testing::KappaRule;
+using lilytank::testing::read_kappa;
+using lilytank::testing::rules_of;
+using lilytank::testing::ruleset_file;
+
+namespace {
+
+Ruleset pair_rules(double p) {
+  Ruleset rules = rules_of(
+      "target\n  ##\nend\nr1: (0,0) (0,0) -> (1,1)-(2,1)\nr1_reverse: (1,1)-(2,1) -> (0,0) "
+      "(0,0)\n");
+  rules.rules[1].p = p;
+  return rules;
+}
+
+// Two modules that bind at rate k and part at rate q are bound at time t with probability
+// k / (k + q) (1 - exp(-(k + q) t)).
+TEST(Gillespie, DimerOfTwoModulesFollowsTheClosedForm) {
+  const double face_rate = 0.01, evaluation_rate = 0.5, p = 0.2;
+  const double k = 16 * face_rate, q = evaluation_rate * p;
+  const Kinetics kinetics = kinetics_of(pair_rules(p), face_rate, evaluation_rate, 2);
+  constexpr int kRuns = 10000;
+  for (const double t : {1.0, 4.0, 30.0}) {
+    int bound = 0;
+    for (int run = 0; run < kRuns; ++run) {
+      GillespieOptions options;
+      options.modules = 2, options.duration = t, options.seed = static_cast<std::uint64_t>(run + 1);
+      bound += run_gillespie(kinetics, options).counts[1];
+    }
+    const double expected = k / (k + q) * (1 - std::exp(-(k + q) * t));
+    const double sigma = std::sqrt(expected * (1 - expected) / kRuns);
+    EXPECT_NEAR(bound / static_cast<double>(kRuns), expected, 5 * sigma) << t;
+  }
+}
+
+// In equilibrium d dimers of M modules have probability ~ (k/q)^d M! / ((M - 2d)! d! 2^d).
+TEST(Gillespie, DimersOfTenModulesComeToEquilibrium) {
+  const double k = 0.16, q = 0.4;
+  const Kinetics kinetics = kinetics_of(pair_rules(1), k / 16, q, 10);
+  std::vector<double> expected(6);
+  double sum = 0;
+  for (int d = 0; d <= 5; ++d) {
+    expected[static_cast<std::size_t>(d)] =
+        std::exp(d * std::log(k / q / 2) - std::lgamma(11 - 2 * d) - std::lgamma(d + 1));
+    sum += expected[static_cast<std::size_t>(d)];
+  }
+  constexpr int kRuns = 4000;
+  std::vector<int> seen(6, 0);
+  for (int run = 0; run < kRuns; ++run) {
+    GillespieOptions options;
+    options.modules = 10, options.duration = 60, options.seed = static_cast<std::uint64_t>(run + 1);
+    ++seen[static_cast<std::size_t>(run_gillespie(kinetics, options).counts[1])];
+  }
+  for (std::size_t d = 0; d <= 5; ++d) {
+    const double share = expected[d] / sum;
+    EXPECT_NEAR(seen[d] / static_cast<double>(kRuns), share,
+                5 * std::sqrt(share * (1 - share) / kRuns))
+        << d;
+  }
+}
+
+TEST(Gillespie, CopiesAreTimedAndTheSeedDecides) {
+  const Ruleset rules = read_ruleset(ruleset_file("chain5"));
+  const Kinetics kinetics = kinetics_of(rules, 1e-4, 0.68, 15);
+  GillespieOptions options;
+  options.duration = 1e6;
+  const GillespieResult a = run_gillespie(kinetics, options);
+  EXPECT_EQ(a.copies, 3);
+  ASSERT_EQ(a.completion.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(a.completion.begin(), a.completion.end()));
+  EXPECT_EQ(run_gillespie(kinetics, options).completion, a.completion);
+  options.seed = 2;
+  EXPECT_NE(run_gillespie(kinetics, options).completion, a.completion);
+}
+
+TEST(Gillespie, CompetingSeedsShareTheDockings) {
+  const Target target = parse_target("######", "chain6.txt");
+  const Ruleset rules = emit(target, make_plan(target, Algorithm::linchpin));
+  const Kinetics kinetics = kinetics_of(rules, 1e-3, 0.68, 12);
+  int seeds = 0;
+  for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
+    const Reaction& reaction = kinetics.network.reactions[k];
+    if (reaction.from != std::vector<int>{0, 0}) continue;
+    ++seeds;
+    EXPECT_DOUBLE_EQ(kinetics.rate[k], 16e-3 / 2);
+  }
+  EXPECT_EQ(seeds, 2);
+}
+
+Event event(EventKind kind, int a, int face_a, int b, int face_b, int rule = -1, int label_a = 0,
+            int last_a = -1, int label_b = 0, int last_b = -1) {
+  Event e;
+  e.kind = kind, e.a = a, e.b = b, e.rule = static_cast<std::int16_t>(rule);
+  e.face_a = static_cast<std::int8_t>(face_a), e.face_b = static_cast<std::int8_t>(face_b);
+  e.label_a = label_a, e.label_b = label_b;
+  e.last_a = static_cast<std::int8_t>(last_a), e.last_b = static_cast<std::int8_t>(last_b);
+  return e;
+}
+
+TEST(RateRecord, CountsByHand) {
+  const Ruleset rules = read_ruleset(ruleset_file("chain5"));
+  RateRecord record(rules, 4);
+  record.observe(event(EventKind::latch, 0, 1, 1, 3), 10);
+  record.observe(event(EventKind::link, 0, 1, 1, 3, 0, 1, 1, 2, 3), 12);
+  record.observe(event(EventKind::latch, 2, 0, 3, 0), 14);
+  record.observe(event(EventKind::unlatch, 2, 0, 3, 0), 15);
+  record.observe(event(EventKind::unlink, 0, 1, 1, 3, 4), 20);
+  const RateTable table = record.table(30);
+  EXPECT_EQ(table.seconds, 30);
+  EXPECT_EQ(table.contacts, 2);
+  EXPECT_DOUBLE_EQ(table.contact_seconds, 3);
+  EXPECT_DOUBLE_EQ(table.bond_seconds, 8);
+  ASSERT_EQ(table.standing.size(), 2u);
+  const std::string single = "0,0,0,-1,0";
+  EXPECT_DOUBLE_EQ(table.standing.at(single).exposure, 4 * 12 + 2 * 8 + 4 * 10);
+  const auto& singles = table.meetings.at({single, single});
+  EXPECT_EQ(singles.dockings, 2);
+  EXPECT_EQ(singles.links.at("r1"), 1);
+  EXPECT_DOUBLE_EQ(singles.exposure, 6 * 12 + 1 * 8 + 6 * 10);
+  int changes = 0;
+  for (const auto& [key, standing] : table.standing)
+    for (const auto& [rule, n] : standing.changes)
+      changes += rule == "r1_reverse" ? static_cast<int>(n) : 99;
+  EXPECT_EQ(changes, 1);
+}
+
+TEST(RateTable, ReadsBackAndAddsUp) {
+  const Ruleset rules = read_ruleset(ruleset_file("chain5"));
+  RateRecord record(rules, 4);
+  record.observe(event(EventKind::latch, 0, 1, 1, 3), 10);
+  record.observe(event(EventKind::link, 0, 1, 1, 3, 0, 1, 1, 2, 3), 12.025);
+  RateTable table = record.table(30);
+  const std::string text = to_csv(table);
+  EXPECT_EQ(to_csv(rate_table_from(text, "rates.csv")), text);
+  table.add(rate_table_from(text, "rates.csv"));
+  EXPECT_EQ(table.worlds, 2);
+  EXPECT_EQ(table.seconds, 60);
+  EXPECT_EQ(table.contacts, 2);
+  EXPECT_THROW(rate_table_from("kind,rule\n", "x"), InputError);
+  EXPECT_THROW(rate_table_from("kind,rule,a,b,events,exposure_s\nodd,,,,1,1\n", "x"), InputError);
+  EXPECT_THROW(rate_table_from("kind,rule,a,b,events,exposure_s\n", "x"), InputError);
+}
+
+// Planted rates are found again: worlds of the well-mixed model itself, followed as events would
+// be.
+TEST(Kinetics, RecoversPlantedRates) {
+  const Ruleset rules = pair_rules(0.5);
+  RateTable table;
+  table.worlds = 1;
+  const std::string single = "0,0,0,-1,0";
+  const Kinetics planted = kinetics_of(rules, 2e-4, 0.68, 10);
+  const std::string dimer = planted.network.species[1].key;
+  table.meetings[{single, single}].links["r1"] = 3200;
+  table.meetings[{single, single}].exposure = 1e6;
+  table.standing[dimer].exposure = 1e4;
+  table.standing[dimer].changes["r1_reverse"] = 3400;
+  table.evaluations = -1;
+  const Kinetics found = kinetics_of(rules, table, 10);
+  EXPECT_DOUBLE_EQ(found.face_rate, 2e-4);
+  EXPECT_DOUBLE_EQ(found.evaluation_rate, 0.68);
+  ASSERT_EQ(found.rate.size(), 2u);
+  EXPECT_NEAR(found.rate[0], planted.rate[0], 1e-9);
+  EXPECT_NEAR(found.rate[1], planted.rate[1], 1e-12);
+  EXPECT_THROW(kinetics_of(read_ruleset(ruleset_file("o4")), RateTable{}, 10), InputError);
+}
+
+// Executed by other code, the exported rules do what ours do: at every state on the way, each kind
+// of rule is as fast in total as the reactions of the network, and the chains get complete.
+TEST(Export, KappaRunsAsTheNetworkDoes) {
+  for (const std::string name : {"chain5", "cross5", "s4"}) {
+    Ruleset rules = read_ruleset(ruleset_file(name));
+    for (Rule& rule : rules.rules)
+      if (rule.kind == RuleKind::unlink) rule.p = 0.1;
+    const int modules = 2 * static_cast<int>(rules.target.size());
+    const Kinetics kinetics = kinetics_of(rules, 1e-3, 0.5, modules);
+    const KappaModel model = read_kappa(to_kappa(rules, 1e-3, 0.5, modules));
+    ASSERT_EQ(model.agents, modules);
+    ASSERT_EQ(model.rules.size(), 16 * rules.rules.size());
+    KappaMixture mixture(modules);
+    std::vector<int> counts(kinetics.network.species.size(), 0);
+    counts[0] = modules;
+    for (std::uint32_t move = 0; move < 60; ++move) {
+      std::map<std::string, double> fast, expected;
+      struct Way {
+        const KappaRule* rule;
+        std::size_t first, second;
+      };
+      std::vector<Way> ways;
+      for (const KappaRule& rule : model.rules) {
+        for (std::size_t i = 0; i < mixture.agents.size(); ++i) {
+          for (std::size_t j = 0; j < mixture.agents.size(); ++j) {
+            if (!mixture.embeds(rule, i, j)) continue;
+            fast[rule.name.substr(0, rule.name.rfind('_'))] += rule.rate;
+            ways.push_back({&rule, i, j});
+          }
+        }
+      }
+      for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
+        const Reaction& r = kinetics.network.reactions[k];
+        const auto n = [&](std::size_t s) { return counts[static_cast<std::size_t>(r.from[s])]; };
+        const double pairs = r.from.size() == 1       ? n(0)
+                             : r.from[0] == r.from[1] ? 0.5 * n(0) * (n(0) - 1)
+                                                      : 1.0 * n(0) * n(1);
+        if (pairs > 0)
+          expected[rules.rules[static_cast<std::size_t>(r.rule)].name] += pairs * kinetics.rate[k];
+      }
+      ASSERT_EQ(fast.size(), expected.size()) << name << " after " << move;
+      for (const auto& [rule, rate] : expected) ASSERT_NEAR(fast.at(rule), rate, 1e-12) << rule;
+      const Way& way = ways[(7919u * (move + 1)) % ways.size()];
+      mixture.apply(*way.rule, way.first, way.second);
+      // These shapes grow by one module at a time: a link takes a single module to what its first
+      // label's step says, k -> k + 1, and undoing the other way.
+      const std::size_t step = static_cast<std::size_t>(way.rule->name[1] - '1');
+      const int sign = way.rule->name.find("reverse") == std::string::npos ? 1 : -1;
+      counts[0] -= sign, counts[step] -= sign, counts[step + 1] += sign;
+    }
+  }
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++n;
+  return n;
+}
+
+TEST(Export, KappaHasACaseForEveryTurn) {
+  const std::string text = to_kappa(read_ruleset(ruleset_file("cross5")), 1e-5, 0.68, 15);
+  EXPECT_EQ(count_of(text, " -> "), 8u * 16u);
+  EXPECT_EQ(count_of(text, "%agent:"), 1u);
+  EXPECT_EQ(count_of(text, "%init: 15 M(a{s0}, n{x}, f0[.], f1[.], f2[.], f3[.])"), 1u);
+  // r2 of the cross at hop 2: a module whose l_n is face 0 engages face 1.
+  EXPECT_NE(text.find("'r2_10' M(a{s1}, n{n0}, f1[.]), M(a{s0}, n{x}, f0[.]) -> "
+                      "M(a{s3}, n{n1}, f1[1]), M(a{s4}, n{n0}, f0[1]) @ 'k_r2'\n"),
+            std::string::npos);
+  // Undone at face 1, with hop 4 back: face 0 is l_n again.
+  EXPECT_NE(text.find("'r2_reverse_10' M(a{s3}, n{n1}, f1[1]), M(a{s4}, n{n0}, f0[1]) -> "
+                      "M(a{s1}, n{n0}, f1[.]), M(a{s0}, n{x}, f0[.]) @ 'k_r2_reverse'\n"),
+            std::string::npos);
+  EXPECT_EQ(count_of(text, "@ 'k_r1' / 2"), 16u);
+}
+
+TEST(Export, BnglHasTheSameCases) {
+  const std::string text = to_bngl(read_ruleset(ruleset_file("cross5")), 1e-5, 0.68, 15);
+  EXPECT_EQ(count_of(text, " -> "), 8u * 16u);
+  EXPECT_EQ(count_of(text, "begin "), count_of(text, "end "));
+  EXPECT_NE(
+      text.find("  r2_10: M(a~1,n~0,f1) + M(a~0,n~x,f0) -> M(a~3,n~1,f1!1).M(a~4,n~0,f0!1) k_r2\n"),
+      std::string::npos);
+  EXPECT_NE(text.find("  r1_reverse_00: M(a~1,n~0,f0!1).M(a~2,n~0,f0!1) -> M(a~0,n~x,f0) + "
+                      "M(a~0,n~x,f0) k_r1_reverse\n"),
+            std::string::npos);
+  EXPECT_EQ(count_of(text, " k_r1/2\n"), 12u);
+  EXPECT_EQ(count_of(text, " k_r1\n"), 4u);
+}
+
+}  // namespace
