@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <mutex>
 
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
+#include "lilytank/measure.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/scenario.hpp"
 #include "lilytank/statistics.hpp"
-#include "lilytank/study.hpp"
 #include "text/number.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
@@ -48,39 +47,26 @@ std::uint64_t identity_of(const Scenario& scenario, const Ruleset& rules) {
   return hash;
 }
 
-// Worlds 0 .. n-1, each kept in the directory as soon as it is done; nothing if it was stopped.
+// Nothing if it was stopped.
 std::optional<Counted> measure(const VerbOptions& options, const Ruleset& rules, int modules,
                                const std::string& dir) {
   const Scenario scenario = scenario_for(options, rules, modules);
-  const std::uint64_t identity = identity_of(scenario, rules);
-  const auto worlds = static_cast<std::size_t>(options.whole("worlds", 20, 1, 100000));
-  const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  const int threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
-  std::vector<MeasuredWorld> measured(worlds);
+  MeasureOptions job;
+  job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 100000));
+  job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
+  job.duration = scenario.duration;
+  job.out = dir;
+  job.identity = identity_of(scenario, rules);
+  job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  std::mutex talk;
-  std::size_t done = 0;
-  for_each_world(static_cast<int>(worlds), threads, [&](int k) {
-    if (stop_signal().load()) return;
-    const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k)) >> 5;
-    const std::string file =
-        (fs::path(dir) / ("world-" + std::to_string(seed) + "-" + std::to_string(k + 1) + ".csv"))
-            .string();
-    MeasuredWorld& world = measured[static_cast<std::size_t>(k)];
-    if (fs::exists(file)) {
-      world = measured_world_from(read_whole(file), file, identity);
-    } else {
-      world = measure_world(scenario.model, own, scenario.duration, &stop_signal());
-      if (!world.stopped) write_atomically(file, to_csv(world, identity));
-    }
-    const std::lock_guard lock(talk);
-    progress.tell(static_cast<double>(++done) / static_cast<double>(worlds), "of the worlds");
-  });
+  job.progress = [&](double done) { progress.tell(done, "of the worlds"); };
+  const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
   if (stop_signal().load()) return std::nullopt;
   Counted counted;
   counted.duration = scenario.duration;
-  for (const MeasuredWorld& world : measured) {
+  for (const MeasuredWorld& world : worlds) {
     if (world.diverged) continue;
     counted.table.add(world.rates);
     counted.completion.push_back(world.completion);

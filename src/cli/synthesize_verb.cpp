@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 std::vector<double> probabilities(const VerbOptions& options) {
   std::vector<double> found;
-  std::string text = options.text("p");
-  if (!options.has("p")) return found;
+  std::string text = options.text("probabilities");
+  if (!options.has("probabilities")) return found;
   text += ',';
   for (std::size_t at = 0, end; (end = text.find(',', at)) != std::string::npos; at = end + 1) {
     const std::string word(trimmed(std::string_view(text).substr(at, end - at)));
@@ -108,12 +108,19 @@ void add_options(VerbOptions& options) {
                         "FILE")("order", "a drawing whose bonds are numbered: the whole plan",
                                 text(), "FILE")(
       "modules", "how many there will be: warns of deadlocks", text(), "M")(
-      "p", "probabilities of r1_reverse, r2_reverse, ... as 0.01,0.005", text(), "LIST")(
-      "closures", "rules for the contacts that close a finished loop")(
+      "probabilities", "of r1_reverse, r2_reverse, ... as 0.01,0.005; --p for short", text(),
+      "LIST")("closures", "rules for the contacts that close a finished loop")(
       "name", "of the ruleset (default: the target's)", text(), "WORD")(
       "out", "file for the rules (default: the terminal)", text(), "FILE")(
       "figure", "the stages of the assembly as .svg, .png or .pdf", text(), "FILE")(
       "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR");
+}
+
+// The library takes a name of one letter for a short option, which has one dash.
+Arguments with_long_name(Arguments arguments) {
+  for (std::string& word : arguments)
+    if (word == "--p" || word.starts_with("--p=")) word.insert(3, "robabilities");
+  return arguments;
 }
 
 }  // namespace
@@ -123,7 +130,7 @@ int synthesize_verb(const Arguments& arguments) {
                       "Makes a ruleset that builds a target: a drawing of '#' for modules, with "
                       "bonds '-' and '|' between spaced ones where they matter.");
   add_options(options);
-  if (!options.parse(arguments)) return Exit::done;
+  if (!options.parse(with_long_name(arguments))) return Exit::done;
   if (options.positional().size() != 1)
     options.refuse("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
   Target target = read_target(options.positional().front());
