@@ -151,8 +151,8 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
   const Canvas ruler = Canvas::raster(8, 8);
   const Grid grid = grid_of(ruler, target, stages);
   const double head = title.empty() ? 0 : kHead;
-  const double width = std::max(2 * kMargin + 30 + ruler.width_of(kKey, kSmall),
-                                2 * kMargin + grid.columns * (grid.width + kGap) - kGap);
+  const double width = std::ceil(2 * kMargin + std::max(30 + ruler.width_of(kKey, kSmall),
+                                                        grid.columns * (grid.width + kGap) - kGap));
   const double height = 2 * kMargin + head + kFoot + grid.rows * (grid.height + kGap) - kGap;
   Canvas canvas = Canvas::page(format, width, height, 2);
   canvas.colour(palette::paper);
