@@ -5,8 +5,8 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtom
 film_packages=(ffmpeg fonts-dejavu-core)
 test_packages=(libgtest-dev)
 slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run
-# Other engines are only measured against, never linked into the simulator.
-bench_packages=(libbenchmark-dev libode-dev libbox2d-dev libchipmunk-dev)
+# Other engines and optimisers are only measured against, never linked into the simulator.
+bench_packages=(libbenchmark-dev libode-dev libbox2d-dev libchipmunk-dev libpagmo-dev)
 
 # Installs those of the named packages that are not there yet. Needs no rights if none is missing.
 need_packages() {

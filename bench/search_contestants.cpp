@@ -53,26 +53,20 @@ std::vector<SearchContestant> swarms() {
   return out;
 }
 
-/// Variants of one swarm.
+/// With the final selection, and with the weights of Clerc and Kennedy [IEEE Trans. Evolutionary
+/// Computation 6 (1), 2002].
 std::vector<SearchContestant> variants() {
   std::vector<SearchContestant> out;
-  SwarmOptions o;
-  o.neighbourhood = Neighbourhood::ring, o.noise = NoiseRule::ocba;
-  out.push_back(swarm("swarm ring ocba, final", o, 0.1));
-  SwarmOptions common = o;
-  common.common_random_numbers = true;
-  out.push_back(swarm("swarm ring ocba, final, common", common, 0.1));
-  SwarmOptions usual = o;
-  // Clerc and Kennedy's constriction.
-  usual.inertia = 0.7298, usual.personal = 1.49618, usual.neighbour = 1.49618;
-  usual.velocity_limit = 0.5;
-  out.push_back(swarm("swarm ring ocba, final, w 0.7298", usual, 0.1));
-  usual.common_random_numbers = true;
-  out.push_back(swarm("swarm ring ocba, final, w 0.7298, common", usual, 0.1));
-  SwarmOptions single = usual;
-  single.common_random_numbers = false;
-  single.noise = NoiseRule::none, single.evaluations = 1;
-  out.push_back(swarm("swarm ring none x1, final, w 0.7298", single, 0.1));
+  for (const auto whom : {Neighbourhood::global, Neighbourhood::ring, Neighbourhood::von_neumann}) {
+    SwarmOptions o;
+    o.neighbourhood = whom, o.noise = NoiseRule::ocba;
+    const std::string name = "swarm " + name_of(whom) + " ocba, final";
+    out.push_back(swarm(name, o, 0.1));
+    o.inertia = 0.7298, o.personal = o.neighbour = 1.49618, o.velocity_limit = 0.5;
+    out.push_back(swarm(name + ", w 0.7298", o, 0.1));
+    o.common_random_numbers = true;
+    out.push_back(swarm(name + ", w 0.7298, common", o, 0.1));
+  }
   return out;
 }
 

@@ -22,7 +22,7 @@ struct SearchContestant {
 
 /// Our own.
 std::vector<SearchContestant> own_contestants();
-/// pagmo's; none if it was not found when this was built.
+/// pagmo's, where this was built with it (LILYTANK_WITH_PAGMO).
 std::vector<SearchContestant> pagmo_contestants();
 
 }  // namespace lilytank::bench
