@@ -41,32 +41,33 @@ SearchContestant cma_es(const std::string& name, const CmaEsOptions& options, do
   return {name, run};
 }
 
+/// Every neighbourhood and noise rule, and what the final selection adds to the best rule.
 std::vector<SearchContestant> swarms() {
   std::vector<SearchContestant> out;
   for (const auto whom : {Neighbourhood::global, Neighbourhood::ring, Neighbourhood::von_neumann}) {
+    SwarmOptions o;
+    o.neighbourhood = whom;
+    const std::string name = "swarm " + name_of(whom) + " ";
     for (const auto rule : {NoiseRule::none, NoiseRule::reevaluate, NoiseRule::ocba}) {
-      SwarmOptions o;
-      o.neighbourhood = whom, o.noise = rule;
-      out.push_back(swarm("swarm " + name_of(whom) + " " + name_of(rule), o));
+      o.noise = rule;
+      out.push_back(swarm(name + name_of(rule), o));
     }
+    out.push_back(swarm(name + "ocba, final", o, 0.1));
   }
   return out;
 }
 
-/// With the final selection, and with the weights of Clerc and Kennedy [IEEE Trans. Evolutionary
-/// Computation 6 (1), 2002].
+/// The paper's own, other weights, common random numbers.
 std::vector<SearchContestant> variants() {
   std::vector<SearchContestant> out;
-  for (const auto whom : {Neighbourhood::global, Neighbourhood::ring, Neighbourhood::von_neumann}) {
-    SwarmOptions o;
-    o.neighbourhood = whom, o.noise = NoiseRule::ocba;
-    const std::string name = "swarm " + name_of(whom) + " ocba, final";
-    out.push_back(swarm(name, o, 0.1));
-    o.inertia = 0.7298, o.personal = o.neighbour = 1.49618, o.velocity_limit = 0.5;
-    out.push_back(swarm(name + ", w 0.7298", o, 0.1));
-    o.common_random_numbers = true;
-    out.push_back(swarm(name + ", w 0.7298, common", o, 0.1));
-  }
+  out.push_back(swarm("paper, averaged twice", swarm_preset("paper-rulesets")));
+  out.push_back(swarm("paper, bests re-evaluated", swarm_preset("paper-lilies")));
+  SwarmOptions o;
+  o.common_random_numbers = true;
+  out.push_back(swarm("swarm global ocba, final, common", o, 0.1));
+  // Clerc and Kennedy's weights [IEEE Trans. Evolutionary Computation 6 (1), 2002].
+  o = {}, o.inertia = 0.7298, o.personal = o.neighbour = 1.49618;
+  out.push_back(swarm("swarm global ocba, final, w 0.7298", o, 0.1));
   return out;
 }
 
@@ -81,7 +82,7 @@ std::vector<SearchContestant> own_contestants() {
   out.push_back(cma_es("cma-es x1, final", o, 0.1));
   o.evaluations = 2;
   out.push_back(cma_es("cma-es x2, final", o, 0.1));
-  o.evaluations = 1, o.handle_uncertainty = true;
+  o = {};
   out.push_back(cma_es("cma-es uncertainty, final", o, 0.1));
   o.common_random_numbers = true;
   out.push_back(cma_es("cma-es uncertainty, final, common", o, 0.1));

@@ -122,11 +122,11 @@ struct SwarmOptions {
   double personal = 0.5287;              ///< w_p
   double neighbour = 3.1913;             ///< w_n
   Neighbourhood neighbourhood = Neighbourhood::global;
-  double velocity_limit = 0.15;  ///< of |v| an iteration, as a share of an axis' (log) range
+  double velocity_limit = 0.3;  ///< of |v| an iteration, as a share of an axis' (log) range
   AtBound at_bound = AtBound::stop;
   /// Of a particle an iteration: the budget is particles * iterations * this + final_evaluations.
   int evaluations = 2;
-  NoiseRule noise = NoiseRule::reevaluate;
+  NoiseRule noise = NoiseRule::ocba;
   int ocba_stages = 4;  ///< of an iteration, after the new positions' first evaluations
   /// After the last iteration so many more are shared out by OCBA among the leading personal bests,
   /// whose earlier values do not count any more: a point leads a search by luck, too. 0, or at
@@ -138,9 +138,10 @@ struct SwarmOptions {
 };
 
 /// Covariance matrix adaptation, (mu/mu_w, lambda) with active update [Hansen, The CMA evolution
-/// strategy: a tutorial, 2016], in the unit box of the axes' (log) ranges; samples are mirrored at
-/// its sides. Where the distribution has become too small to matter, it starts anew at a random
-/// place with twice the population [Auger and Hansen 2005] for as long as the budget lasts.
+/// strategy: a tutorial, 2016], in the unit box of the axes' (log) ranges. Samples beyond its sides
+/// are put on them, and so is the mean: lowest points on a bound are found exactly. Where the
+/// distribution has become too small to matter, it starts anew at a random place with twice the
+/// population [Auger and Hansen 2005] for as long as the budget lasts.
 struct CmaEsOptions {
   std::int64_t budget = 1000;  ///< trials in all
   int population = 0;          ///< lambda; 0: 4 + floor(3 ln n) for n axes
@@ -157,6 +158,11 @@ struct CmaEsOptions {
   int final_evaluations = 100;
   bool common_random_numbers = false;
 };
+
+/// The best settings of docs/search.md's measurements for this many evaluations, of which a tenth
+/// go to the final selection: use these, and CMA-ES before the swarm, unless there is a reason.
+SwarmOptions swarm_for(std::int64_t budget, int particles);
+CmaEsOptions cma_es_for(std::int64_t budget);
 
 /// Throw InputError on a space or options that make no sense.
 std::unique_ptr<Search> make_swarm(SearchSpace space, SwarmOptions options, std::uint64_t seed);

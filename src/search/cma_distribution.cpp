@@ -121,7 +121,8 @@ void CmaDistribution::update(const std::vector<std::vector<double>>& ranked) {
   update_covariance(ranked, h_sigma);
   for (std::size_t a = 0; a < n; ++a) {
     mean_[a] += sigma_ * step[a];
-    mean_[a] -= 2 * std::floor(mean_[a] / 2);  // mirroring at the box's sides has this period
+    // The mean stays in the box, where samples beyond its sides are put on them.
+    mean_[a] = std::clamp(mean_[a], 0.0, 1.0);
   }
   decompose();
   widen(exp_portable(std::min(1.0, c.c_sigma / c.d_sigma * (pace / c.chi - 1))));

@@ -18,10 +18,10 @@ constexpr double kMoreEvaluations = 1.5;           // alpha_t of the uncertainty
 constexpr double kLeastChange = 1e-12;             // of the lowest means, as a share of them
 constexpr std::uint32_t kStartDraws = 0xffffffff;  // no sample has this number
 
-/// Mirrored at the sides of the unit box until inside.
-double folded(double x) {
-  x = std::fabs(x - 2 * std::floor(x / 2));
-  return x > 1 ? std::max(2 - x, 0.0) : x;
+/// The nearest point of the unit box.
+UnitPoint boxed(UnitPoint point) {
+  for (double& x : point) x = std::clamp(x, 0.0, 1.0);
+  return point;
 }
 
 }  // namespace
@@ -59,9 +59,7 @@ std::vector<double> CmaEs::normals(int sample) const {
 }
 
 UnitPoint CmaEs::point_of(int sample) const {
-  UnitPoint point = distribution_.sample(normals(sample));
-  for (double& x : point) x = folded(x);
-  return point;
+  return boxed(distribution_.sample(normals(sample)));
 }
 
 int CmaEs::evaluations_each() const {
@@ -100,12 +98,10 @@ std::vector<Trial> CmaEs::ask_generation() const {
   return trials;
 }
 
-/// The final mean and the best samples share what is left of the budget.
+/// The final mean, which lies in the box, and the best samples share what is left of the budget.
 void CmaEs::begin_selection() {
   const int left = static_cast<int>(options_.budget - told_);
-  UnitPoint mean = distribution_.mean();
-  for (double& x : mean) x = folded(x);
-  std::vector<UnitPoint> points{std::move(mean)};
+  std::vector<UnitPoint> points{distribution_.mean()};
   int most = 0;
   for (const Elite& elite : elites_) {
     if (static_cast<int>(points.size()) == selection_size(left)) break;

@@ -40,7 +40,7 @@ std::vector<std::string> swarm_presets() {
 
 SwarmOptions swarm_preset(const std::string& name) {
   SwarmOptions options;  // the weights are the paper's already
-  options.at_bound = AtBound::keep;
+  options.at_bound = AtBound::keep, options.velocity_limit = 0.15;  // as the authors' code
   if (name == "paper-balls" || name == "paper-lilies") {
     options.particles = 47, options.iterations = name == "paper-balls" ? 30 : 100;
     options.evaluations = 2, options.noise = NoiseRule::reevaluate;
