@@ -138,6 +138,17 @@ TEST(SearchRun, SurvivesSigkill) {
   expect_files(directory, expected());
 }
 
+TEST(SearchRun, ThreadsChangeNoByte) {
+  const auto files = expected();
+  for (const int threads : {1, 5}) {
+    const TemporaryDirectory directory;
+    SearchRunOptions options = in(directory);
+    options.threads = threads;
+    run_search(swarm(), value, options);
+    expect_files(directory, files);
+  }
+}
+
 TEST(SearchRun, DoneIsDone) {
   const TemporaryDirectory directory;
   run_search(swarm(), value, in(directory));
