@@ -106,7 +106,7 @@ RateTable rates_of_run(const std::string& dir);
 
 /// Of the standard tank, where nothing else was measured: links of one pair of faces that fit
 /// (1/s), and evaluations of a standing bond (1/s); see docs/synthesis.md.
-inline constexpr double kStandardFaceRate = 1e-5, kStandardEvaluationRate = 0.68;
+inline constexpr double kStandardFaceRate = 7.7e-4, kStandardEvaluationRate = 0.68;
 
 /// A ruleset's reactions with their rates.
 struct Kinetics {

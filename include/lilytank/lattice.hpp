@@ -67,9 +67,10 @@ struct PopulationGraph {
   std::vector<EndState> deadlocks() const;
 };
 /// All states that `modules` single modules can come to, and where they end. Rules with p = 0 do
-/// not fire, those with any p > 0 will at some time.
+/// not fire, those with any p > 0 will at some time. Not complete if `stop` is set meanwhile.
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
-                                 std::int64_t limit = 200000);
+                                 std::int64_t limit = 200000,
+                                 const std::atomic<bool>* stop = nullptr);
 
 /// The smallest assembly that its rules cannot take apart any more; 0 if there is none.
 int first_irreversible_size(const Ruleset& rules, const ReactionNetwork& network);

@@ -61,9 +61,10 @@ void judge_rules(const Ruleset& rules, RulesetCheck& check) {
     check.notes.push_back("some joins of " + name + " have no straight way in and are left out");
 }
 
-void judge_population(const Ruleset& rules, RulesetCheck& check) {
+void judge_population(const Ruleset& rules, const std::atomic<bool>* stop, RulesetCheck& check) {
   if (check.modules <= 0) return;
-  check.population = population_graph(rules, check.network, check.modules);
+  constexpr std::int64_t kStates = 200000;
+  check.population = population_graph(rules, check.network, check.modules, kStates, stop);
   const PopulationGraph& graph = check.population;
   if (!graph.complete) {
     check.notes.push_back("more than " + std::to_string(graph.states - 1) + " states of " +
@@ -187,7 +188,7 @@ RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options) {
   check.irreversible_size = first_irreversible_size(rules, check.network);
   judge_species(rules, check);
   judge_rules(rules, check);
-  judge_population(rules, check);
+  judge_population(rules, options.lattice.stop, check);
   judge_lattice(rules, options, check);
   return check;
 }

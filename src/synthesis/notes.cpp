@@ -72,11 +72,10 @@ void note_shape(const Target& target, const Plan& plan, const Ruleset& rules,
   if (!open.empty()) {
     std::vector<std::string> names;
     for (const Contact& contact : open) names.push_back(drawn(target, contact));
-    std::string text = "the shape has loops: no rule holds " +
-                       std::to_string(open.size() - static_cast<std::size_t>(closing)) +
-                       " of its " + std::to_string(contacts_of(target).size()) + " contacts";
-    if (closing > 0) text += "; closure rules hold " + std::to_string(closing);
-    text += " (bonds left open by the tree: " + listed(names) + ")";
+    std::string text = "the shape has loops: of its " + std::to_string(contacts_of(target).size()) +
+                       " contacts the tree leaves " + std::to_string(open.size()) +
+                       " without a bond, " + listed(names);
+    if (closing > 0) text += "; closure rules hold " + std::to_string(closing) + " of them";
     notes.push_back({NoteKind::loops, false, text});
   }
   if (is_chiral(target))

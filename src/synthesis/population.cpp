@@ -2,19 +2,22 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string>
+#include <unordered_map>
 
 #include "lilytank/lattice.hpp"
 
 namespace lilytank {
 namespace {
 
-using Counts = std::vector<std::int16_t>;
+// Numbers of assemblies by species, two bytes each: a key that is quick to compare.
+using Counts = std::basic_string<char16_t>;
 
 class Graph {
  public:
   Graph(const ReactionNetwork& network, std::vector<const Reaction*> reactions, std::int64_t limit)
       : network_(network), reactions_(std::move(reactions)), limit_(limit) {}
-  bool explore(int modules);
+  bool explore(int modules, const std::atomic<bool>* stop);
   std::int64_t states() const { return static_cast<std::int64_t>(states_.size()); }
   std::vector<EndState> ends() const;
 
@@ -26,7 +29,7 @@ class Graph {
   const ReactionNetwork& network_;
   std::vector<const Reaction*> reactions_;
   std::int64_t limit_;
-  std::map<Counts, int> index_;
+  std::unordered_map<Counts, int> index_;  // nodes do not move, so states_ may point into it
   std::vector<const Counts*> states_;
   std::vector<std::vector<int>> next_;
 };
@@ -37,19 +40,20 @@ int Graph::add(const Counts& counts) {
   return at->second;
 }
 
-// False if there are more states than the limit.
-bool Graph::explore(int modules) {
-  Counts start(network_.species.size(), 0);
-  start[0] = static_cast<std::int16_t>(modules);
+// False if there are more states than the limit, or it was stopped.
+bool Graph::explore(int modules, const std::atomic<bool>* stop) {
+  Counts start(network_.species.size(), u'\0');
+  start[0] = static_cast<char16_t>(modules);
   add(start);
   for (std::size_t k = 0; k < states_.size(); ++k) {
     if (static_cast<std::int64_t>(states_.size()) > limit_) return false;
+    if (stop != nullptr && stop->load()) return false;
     const Counts now = *states_[k];
     for (const Reaction* reaction : reactions_) {
       Counts then = now;
       bool enough = true;
       for (const int species : reaction->from)
-        enough = enough && --then[static_cast<std::size_t>(species)] >= 0;
+        enough = enough && then[static_cast<std::size_t>(species)]-- > 0;
       if (!enough) continue;
       for (const int species : reaction->to) ++then[static_cast<std::size_t>(species)];
       const int to = add(then);
@@ -146,7 +150,7 @@ std::vector<EndState> PopulationGraph::deadlocks() const {
 }
 
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
-                                 std::int64_t limit) {
+                                 std::int64_t limit, const std::atomic<bool>* stop) {
   if (modules < 1 || modules > std::numeric_limits<std::int16_t>::max())
     throw InputError("a population of " + std::to_string(modules) +
                      " modules: expected 1 .. 32767");
@@ -155,7 +159,7 @@ PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& ne
     if (rules.rules[static_cast<std::size_t>(reaction.rule)].p > 0) reactions.push_back(&reaction);
   Graph graph(network, std::move(reactions), limit);
   PopulationGraph result;
-  result.complete = graph.explore(modules) && network.closed;
+  result.complete = graph.explore(modules, stop) && network.closed;
   result.states = graph.states();
   if (!rules.target.empty()) result.possible = modules / static_cast<int>(rules.target.size());
   if (result.complete) result.ends = graph.ends();
