@@ -31,11 +31,11 @@ TEST_F(VerbsTest, VersionAndHelp) {
   for (const char* words : {"help", "--help", "-h"}) {
     const Answer help = lilytank_(words);
     EXPECT_EQ(help.code, 0);
-    for (const char* verb : {"run", "info", "forces", "render"}) {
+    for (const char* verb : {"run", "info", "forces", "render", "synthesize", "check"}) {
       EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
     }
   }
-  for (const std::string verb : {"run", "info", "forces", "render"}) {
+  for (const std::string verb : {"run", "info", "forces", "render", "synthesize", "check"}) {
     const Answer help = lilytank_("help " + verb);
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("lilytank " + verb), std::string::npos) << help.out;
