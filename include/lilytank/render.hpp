@@ -6,6 +6,7 @@
 #include "lilytank/analysis.hpp"
 #include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
+#include "lilytank/search.hpp"
 #include "lilytank/study_summary.hpp"
 #include "lilytank/synthesis.hpp"
 
@@ -151,6 +152,11 @@ void report_flow(const FlowReport& report, const std::string& dir);
 /// .pdf by the ending. Throws InputError if it cannot be written.
 void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
                  const std::string& file);
+
+/// How a search came along: the best point's mean so far and the median of each iteration's new
+/// points, over evaluations [paper, Figs. 10 (a) and 12 (a)].
+Plot search_plot(const std::vector<IterationRecord>& history, const std::string& title,
+                 const std::string& y_label);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

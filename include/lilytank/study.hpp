@@ -50,6 +50,10 @@ struct StudyPlan {
   std::uint64_t seed = 1;
   int replicates = 0;                ///< of each setting; with a stopping rule the most
   std::optional<StoppingRule> stop;  ///< without one the number is fixed
+  /// Worlds are left once all possible copies stand and no rule can change them. Rows are the same
+  /// as without it, but for what a world might still have come to that is not to come: divergence
+  /// and illegal assemblies. Not stored: it does not tell studies apart.
+  bool until_settled = false;
   std::vector<std::string> axes;     ///< names: dotted paths, or those of overlay axes
   std::vector<Setting> settings;     ///< the last axis changes fastest
 

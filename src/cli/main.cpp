@@ -15,6 +15,8 @@ const std::vector<Verb>& verbs() {
       {"study",
        "simulate many: settings, replicates, shards on many machines; statistics and plots",
        study_verb},
+      {"optimize", "find the probabilities, rulesets and pump power that build a target best",
+       optimize_verb},
       {"recording", "read, check and convert trackers' files; film a run", recording_verb},
       {"analyze", "what runs and recordings show, alone and against each other", analyze_verb},
       {"flow", "find the water's velocity from the tracks of balls", flow_verb},

@@ -30,6 +30,7 @@ int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
 int study_verb(const Arguments& arguments);
+int optimize_verb(const Arguments& arguments);
 int analyze_verb(const Arguments& arguments);
 int recording_verb(const Arguments& arguments);
 int synthesize_verb(const Arguments& arguments);

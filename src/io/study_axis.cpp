@@ -5,7 +5,6 @@
 
 #include "io/scenario_keys.hpp"
 #include "io/scenario_values.hpp"
-#include "io/toml_fields.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -13,11 +12,7 @@ namespace {
 
 constexpr int kMostValues = 100000;
 
-/// What a range must know about the key that it runs over.
-struct KeyFacts {
-  std::string unit;
-  bool whole = false;
-};
+}  // namespace
 
 KeyFacts facts_of(const Assignment& path) {
   if (path.keys.front() == "rules") return {"1", false};  // known once the ruleset is read
@@ -68,6 +63,8 @@ bool log_scale(const TomlFields& fields) {
   }
   return word == "log";
 }
+
+namespace {
 
 AxisRange ends(const TomlFields& fields, const KeyFacts& facts) {
   fields.need("from", "where the values begin");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "io/scenario_values.hpp"
 #include "io/study_axis.hpp"
 #include "io/toml_fields.hpp"
 #include "text/number.hpp"
@@ -62,7 +63,7 @@ class Reader {
 
   void study(const toml::table& from) {
     const TomlFields fields(from, "study", file_,
-                            {"name", "scenario", "replicates", "seed", "samples"});
+                            {"name", "scenario", "replicates", "seed", "samples", "until"});
     out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
     check_name(out_.name, "study.name", fields.place("name"));
     fields.need("scenario", "a scenario file, or a list with its overlays");
@@ -74,6 +75,7 @@ class Reader {
     if (fields.has("seed")) {
       out_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed));
     }
+    if (fields.has("until")) until(fields);
     out_.replicates = -1;
     if (fields.has("replicates")) {
       out_.replicates = static_cast<int>(fields.whole("replicates", 1, kMostReplicates));
@@ -83,6 +85,14 @@ class Reader {
       out_.samples = static_cast<int>(fields.whole("samples", 1, kMostSamples));
       samples_place_ = fields.place("samples");
     }
+  }
+
+  void until(const TomlFields& fields) {
+    const std::vector<std::string> words{"end", "settled"};
+    const std::string word = fields.text("until");
+    out_.until_settled = word == "settled";
+    if (out_.until_settled || word == "end") return;
+    throw unknown_word(fields.place("until"), "study.until", word, words);
   }
 
   void stop(const toml::table& from) {

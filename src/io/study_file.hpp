@@ -35,6 +35,7 @@ struct StudyFile {
   std::vector<std::string> scenarios;  ///< files, relative to the working directory
   std::uint64_t seed = 1;
   int replicates = 1;  ///< with a stopping rule its `max`
+  bool until_settled = false;
   int samples = 0;     ///< of the latin hypercube; 0: no axis is latin
   std::optional<StoppingRule> stop;
   std::vector<StudyAxis> axes;

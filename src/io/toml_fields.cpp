@@ -57,6 +57,14 @@ std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::i
                    " .. " + std::to_string(high));
 }
 
+bool TomlFields::flag(const std::string& name) const {
+  const toml::node& value = *node(name);
+  if (!value.is_boolean()) {
+    refuse(name, path(name) + " is true or false, not " + kind_of(value_of(value)));
+  }
+  return value.as_boolean()->get();
+}
+
 double TomlFields::number(const std::string& name, const std::string& unit) const {
   return number_of(assignment(name), path(name), unit);
 }

@@ -25,6 +25,7 @@ class TomlFields {
   /// Values of keys that are there; throw InputError on another kind or out of bounds.
   std::string text(const std::string& name) const;
   std::int64_t whole(const std::string& name, std::int64_t low, std::int64_t high) const;
+  bool flag(const std::string& name) const;
   double number(const std::string& name, const std::string& unit) const;
   /// One text or a list of them, at least one, each with its place.
   std::vector<std::pair<std::string, SourcePlace>> texts(const std::string& name) const;

@@ -32,13 +32,13 @@ class Meter {
     tell();
   }
 
-  void finished(const RunRow& row) {
+  void finished(const WorldRun& world) {
     const std::lock_guard hold(lock_);
     ++now_.runs, --now_.left;
-    if (row.status != RunStatus::diverged) return;
-    ++now_.failed;
-    // What a world that was given up would still have had to do.
-    expected_ -= plan_->settings[static_cast<std::size_t>(row.setting)].duration - row.duration;
+    if (world.row.status == RunStatus::diverged) ++now_.failed;
+    // What a world that was given up, or had settled, would still have had to do.
+    const auto setting = static_cast<std::size_t>(world.row.setting);
+    expected_ -= plan_->settings[setting].duration - world.simulated;
   }
 
   int runs() const { return now_.runs; }
@@ -123,13 +123,13 @@ class Job {
     meter_.expect(runs);
     for_each_world(static_cast<int>(runs.size()), options_->threads, [&](int i) {
       const RunPlace& run = runs[static_cast<std::size_t>(i)];
-      auto row = run_world(*study_, run.setting, run.replicate, options_->stop,
+      auto world = run_world(*study_, run.setting, run.replicate, options_->stop,
                            [&](double seconds) { meter_.simulated(seconds); });
-      if (!row) return;
-      writer_.write(row_line(*row, identity_));
-      meter_.finished(*row);
+      if (!world) return;
+      writer_.write(row_line(world->row, identity_));
+      meter_.finished(*world);
       const std::lock_guard hold(ledger_lock_);
-      ledger_.add(std::move(*row));
+      ledger_.add(std::move(world->row));
     });
   }
 

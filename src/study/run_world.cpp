@@ -14,35 +14,80 @@ bool asked(const std::atomic<bool>* stop) {
   return stop != nullptr && stop->load(std::memory_order_relaxed);
 }
 
+Label shown(const State& state, int module, int face) {
+  const Firmware& firmware = state.firmware[module];
+  return {firmware.label, hop_of(firmware.last, face)};
+}
+
+bool is(const Rule& rule, const Label& a, const Label& b) {
+  return (rule.before[0] == a && rule.before[1] == b) ||
+         (rule.before[0] == b && rule.before[1] == a);
+}
+
+// Whether some rule can act on this face of a module of a copy, whoever may meet it there.
+bool can_change(const Ruleset& rules, const State& state, int module, int face) {
+  const Face& own = state.faces[4 * module + face];
+  const bool bonded = own.status == FaceStatus::bonded;
+  const Label label = shown(state, module, face);
+  for (const Rule& rule : rules.rules) {
+    if (rule.p <= 0 || (rule.kind == RuleKind::link) == bonded) continue;
+    const bool acts = bonded ? is(rule, label, shown(state, own.partner, own.partner_face))
+                             : rule.before[0] == label || rule.before[1] == label;
+    if (acts) return true;
+  }
+  return false;
+}
+
+bool over(EarlyEnd early, const World& world, const AssemblyRecord& record) {
+  if (early == EarlyEnd::never || record.possible_copies() == 0) return false;
+  const auto reached = static_cast<int>(record.completion_times().size());
+  if (reached < record.possible_copies()) return false;
+  return early == EarlyEnd::completed || settled(world, record);
+}
+
 }  // namespace
 
-std::optional<RunRow> run_world(const Study& study, int setting, int replicate,
-                                const std::atomic<bool>* stop,
-                                const std::function<void(double)>& simulated) {
-  if (asked(stop)) return std::nullopt;
-  const Scenario scenario = study.scenario(setting);
-  const StudyPlan& plan = study.plan();
-  RunRow row;
-  row.setting = setting, row.replicate = replicate;
-  row.seed = plan.seed_of(replicate), row.id = plan.id_of(setting, replicate);
-  row.values = plan.settings[static_cast<std::size_t>(setting)].values;
+bool settled(const World& world, const AssemblyRecord& record) {
+  if (record.copies() < record.possible_copies()) return false;
+  const State& state = world.state();
+  for (int module = 0; module < world.model().module.count; ++module) {
+    if (record.complete()[static_cast<std::size_t>(module)] == 0) continue;
+    for (const Ruleset& rules : world.model().rulesets) {
+      for (int face = 0; face < 4; ++face) {
+        if (can_change(rules, state, module, face)) return false;
+      }
+    }
+  }
+  return true;
+}
 
-  World world(scenario.model, row.seed);
+std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
+                                  const std::atomic<bool>* stop,
+                                  const std::function<void(double)>& simulated) {
+  if (asked(stop)) return std::nullopt;
+  WorldRun out;
+  RunRow& row = out.row;
+  row.seed = seed;
+  World world(scenario.model, seed);
   AssemblyRecord record(scenario.model);
   record.observe(world);
-  const auto steps =
-      static_cast<std::int64_t>(std::floor(scenario.duration / scenario.model.dt + 0.5));
+  const double dt = scenario.model.dt;
+  const auto steps = static_cast<std::int64_t>(std::floor(scenario.duration / dt + 0.5));
   double told = 0;
-  while (world.state().step < steps && row.status == RunStatus::ok) {
+  bool left = false;
+  while (world.state().step < steps && row.status == RunStatus::ok && !left) {
     if (asked(stop)) return std::nullopt;
     row.status = world.step();
     record.observe(world);
+    // Looked at where something happened: what stands changes with events only.
+    left = !world.events().empty() && over(early, world, record);
     if (world.state().step % kStepsPerLook != 0) continue;
     simulated(world.time() - told);
     told = world.time();
   }
   simulated(world.time() - told);
-  row.duration = world.time();
+  out.simulated = world.time();
+  row.duration = left ? static_cast<double>(steps) * dt : world.time();
   row.possible = record.possible_copies();
   row.copies = record.copies();
   row.illegal = record.illegal();
@@ -50,7 +95,21 @@ std::optional<RunRow> run_world(const Study& study, int setting, int replicate,
   if (row.status == RunStatus::diverged) {
     row.note = divergence_text(world.divergence(), scenario.model);
   }
-  return row;
+  return out;
+}
+
+std::optional<WorldRun> run_world(const Study& study, int setting, int replicate,
+                                  const std::atomic<bool>* stop,
+                                  const std::function<void(double)>& simulated) {
+  if (asked(stop)) return std::nullopt;
+  const StudyPlan& plan = study.plan();
+  auto out = run_world(study.scenario(setting), plan.seed_of(replicate),
+                       plan.until_settled ? EarlyEnd::settled : EarlyEnd::never, stop, simulated);
+  if (!out) return out;
+  out->row.setting = setting, out->row.replicate = replicate;
+  out->row.id = plan.id_of(setting, replicate);
+  out->row.values = plan.settings[static_cast<std::size_t>(setting)].values;
+  return out;
 }
 
 }  // namespace lilytank

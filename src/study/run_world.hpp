@@ -4,15 +4,40 @@
 #include <functional>
 #include <optional>
 
+#include "lilytank/assembly_record.hpp"
 #include "lilytank/study.hpp"
 
 namespace lilytank {
 
-/// Runs a setting's world to its end; nothing if `stop` was set before. `simulated` is told how
-/// much simulated time (s) has passed since it was last told. Throws InputError if the bodies do
-/// not fit in the tank.
-std::optional<RunRow> run_world(const Study& study, int setting, int replicate,
-                                const std::atomic<bool>* stop,
-                                const std::function<void(double)>& simulated);
+/// When a world is left before its planned end.
+enum class EarlyEnd {
+  never,
+  /// As soon as all possible copies stand and no rule, of any of the model's rulesets, can change
+  /// them any more: a row then says what it would have said at the end.
+  settled,
+  /// As soon as all possible copies have stood: nothing can be added to RunRow::completion.
+  completed,
+};
+
+struct WorldRun {
+  RunRow row;            ///< status, duration, possible, copies, illegal, completion, note
+  double simulated = 0;  ///< s; row.duration is the planned end where the world was left early
+};
+
+/// Runs a scenario's world; nothing if `stop` was set before its end. `simulated` is told how much
+/// simulated time (s) has passed since it was last told. Throws InputError if the bodies do not fit
+/// in the tank.
+std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
+                                  const std::atomic<bool>* stop,
+                                  const std::function<void(double)>& simulated);
+
+/// The same for a replicate of a study's setting, with the rest of its row.
+std::optional<WorldRun> run_world(const Study& study, int setting, int replicate,
+                                  const std::atomic<bool>* stop,
+                                  const std::function<void(double)>& simulated);
+
+/// Whether all possible copies stand and no rule with p > 0 of any of the model's rulesets can
+/// undo, relabel or add to one of their modules' bonds.
+bool settled(const World& world, const AssemblyRecord& record);
 
 }  // namespace lilytank

@@ -171,6 +171,7 @@ struct Study::Source {
     plan.seed = file.seed;
     plan.replicates = file.replicates;
     plan.stop = file.stop;
+    plan.until_settled = file.until_settled;
     for (const StudyAxis& axis : file.axes) plan.axes.push_back(axis.name);
     const auto n = static_cast<int>(settings());
     std::map<std::uint64_t, std::string> seen;

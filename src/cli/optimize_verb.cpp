@@ -1,0 +1,151 @@
+// lilytank optimize: what builds a target best.
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "cli/study_verb.hpp"
+#include "lilytank/optimize.hpp"
+#include "text/number.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostThreads = 4096;
+
+std::string four(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string plan_line(const OptimizationPlan& plan, const std::string& out) {
+  const std::size_t n = plan.space.size();
+  return "optimize " + plan.name + ": " + name_of(plan.fitness.fitness) + " of " +
+         std::to_string(plan.possible) + (plan.possible == 1 ? " copy" : " copies") + " within " +
+         shortest(plan.horizon) + " s over " + std::to_string(n) +
+         (n == 1 ? " parameter, " : " parameters, ") + plan.method + ", " +
+         (plan.rulesets > 0 ? "a race of " + std::to_string(plan.rulesets) + " rulesets, " : "") +
+         std::to_string(plan.budget) + " evaluations; in " + out;
+}
+
+int dry_run(const OptimizationPlan& plan, const std::string& out) {
+  std::cout << "would " << plan_line(plan, out) << "\n";
+  for (std::size_t i = 0; i < plan.space.size(); ++i) {
+    const SearchAxis& axis = plan.space[i];
+    std::cout << "  " << axis.name << ": " << shortest(axis.low) << " .. " << shortest(axis.high)
+              << (axis.logarithmic ? " (log)" : "") << ", from " << shortest(plan.start[i]) << "\n";
+  }
+  return Exit::done;
+}
+
+void draw(const OptimizationPlan& plan, const OptimizationResult& result, const std::string& dir) {
+#ifdef LILYTANK_HAS_RENDER
+  const std::string unit = fitness_unit(plan.fitness.fitness);
+  const Plot plot =
+      search_plot(result.history, plan.name,
+                  name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
+  for (const char* ending : {"fitness.png", "fitness.svg"}) {
+    draw_plot(plot, (fs::path(dir) / ending).string());
+  }
+#else
+  static_cast<void>(plan), static_cast<void>(result), static_cast<void>(dir);
+  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
+#endif
+}
+
+OptimizationResult run_with_progress(const Optimization& what, OptimizationOptions job,
+                                     bool quiet) {
+  Progress progress(quiet);
+  if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
+  job.progress = [&](double done, const std::string& note) { progress.tell(done, note); };
+  return run_optimization(what, job);
+}
+
+std::string found_text(const OptimizationPlan& plan, const OptimizationResult& result) {
+  const std::string unit = fitness_unit(plan.fitness.fitness);
+  std::string out;
+  for (const RaceEntry& entry : result.race) {
+    if (entry.kept) continue;
+    out += "  " + entry.ruleset + ": left in round " + std::to_string(entry.round) + " with " +
+           four(entry.best) + "\n";
+  }
+  return out + "best: " + four(result.best.mean) + (unit == "1" ? "" : " " + unit) +
+         ", standard error " + four(result.best.standard_error) + ", " +
+         std::to_string(result.best.evaluations) + " evaluations\n" + result.optimum + "\n";
+}
+
+/// The study that compares the optimum; its exit code.
+int compare(const Optimization& what, const OptimizationResult& result,
+            const OptimizationOptions& options, bool quiet) {
+  const Study study(result.compare, what.plan().sets);
+  StudyOptions job;
+  job.out = (fs::path(options.out) / "compare").string();
+  job.threads = options.threads, job.stop = options.stop, job.force = options.force;
+  Progress progress(quiet);
+  job.progress = [&](const StudyProgress& now) {
+    progress.tell(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
+                                std::to_string(now.left) + " left");
+  };
+  const StudyResult done = run_study(study, job);
+  progress.clear();
+  if (done.stopped) {
+    std::cerr << "stopped while comparing; the same command goes on\n";
+    return Exit::stopped;
+  }
+  const StoredStudy stored = load_study(job.out);
+  write_table(stored, job.out);
+  std::cout << report(stored, job.out) << std::flush;
+  return done.failed > 0 ? Exit::diverged : Exit::done;
+}
+
+void add_options(VerbOptions& options) {
+  options.add()("overlay", "a file laid over the scenarios, before --set",
+                cxxopts::value<std::vector<std::string>>(),
+                "FILE")("set", "a value for every world, as run.duration='1 h'",
+                        cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
+      "out", "directory of the results (default: out/<name>)", cxxopts::value<std::string>(),
+      "DIR")("threads", "worlds at a time (default: one a core)", cxxopts::value<std::string>(),
+             "N")("no-compare", "leave out the comparison that [compare] asks for")(
+      "dry-run", "check everything, write nothing")("force", "replace another search's files")(
+      "quiet", "no progress");
+}
+
+}  // namespace
+
+int optimize_verb(const Arguments& arguments) {
+  VerbOptions options("optimize", "STUDY.toml",
+                      "Searches rule probabilities, a switch of them, pump power or rulesets for "
+                      "what builds a target best.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().size() != 1) {
+    options.refuse("one file, please: lilytank optimize scenarios/optimize/chain5.toml");
+  }
+  const Optimization what(options.positional().front(), options.list("overlay"),
+                          options.list("set"));
+  OptimizationOptions job;
+  job.out = study_directory(options, what.plan().name);
+  job.threads = static_cast<int>(options.whole("threads", 0, 1, kMostThreads));
+  job.force = options.has("force");
+  if (options.has("dry-run")) return dry_run(what.plan(), job.out);
+  job.stop = &stop_signal();
+  const bool quiet = options.has("quiet");
+  const OptimizationResult result = run_with_progress(what, job, quiet);
+  if (result.stopped) {
+    std::cerr << "stopped; every evaluation is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  std::cout << found_text(what.plan(), result) << std::flush;
+  draw(what.plan(), result, job.out);
+  if (result.compare.empty() || options.has("no-compare")) return Exit::done;
+  return compare(what, result, job, quiet);
+}
+
+}  // namespace lilytank::cli

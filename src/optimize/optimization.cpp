@@ -1,0 +1,34 @@
+// The public face: everything is the Source's.
+#include "optimize/source.hpp"
+
+namespace lilytank {
+
+Optimization::Optimization(const std::string& file, const std::vector<std::string>& overlays,
+                           const std::vector<std::string>& sets)
+    : source_(std::make_unique<const Source>(read_optimize_file(file), overlays, sets)) {}
+Optimization::~Optimization() = default;
+Optimization::Optimization(Optimization&&) noexcept = default;
+
+const OptimizationPlan& Optimization::plan() const {
+  return source_->plan;
+}
+Scenario Optimization::scenario(const std::vector<double>& point) const {
+  return source_->scenario(point);
+}
+std::optional<double> Optimization::evaluate(const Trial& trial,
+                                             const std::atomic<bool>* stop) const {
+  return source_->evaluate(trial, stop);
+}
+std::unique_ptr<Search> Optimization::search() const {
+  return source_->search();
+}
+std::vector<Scenario::Attachment> Optimization::overlay(const std::vector<double>& point,
+                                                        const std::string& stem,
+                                                        const std::string& comment) const {
+  return source_->overlay(point, stem, comment);
+}
+std::string Optimization::identity() const {
+  return source_->identity();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,23 @@
+// Rulesets against each other, each with probabilities of its own.
+#pragma once
+#include <memory>
+
+#include "optimize/source.hpp"
+
+namespace lilytank {
+
+struct RaceOutcome {
+  std::unique_ptr<const Optimization::Source> winner;  ///< none: no race was asked for, or stopped
+  std::vector<double> start;                           ///< its best point
+  std::vector<RaceEntry> entries;
+  double share = 0;  ///< of all evaluations, the final search's included, that the race takes
+  bool stopped = false;
+};
+
+/// Successive halving [Jamieson and Talwalkar, AISTATS 2016]: the better half of each round goes on
+/// with twice the evaluations. In the first rounds every ruleset is judged at its start, with the
+/// same seeds; once they are enough, each has a search of its own, begun at its best point so far.
+/// Writes <out>/rulesets, <out>/race and <out>/race.csv; goes on after an interruption.
+RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options);
+
+}  // namespace lilytank

@@ -1,0 +1,100 @@
+// The job behind `lilytank optimize`: search, write the optimum, prepare its comparison.
+#include <cstdio>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "io/scenario_values.hpp"
+#include "lilytank/search_run.hpp"
+#include "optimize/race.hpp"
+#include "optimize/source.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string four(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string comment_of(const OptimizationPlan& plan, const Incumbent& best) {
+  const std::string unit = fitness_unit(plan.fitness.fitness);
+  return "The best point that lilytank optimize found for " + plan.name + ":\n" +
+         name_of(plan.fitness.fitness) + " " + four(best.mean) + (unit == "1" ? "" : " " + unit) +
+         ", standard error " + four(best.standard_error) + ", from " +
+         std::to_string(best.evaluations) + " of its evaluations.";
+}
+
+/// A list of TOML texts.
+std::string list_of(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + toml_quoted(word);
+  return "[" + out + "]";
+}
+
+/// A study file that compares the optimum, first, with the other overlays.
+std::string compare_text(const Optimization::Source& source, const std::string& dir) {
+  const CompareTable& compare = source.file.compare;
+  const auto from_here = [&](const std::string& file) {
+    return fs::proximate(file, dir).generic_string();
+  };
+  std::vector<std::string> scenarios, overlays{"optimum.toml"}, labels{"optimum"};
+  for (const std::string& file : source.plan.scenarios) scenarios.push_back(from_here(file));
+  for (const std::string& file : compare.overlays) overlays.push_back(from_here(file));
+  labels.insert(labels.end(), compare.labels.begin(), compare.labels.end());
+  return "# The optimum beside what it is compared with.\n[study]\nname = " +
+         toml_quoted(source.plan.name + "_compare") + "\nscenario = " + list_of(scenarios) +
+         "\nreplicates = " + std::to_string(compare.replicates) +
+         "\nseed = " + std::to_string(compare.seed) +
+         "\nuntil = \"settled\"\n\n[[axis]]\nname = \"strategy\"\noverlays = " + list_of(overlays) +
+         "\nlabels = " + list_of(labels) + "\n";
+}
+
+}  // namespace
+
+OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options) {
+  OptimizationResult result;
+  const Optimization::Source* source = &what.source();
+  std::unique_ptr<Search> search = source->search();
+  std::string before;  // of the progress
+  const RaceOutcome race = run_race(*source, options);
+  result.race = race.entries;
+  result.stopped = race.stopped;
+  if (result.stopped) return result;
+  if (race.winner) {
+    source = race.winner.get();
+    search = source->cma_es(source->file.cma_es.budget, race.start, source->file.cma_es.sigma / 2);
+  }
+  SearchRunOptions run;
+  run.dir = options.out, run.identity = source->identity();
+  run.force = options.force, run.threads = options.threads, run.stop = options.stop;
+  run.progress = [&](const SearchProgress& now) {
+    if (!options.progress) return;
+    options.progress(race.share + (1 - race.share) * now.done,
+                     std::to_string(now.evaluations) + " evaluations, best " + four(now.best) +
+                         " " + fitness_unit(source->plan.fitness.fitness) + ", " +
+                         four(now.evaluations_per_second) + "/s");
+  };
+  SearchRunResult found = run_search(
+      std::move(search), [&](const Trial& trial) { return source->evaluate(trial, options.stop); },
+      run);
+  result.best = found.search->best();
+  result.history = found.search->history();
+  result.stopped = found.stopped;
+  if (result.stopped) return result;
+  for (const auto& file :
+       source->overlay(result.best.point, "optimum", comment_of(source->plan, result.best))) {
+    const std::string path = (fs::path(options.out) / file.name).string();
+    write_atomically(path, file.content);
+    if (file.name == "optimum.toml") result.optimum = path;
+  }
+  if (source->plan.replicates == 0) return result;
+  result.compare = (fs::path(options.out) / "compare.toml").string();
+  write_atomically(result.compare, compare_text(*source, options.out));
+  return result;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,75 @@
+// From a point of a search to a scenario.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "io/optimize_file.hpp"
+#include "io/scenario_layers.hpp"
+#include "lilytank/optimize.hpp"
+
+namespace lilytank {
+
+/// A ruleset in place of the scenario's own.
+struct OtherRuleset {
+  std::string file;  ///< where it was written
+  Ruleset rules;
+};
+
+struct Optimization::Source {
+  Source(OptimizeFile what, std::vector<std::string> overlays, std::vector<std::string> sets);
+  /// The same with another ruleset, whose space has the names of its own rules.
+  Source(const Source& other, OtherRuleset ruleset);
+
+  Scenario scenario(const std::vector<double>& point) const;
+  std::optional<double> evaluate(const Trial& trial, const std::atomic<bool>* stop) const;
+  /// CMA-ES with another budget, start and first sigma.
+  std::unique_ptr<Search> cma_es(std::int64_t budget, const std::vector<double>& start,
+                                 double sigma) const;
+  std::unique_ptr<Search> search() const;
+  std::vector<Scenario::Attachment> overlay(const std::vector<double>& point,
+                                            const std::string& stem,
+                                            const std::string& comment) const;
+  std::string identity() const;
+
+  OptimizeFile file;
+  OptimizationPlan plan;
+
+ private:
+  /// What an axis of the space sets.
+  enum class Use { parameter, after_p, after_copies, power, change };
+  struct Axis {
+    Use use = Use::parameter;
+    Assignment path;         ///< of parameter and after_p
+    bool whole = false;      ///< rounded
+    std::size_t number = 0;  ///< of power and change
+  };
+  /// A point with everything rounded that is, and times of change in order.
+  struct Meaning {
+    std::vector<Assignment> values;                     ///< the scenario's
+    std::vector<std::pair<std::string, double>> after;  ///< rules of the second set and their p
+    int after_copies = 0;                               ///< 0: no second set
+    std::vector<double> powers, changes;                ///< % and s
+  };
+
+  void prepare();
+  void check_base(const Model& model) const;
+  void add_parameter(const OptimizeParameter& parameter, const Scenario& base);
+  void add_axis(SearchAxis axis, Axis use, double start);
+  void add_second_set();
+  void add_agitation(double power);
+  void check_corners() const;
+  std::vector<Layer> layers() const;
+  Scenario built(Layer point) const;
+  Meaning meaning(const std::vector<double>& point) const;
+  Layer layer(const Meaning& meaning) const;
+  Ruleset second_set(const Meaning& meaning, const Ruleset& first) const;
+  std::string commands_text(const Meaning& meaning, const std::string& after_file) const;
+
+  std::vector<std::string> files_;  ///< scenarios and overlays
+  std::vector<Layer> base_;
+  Layer overrides_;
+  std::vector<Axis> axes_;
+  std::vector<OtherRuleset> ruleset_;  ///< one or none
+};
+
+}  // namespace lilytank

@@ -1,0 +1,276 @@
+// Optimisation: what a run is worth, what a point means, interruption, refusals.
+#include "lilytank/optimize.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/assembly_record.hpp"
+#include "study/run_world.hpp"
+#include "support/study_rig.hpp"
+
+namespace lilytank::test {
+namespace {
+
+constexpr double kHour = 3600;
+
+double value(Fitness fitness, const std::vector<double>& completion, int possible = 3,
+             double horizon = 4 * kHour) {
+  return fitness_of({fitness, 600, 1}, completion, possible, horizon);
+}
+
+// By hand, for three copies in four hours.
+TEST(Fitness, EqTenAddsUpTheTimesBetweenCopies) {
+  EXPECT_DOUBLE_EQ(value(Fitness::eq10, {}), 3 * 14400);
+  EXPECT_DOUBLE_EQ(value(Fitness::eq10, {1000}), 1000 + 2 * 14400);
+  // The times between copies telescope: t_k + (N - k) T.
+  EXPECT_DOUBLE_EQ(value(Fitness::eq10, {1000, 1500}), 1500 + 14400);
+  EXPECT_DOUBLE_EQ(value(Fitness::eq10, {1000, 1500, 9000}), 9000);
+}
+
+TEST(Fitness, AreaTimeAndProbability) {
+  EXPECT_DOUBLE_EQ(value(Fitness::yield_area, {}), 3 * 14400);
+  EXPECT_DOUBLE_EQ(value(Fitness::yield_area, {1000, 1500}), 1000 + 1500 + 14400);
+  EXPECT_DOUBLE_EQ(value(Fitness::full_yield_time, {1000, 1500}), 14400);
+  EXPECT_DOUBLE_EQ(value(Fitness::full_yield_time, {1000, 1500, 9000}), 9000);
+  EXPECT_DOUBLE_EQ(value(Fitness::full_yield_probability, {1000, 1500}), 1);
+  EXPECT_DOUBLE_EQ(value(Fitness::full_yield_probability, {1000, 1500, 9000}), 0);
+}
+
+TEST(Fitness, RateAndYieldAreWeighed) {
+  EXPECT_DOUBLE_EQ(value(Fitness::rate_and_yield, {}), 1);
+  EXPECT_DOUBLE_EQ(value(Fitness::rate_and_yield, {1000, 1500}), 1.0 / 3 - 600 * 2 / 14400.0);
+  EXPECT_DOUBLE_EQ(value(Fitness::rate_and_yield, {1000, 1500, 9000}), -600 * 3 / 9000.0);
+}
+
+TEST(Fitness, NamesAreRefusedWithTheNearest) {
+  EXPECT_EQ(fitness_named("eq10"), Fitness::eq10);
+  try {
+    fitness_named("yield_aera");
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("did you mean 'yield_area'?"), std::string::npos);
+  }
+}
+
+const std::string kHead = "[optimize]\nscenario = \"pair.toml\"\n";
+const std::string kPart = "[[parameter]]\npath = \"rules.part.p\"\nlow = 0.001\nhigh = 1\n";
+const std::string kSearch = "evaluations = 24\npopulation = 4\nfinal_evaluations = 6\n";
+
+struct OptimizeRig : StudyRig {
+  Optimization read(const std::string& text, const std::vector<std::string>& sets = {}) const {
+    return Optimization(here.write("optimize.toml", text), {}, sets);
+  }
+  std::string refused(const std::string& text, const std::vector<std::string>& sets = {}) const {
+    try {
+      read(text, sets);
+    } catch (const InputError& e) {
+      std::string what = e.what();
+      const std::string dir = here.path();
+      for (auto at = what.find(dir); at != std::string::npos; at = what.find(dir)) {
+        what.erase(at, dir.size());
+      }
+      return what;
+    }
+    return "(accepted)";
+  }
+};
+
+std::vector<double> completion_of(const Scenario& scenario, std::uint64_t seed, EarlyEnd early) {
+  return run_world(scenario, seed, early, nullptr, [](double) {})->row.completion;
+}
+
+// Worlds of 60 s: most reach their three pairs, which part again.
+TEST(Optimize, AWorldLeftEarlyIsWorthWhatTheWholeOneIs) {
+  const OptimizeRig rig;
+  const Optimization what = rig.read(kHead + kPart, {"run.duration=60"});
+  int full = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Scenario scenario = what.scenario({0.05});
+    const auto whole = completion_of(scenario, seed, EarlyEnd::never);
+    const auto early = completion_of(scenario, seed, EarlyEnd::completed);
+    full += whole.size() == 3;
+    for (int f = 0; f < 5; ++f) {
+      const FitnessRule rule{static_cast<Fitness>(f)};
+      EXPECT_EQ(fitness_of(rule, whole, 3, 60), fitness_of(rule, early, 3, 60)) << seed;
+    }
+  }
+  EXPECT_GT(full, 2);
+}
+
+TEST(Optimize, ASettledWorldHasTheRowOfTheWholeOne) {
+  const OptimizeRig rig;
+  for (const double p : {0.0, 0.05}) {
+    const Scenario scenario = rig.read(kHead + kPart, {"run.duration=60"}).scenario({p});
+    double spared = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const auto whole = run_world(scenario, seed, EarlyEnd::never, nullptr, [](double) {});
+      const auto early = run_world(scenario, seed, EarlyEnd::settled, nullptr, [](double) {});
+      EXPECT_EQ(whole->row.completion, early->row.completion);
+      EXPECT_EQ(whole->row.copies, early->row.copies);
+      EXPECT_EQ(whole->row.duration, early->row.duration);
+      EXPECT_EQ(whole->row.illegal, early->row.illegal);
+      spared += whole->simulated - early->simulated;
+    }
+    // Pairs that may part are not settled.
+    EXPECT_EQ(spared > 0, p == 0) << spared;
+  }
+}
+
+TEST(Optimize, AStudyUntilSettledHasTheSameTable) {
+  const OptimizeRig rig;
+  const std::string study =
+      "[study]\nscenario = [\"pair.toml\", \"sticky.toml\"]\nreplicates = 6\n";
+  std::string tables[2];
+  for (int settled = 0; settled < 2; ++settled) {
+    StudyOptions options;
+    options.out = rig.here.path("out" + std::to_string(settled));
+    const Study read =
+        rig.study(study + (settled == 1 ? "until = \"settled\"\n" : ""), {"run.duration=60"});
+    run_study(read, options);
+    tables[settled] = table_text(load_study(options.out));
+  }
+  EXPECT_EQ(tables[0], tables[1]);
+  EXPECT_NE(rig.refusal(study + "until = \"setled\"\n").find("did you mean 'settled'?"),
+            std::string::npos);
+}
+
+TEST(Optimize, AHybridHasTwoSetsAndASwitch) {
+  const OptimizeRig rig;
+  const Optimization what = rig.read(kHead + "hybrid = true\n" + kPart);
+  ASSERT_EQ(what.plan().space.size(), 3u);
+  EXPECT_EQ(what.plan().space[0].name, "rules.part.p");
+  EXPECT_EQ(what.plan().space[1].name, "after.rules.part.p");
+  EXPECT_EQ(what.plan().space[2].name, "after.copies");
+  EXPECT_EQ(what.plan().start, (std::vector<double>{0.5, 0.5, 2}));
+  for (const auto& [x, copies] : {std::pair{1.0, 1}, {1.99, 1}, {2.0, 2}, {3.0, 2}}) {
+    const Scenario scenario = what.scenario({0.9, 0.01, x});
+    ASSERT_EQ(scenario.model.rulesets.size(), 2u);
+    EXPECT_EQ(scenario.model.rulesets[0].rules[1].p, 0.9);
+    EXPECT_EQ(scenario.model.rulesets[1].rules[1].p, 0.01);
+    ASSERT_EQ(scenario.model.feedback.size(), 1u);
+    EXPECT_EQ(scenario.model.feedback[0].kind, CommandKind::replace_ruleset);
+    EXPECT_EQ(scenario.model.feedback[0].ruleset, 1);
+    EXPECT_EQ(scenario.model.feedback[0].copies, copies);
+  }
+}
+
+TEST(Optimize, AgitationFollowsCopiesOrTime) {
+  const OptimizeRig rig;
+  const std::string bounds = "low = \"40 %\"\nhigh = \"90 %\"\n";
+  const Optimization by_copies = rig.read(kHead + "[agitation]\nkind = \"feedback\"\n" + bounds);
+  ASSERT_EQ(by_copies.plan().space.size(), 3u);
+  const Scenario scenario = by_copies.scenario({70.4, 50.6, 69.6});
+  ASSERT_EQ(scenario.model.feedback.size(), 2u);
+  EXPECT_EQ(scenario.model.feedback[0].copies, 1);
+  EXPECT_EQ(scenario.model.feedback[0].field, 1);  // 51 %
+  EXPECT_EQ(scenario.model.feedback[1].field, 0);  // 70 %, as at the start
+  const Optimization by_time =
+      rig.read(kHead + "[agitation]\nkind = \"schedule\"\npieces = 3\n" + bounds);
+  const Scenario timed = by_time.scenario({70, 50, 60, 6, 2});
+  ASSERT_EQ(timed.model.commands.size(), 2u);
+  EXPECT_EQ(timed.model.commands[0].at, 2);
+  EXPECT_EQ(timed.model.commands[1].at, 6);
+}
+
+// The overlay that is written makes the very worlds that were searched.
+TEST(Optimize, TheOverlayIsThePoint) {
+  const OptimizeRig rig;
+  const Optimization what = rig.read(
+      kHead + "hybrid = true\n" + kPart + "[agitation]\nkind = \"feedback\"\nlow = 40\nhigh = 90\n",
+      {"run.duration=30"});
+  const std::vector<double> point{0.123456789, 0.0234567, 1.5, 71.2, 55, 43};
+  for (const auto& file : what.overlay(point, "best", "One.\nTwo.")) {
+    rig.here.write(file.name, file.content);
+  }
+  EXPECT_TRUE(rig.here.read("best.toml").starts_with("# One.\n# Two.\n"));
+  const Scenario read =
+      load_scenario({rig.here.path("pair.toml"), rig.here.path("best.toml")}, {"run.duration=30"});
+  const Scenario searched = what.scenario(point);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    World a(read.model, seed), b(searched.model, seed);
+    for (int step = 0; step < 1200; ++step) a.step(), b.step();
+    EXPECT_EQ(fingerprint(a.state()), fingerprint(b.state())) << seed;
+  }
+}
+
+constexpr const char* kFiles[] = {"search.state", "evaluations.csv", "history.csv", "optimum.toml",
+                                  "compare.toml"};
+
+std::string all_of(const std::string& dir) {
+  std::string out;
+  for (const char* file : kFiles) {
+    const std::string path = dir + "/" + file;
+    out += std::filesystem::exists(path) ? read_whole(path) : "(absent)";
+  }
+  return out;
+}
+
+TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
+  const OptimizeRig rig;
+  const std::string text = kHead + kSearch + kPart +
+                           "[compare]\nreplicates = 3\noverlays = [\"sticky.toml\", "
+                           "\"loose.toml\"]\n";
+  OptimizationOptions options;
+  options.threads = 2;
+  options.out = rig.here.path("whole");
+  EXPECT_FALSE(run_optimization(rig.read(text), options).stopped);
+  const std::string whole = all_of(options.out);
+  EXPECT_EQ(whole.find("(absent)"), std::string::npos);
+  options.out = rig.here.path("parts");
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.threads = 1;
+  bool stopped = true;
+  for (int calls = 0; stopped; ++calls) {
+    ASSERT_LT(calls, 60);
+    stop = false;
+    int told = 0;
+    options.progress = [&](double, const std::string&) {
+      if (++told == 1) stop = true;
+    };
+    stopped = run_optimization(rig.read(text), options).stopped;
+  }
+  EXPECT_EQ(all_of(options.out), whole);
+  // The comparison is a study that can be read.
+  const Study study(options.out + "/compare.toml");
+  EXPECT_EQ(study.plan().settings.size(), 3u);
+  EXPECT_TRUE(study.plan().until_settled);
+}
+
+TEST(Optimize, WhatMakesNoSenseIsRefused) {
+  const OptimizeRig rig;
+  const auto expect = [&](const std::string& text, const std::string& message) {
+    EXPECT_NE(rig.refused(text).find(message), std::string::npos) << rig.refused(text);
+  };
+  expect(kHead, "optimize.toml:1:1: nothing is to be searched");
+  expect(kHead + "fitnes = \"eq10\"\n" + kPart, "optimize.toml:3:1: unknown key 'optimize.fitnes'");
+  expect(kHead + "fitness = \"eq11\"\n" + kPart, "did you mean 'eq10'?");
+  expect(kHead + "rate_weight = 3\n" + kPart, "goes with fitness = \"rate_and_yield\" only");
+  expect(kHead + "method = \"cma-es\"\n" + kPart, "did you mean 'cma_es'?");
+  expect(kHead + "particles = 3\n" + kPart, "optimize.toml:3:13: optimize.particles goes with");
+  expect(kHead + "[[parameter]]\npath = \"rules.pat.p\"\nlow = 0\nhigh = 1\n",
+         "did you mean 'part'?");
+  expect(kHead + "[[parameter]]\npath = \"rules.x*.p\"\nlow = 0\nhigh = 1\n", "fits no rule");
+  expect(kHead + "[[parameter]]\npath = \"rules.part.p\"\nlow = 0\nhigh = 2\n", "outside 0 .. 1");
+  expect(kHead + "[[parameter]]\npath = \"rules.part.p\"\nlow = 0\nhigh = 1\nscale = \"log\"\n",
+         "needs a parameter.low above 0");
+  expect(kHead + "[[parameter]]\npath = \"rules.part.p\"\nlow = 1\nhigh = 0.5\n",
+         "parameter.high is not above");
+  expect(kHead + "hybrid = true\n[[parameter]]\npath = \"module.count\"\nlow = 4\nhigh = 6\n",
+         "no [[parameter]] is one");
+  expect(kHead + kPart + "[agitation]\nkind = \"feedback\"\nlow = 40\nhigh = 120\n",
+         "not in order within 0 .. 100 %");
+  expect(kHead + kPart + "[compare]\nreplicates = 3\noverlays = [\"stiky.toml\"]\n",
+         "optimize.toml:9:13: cannot read");
+  EXPECT_NE(rig.refused(kHead + kPart, {"rules.part.p=0.1"}).find("'rules.part.p' is searched"),
+            std::string::npos);
+  EXPECT_NE(rig.refused(kHead + kPart, {"module.count=1"}).find("1 modules make no copy of 2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lilytank::test
