@@ -213,8 +213,7 @@ class Reader {
     const TomlFields fields(from, "race", file_, {"target", "rulesets", "evaluations"});
     RaceTable out;
     out.place = fields.place();
-    fields.need("target", "the drawing of what is to be built");
-    out.target = paths(fields, "target").front();
+    if (fields.has("target")) out.target = paths(fields, "target").front();
     out.rulesets = whole(fields, "rulesets", out.rulesets, 2, 100000);
     out.evaluations = whole(fields, "evaluations", out.evaluations, 2, 1000000);
     if (out_.method != SearchMethod::cma_es) {

@@ -31,7 +31,7 @@ struct AgitationTable {
 struct RaceTable {
   std::string target;   ///< file
   int rulesets = 16;    ///< that begin, at most
-  int evaluations = 8;  ///< of each in the first round, doubled from round to round
+  int evaluations = 12; ///< of each in the first round, doubled from round to round
   SourcePlace place;
 };
 

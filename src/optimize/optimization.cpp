@@ -1,11 +1,18 @@
 // The public face: everything is the Source's.
+#include "optimize/race.hpp"
 #include "optimize/source.hpp"
 
 namespace lilytank {
 
 Optimization::Optimization(const std::string& file, const std::vector<std::string>& overlays,
-                           const std::vector<std::string>& sets)
-    : source_(std::make_unique<const Source>(read_optimize_file(file), overlays, sets)) {}
+                           const std::vector<std::string>& sets) {
+  auto source = std::make_unique<Source>(read_optimize_file(file), overlays, sets);
+  if (source->file.race) {
+    source->plan.rulesets = static_cast<int>(race_rulesets(*source).size());
+    source->plan.budget += race_evaluations(source->plan.rulesets, source->file.race->evaluations);
+  }
+  source_ = std::move(source);
+}
 Optimization::~Optimization() = default;
 Optimization::Optimization(Optimization&&) noexcept = default;
 

@@ -1,10 +1,247 @@
 #include "optimize/race.hpp"
 
-namespace lilytank {
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 
-RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions&) {
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "lilytank/search_run.hpp"
+#include "lilytank/study.hpp"
+#include "lilytank/synthesis.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "chain5-07", as `lilytank synthesize --all` numbers them.
+std::string numbered(const std::string& name, std::size_t index, std::size_t count) {
+  std::string number = std::to_string(index + 1);
+  number.insert(0, std::to_string(count).size() - number.size(), '0');
+  return name + "-" + number;
+}
+
+/// A ruleset of the race, and where it stands.
+struct Contestant {
+  std::unique_ptr<const Optimization::Source> source;
+  RaceEntry entry;
+  std::vector<double> point;
+};
+
+class Race {
+ public:
+  Race(const Optimization::Source& source, const OptimizationOptions& options)
+      : source_(&source), options_(&options), dir_(fs::path(options.out)) {}
+
+  RaceOutcome run() {
+    claim();
+    enter();
+    const auto most = static_cast<std::int64_t>(contestants_.size());
+    total_ = race_evaluations(static_cast<int>(most), source_->file.race->evaluations);
+    std::vector<Contestant*> alive;
+    for (Contestant& one : contestants_) alive.push_back(&one);
+    std::int64_t each = source_->file.race->evaluations;
+    for (int round = 1; alive.size() > 1; ++round, each *= 2) {
+      for (Contestant* one : alive) {
+        one->entry.round = round;
+        if (!judge(*one, round, each)) return stopped();
+      }
+      halve(alive);
+    }
+    write_table();
+    RaceOutcome out;
+    const auto all = static_cast<double>(total_ + source_->file.cma_es.budget);
+    out.share = static_cast<double>(total_) / all;
+    for (const Contestant& one : contestants_) out.entries.push_back(one.entry);
+    out.start = alive.front()->point;
+    out.winner = std::move(alive.front()->source);
+    return out;
+  }
+
+ private:
+  static RaceOutcome stopped() {
+    RaceOutcome out;
+    out.stopped = true;
+    return out;
+  }
+
+  /// Another race's files are not mixed with this one's.
+  void claim() const {
+    const fs::path file = dir_ / "race" / "identity.txt";
+    const std::string text = source_->identity() + " " +
+                             std::to_string(source_->file.race->rulesets) + " " +
+                             std::to_string(source_->file.race->evaluations) + " " +
+                             std::to_string(source_->plan.seed) + "\n";
+    std::error_code ignored;
+    if (fs::exists(file, ignored) && read_whole(file.string()) != text) {
+      if (!options_->force) {
+        throw InputError("'" + options_->out +
+                         "' holds another race; choose another directory, or --force to replace "
+                         "it");
+      }
+      fs::remove_all(dir_ / "race", ignored);
+    }
+    fs::create_directories(file.parent_path(), ignored);
+    write_atomically(file.string(), text);
+  }
+
+  void enter() {
+    std::error_code ignored;
+    fs::create_directories(dir_ / "rulesets", ignored);
+    for (Ruleset& rules : race_rulesets(*source_)) {
+      const std::string file = (dir_ / "rulesets" / (rules.name + ".rules")).string();
+      write_atomically(file, to_text(rules));
+      Contestant one;
+      one.entry.ruleset = rules.name;
+      one.source =
+          std::make_unique<Optimization::Source>(*source_, OtherRuleset{file, std::move(rules)});
+      one.point = one.source->plan.start;
+      contestants_.push_back(std::move(one));
+    }
+  }
+
+  /// False if it was stopped.
+  bool judge(Contestant& one, int round, std::int64_t each) {
+    // Two generations with their re-evaluations, and the final selection.
+    const auto axes = static_cast<double>(one.point.size());
+    const int generation = 6 + static_cast<int>(3 * std::log(axes));
+    const bool enough = each >= 2 * generation + std::max<std::int64_t>(4, each / 4);
+    const bool done = enough ? search(one, round, each) : repeat(one, round, each);
+    if (!done) return false;
+    one.entry.evaluations += each, spent_ += each;
+    tell(one, round);
+    return true;
+  }
+
+  std::string place(const Contestant& one, int round) const {
+    return (dir_ / "race" / ("round-" + std::to_string(round)) / one.entry.ruleset).string();
+  }
+
+  /// The mean at the point where it stands; replicates are the same for all.
+  bool repeat(Contestant& one, int round, std::int64_t each) const {
+    const std::string file = place(one, round) + ".csv";
+    std::vector<std::optional<double>> values(static_cast<std::size_t>(each));
+    std::error_code ignored;
+    if (fs::exists(file, ignored)) {
+      const std::string text = read_whole(file);
+      CsvReader csv(text, file, {"replicate,value"});
+      for (auto& value : values) {
+        if (csv.next()) value = csv.text(1) == "inf" ? INFINITY : csv.number(1);
+      }
+    }
+    for_each_world(static_cast<int>(each), options_->threads, [&](int i) {
+      auto& value = values[static_cast<std::size_t>(i)];
+      if (!value) value = one.source->evaluate({one.point, i}, options_->stop);
+    });
+    std::string text = "replicate,value\n";
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!values[i]) return false;
+      text +=
+          std::to_string(i) + "," + (std::isinf(*values[i]) ? "inf" : shortest(*values[i])) + "\n";
+      sum += *values[i];
+    }
+    one.entry.best = sum / static_cast<double>(each);
+    for (const auto& value : values) squares += std::pow(*value - one.entry.best, 2);
+    const auto n = static_cast<double>(each);
+    one.entry.standard_error = std::sqrt(squares / (n - 1) / n);
+    fs::create_directories(fs::path(file).parent_path(), ignored);
+    write_atomically(file, text);
+    return true;
+  }
+
+  bool search(Contestant& one, int round, std::int64_t each) const {
+    SearchRunOptions run;
+    run.dir = place(one, round), run.identity = one.source->identity();
+    run.threads = options_->threads, run.stop = options_->stop, run.force = options_->force;
+    const double sigma = source_->file.cma_es.sigma / 2;
+    const auto found = run_search(
+        one.source->cma_es(each, one.point, sigma),
+        [&](const Trial& trial) { return one.source->evaluate(trial, options_->stop); }, run);
+    if (found.stopped) return false;
+    const Incumbent best = found.search->best();
+    one.point = best.point;
+    one.entry.best = best.mean, one.entry.standard_error = best.standard_error;
+    return true;
+  }
+
+  static void halve(std::vector<Contestant*>& alive) {
+    std::stable_sort(alive.begin(), alive.end(), [](const Contestant* a, const Contestant* b) {
+      return a->entry.best < b->entry.best;
+    });
+    const std::size_t kept = (alive.size() + 1) / 2;
+    for (std::size_t i = 0; i < alive.size(); ++i) alive[i]->entry.kept = i < kept;
+    alive.resize(kept);
+  }
+
+  void tell(const Contestant& one, int round) const {
+    if (!options_->progress) return;
+    const auto all = static_cast<double>(total_ + source_->file.cma_es.budget);
+    char text[64];
+    std::snprintf(text, sizeof text, ", %.4g", one.entry.best);
+    options_->progress(static_cast<double>(spent_) / all,
+                       "round " + std::to_string(round) + ": " + one.entry.ruleset + text);
+  }
+
+  void write_table() const {
+    std::string text = "ruleset,round,kept,evaluations,mean,standard_error\n";
+    for (const Contestant& one : contestants_) {
+      const RaceEntry& e = one.entry;
+      text += e.ruleset + "," + std::to_string(e.round) + "," + (e.kept ? "1" : "0") + "," +
+              std::to_string(e.evaluations) + "," + shortest(e.best) + "," +
+              shortest(e.standard_error) + "\n";
+    }
+    write_atomically((dir_ / "race.csv").string(), text);
+  }
+
+  const Optimization::Source* source_;
+  const OptimizationOptions* options_;
+  fs::path dir_;
+  std::vector<Contestant> contestants_;
+  std::int64_t spent_ = 0, total_ = 0;
+};
+
+}  // namespace
+
+std::vector<Ruleset> race_rulesets(const Optimization::Source& source) {
+  const RaceTable& race = *source.file.race;
+  const Ruleset own = source.scenario(source.plan.start).model.rulesets.front();
+  const Target target =
+      race.target.empty() ? target_of(own.target, own.name) : read_target(race.target);
+  if (canonical_shape(target.cells) != canonical_shape(own.target)) {
+    throw InputError(race.place,
+                     "'" + target.file + "' is not the target of the scenario's ruleset");
+  }
+  const PlanList list = all_plans(target);
+  std::vector<Ruleset> out{own};
+  out.front().name = own.name + "-own";
+  const std::size_t n = list.plans.size();
+  const auto most = static_cast<std::size_t>(race.rulesets);
+  // All, or as many evenly through the list, which is ordered by tree and algorithm.
+  for (std::size_t k = 0; k < std::min(most, n); ++k) {
+    const std::size_t index = n <= most ? k : k * n / most;
+    Ruleset rules = emit(target, list.plans[index]);
+    rules.name = numbered(target.name, index, n);
+    if (structure_of(rules) != structure_of(own) && out.size() < most) {
+      out.push_back(std::move(rules));
+    }
+  }
+  return out;
+}
+
+std::int64_t race_evaluations(int rulesets, std::int64_t each) {
+  std::int64_t sum = 0;
+  for (; rulesets > 1; rulesets = (rulesets + 1) / 2, each *= 2) sum += rulesets * each;
+  return sum;
+}
+
+RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options) {
   if (!source.file.race) return {};
-  throw InputError(source.file.race->place, "races are not available");
+  return Race(source, options).run();
 }
 
 }  // namespace lilytank

@@ -14,6 +14,11 @@ struct RaceOutcome {
   bool stopped = false;
 };
 
+/// The rulesets of a race: the scenario's own, then those of the target's other plans.
+std::vector<Ruleset> race_rulesets(const Optimization::Source& source);
+/// What its rounds take.
+std::int64_t race_evaluations(int rulesets, std::int64_t each);
+
 /// Successive halving [Jamieson and Talwalkar, AISTATS 2016]: the better half of each round goes on
 /// with twice the evaluations. In the first rounds every ruleset is judged at its start, with the
 /// same seeds; once they are enough, each has a search of its own, begun at its best point so far.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "io/scenario_build.hpp"
 #include "lilytank/assembly_record.hpp"
@@ -69,8 +71,16 @@ Optimization::Source::Source(const Source& other, OtherRuleset ruleset)
       base_(other.base_),
       overrides_(other.overrides_),
       ruleset_{std::move(ruleset)} {
-  plan.space.clear(), plan.start.clear();
+  const SearchSpace space = std::exchange(plan.space, {});
+  const std::vector<double> start = std::exchange(plan.start, {});
   prepare();
+  // Rules of the same name take back a join of the same number: what is known of one is a start for
+  // the other.
+  for (std::size_t i = 0; i < plan.space.size(); ++i) {
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      if (space[k].name == plan.space[i].name) plan.start[i] = start[k];
+    }
+  }
 }
 
 std::vector<Layer> Optimization::Source::layers() const {
