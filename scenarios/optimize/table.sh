@@ -1,0 +1,53 @@
+#!/bin/sh
+# For each target: our optimum of the probabilities, then from there a hybrid strategy, the choice of
+# the ruleset, and pump power by feedback; and one study that compares them all.
+#
+#   scenarios/optimize/table.sh [OUT [TARGET...]]
+#
+# Environment: LILYTANK (build/lilytank), HORIZON of the searches (1 h; the comparison takes 4 h),
+# REPLICATES of each strategy in the comparison (200), THREADS (one a core). Stopped or killed, the same command goes on.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+scenarios=$(dirname "$here")
+lilytank=${LILYTANK:-build/lilytank}
+out=${1:-out/optimize}
+[ $# -gt 0 ] && shift
+[ $# -gt 0 ] || set -- chain5 cross5 l4 t4 o4 p5 caterpillar7
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+threads=${THREADS:+--threads $THREADS}
+
+for target; do
+  mkdir -p "$out/$target"
+  empirical=$out/$target/empirical.toml
+  case $target in
+    chain5) cp "$scenarios/p_empirical_chain.toml" "$empirical"; paper=$scenarios/p_optimised_chain.toml ;;
+    cross5) cp "$scenarios/p_empirical_cross.toml" "$empirical"; paper=$scenarios/p_optimised_cross.toml ;;
+    *) echo "# The ruleset's own probabilities." > "$empirical"; paper= ;;
+  esac
+  search() {  # KIND NAME [OVERLAY]
+    "$lilytank" optimize "$here/$1.toml" --out "$out/$target/$2" --no-compare $threads \
+      --overlay "$scenarios/$target.toml" --overlay "$empirical" \
+      --overlay "$scenarios/moment_matched.toml" ${3:+--overlay "$3"} \
+      --set run.duration="${HORIZON:-1 h}"
+  }
+  search probabilities p
+  best=$out/$target/p/optimum.toml
+  search hybrid hybrid "$best"
+  search agitation agitation "$best"
+  search race joint "$best"
+  {
+    echo "[study]"
+    echo "name = \"$target\""
+    echo "scenario = [\"$scenarios/$target.toml\", \"$scenarios/moment_matched.toml\"]"
+    echo "replicates = ${REPLICATES:-200}"
+    echo "seed = 1000"
+    echo "until = \"settled\""
+    echo "[[axis]]"
+    echo "name = \"strategy\""
+    echo "overlays = [\"$empirical\", ${paper:+\"$paper\",} \"$best\", \"$out/$target/hybrid/optimum.toml\","
+    echo "  \"$out/$target/joint/optimum.toml\", \"$out/$target/agitation/optimum.toml\"]"
+    echo "labels = [\"p_e\", ${paper:+\"p_o\",} \"optimum\", \"hybrid\", \"joint\", \"agitation\"]"
+  } > "$out/$target/compare.toml"
+  "$lilytank" study "$out/$target/compare.toml" --out "$out/$target/compare" $threads
+done
