@@ -77,7 +77,8 @@ layer recording recording io analysis text
 layer flow flow recording io analysis text
 layer synthesis synthesis io analysis text
 layer study study jobs io analysis text
-layer cli cli study jobs recording flow synthesis io analysis text
+layer calibrate calibrate study io analysis text
+layer cli cli calibrate study jobs recording flow synthesis io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 exit "$faults"

@@ -27,6 +27,7 @@ enum class Stream : std::uint32_t {
   fault = 14,      ///< messages that are lost, latches that fail
   lattice = 15,    ///< meetings and evaluations of the lattice model (never a world)
   gillespie = 16,  ///< reactions of the well-mixed model (never a world)
+  calibrate = 17,  ///< where a calibration's simulations lie and begin
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

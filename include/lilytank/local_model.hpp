@@ -1,0 +1,83 @@
+// How numbers that a simulation tells depend on its parameters near one point, and what data then
+// say of the parameters.
+//
+// Simulations at points scattered about the centre give, by regression, the mean of every number as
+// a quadratic function of the parameters, and from what remains the covariance of the numbers in
+// one experiment. Generalised least squares with these two is indirect inference [Gourieroux,
+// Monfort and Renault, J. Appl. Econometrics 8, 1993]: the parameters whose simulated numbers are
+// most like those of the data. It needs no further simulation, so it can be asked for hundreds of
+// data sets.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace lilytank {
+
+/// Simulations at scattered points: a row each.
+struct Design {
+  Eigen::MatrixXd points;   ///< [simulation, parameter], on the scales that are fitted on
+  Eigen::MatrixXd numbers;  ///< [simulation, number]
+};
+
+/// How far data are from a model's numbers.
+enum class Misfit {
+  covariance,  ///< squared distance by the inverse covariance (Mahalanobis)
+  absolute,    ///< sum of sizes, every number alike, as in Eq. 9
+};
+
+/// Where to look for parameters.
+struct FitBounds {
+  Eigen::VectorXd low, high;  ///< empty: nowhere but within reach of the design
+  double reach = 4;           ///< standard deviations of the design from its centre
+};
+
+struct LocalFit {
+  Eigen::VectorXd point;
+  double misfit = 0;
+  bool at_reach = false;  ///< it would have gone further: the design should be moved there
+};
+
+class LocalModel {
+ public:
+  /// Needs more simulations than coefficients: 1 + p + p (p + 1) / 2 for p parameters; with fewer
+  /// than twice as many, products of different parameters are left out. Numbers that never vary do
+  /// not count. Throws std::invalid_argument with too few.
+  explicit LocalModel(const Design& design, Misfit misfit = Misfit::covariance);
+
+  /// The mean of the numbers at a point.
+  Eigen::VectorXd mean(const Eigen::VectorXd& point) const;
+  /// Derivatives of the means, [number, parameter].
+  Eigen::MatrixXd slope(const Eigen::VectorXd& point) const;
+  /// Of the numbers in one experiment: that of the residuals, its correlations shrunk towards none
+  /// by as much as their own scatter asks for [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol.
+  /// 4, 2005].
+  const Eigen::MatrixXd& covariance() const { return covariance_; }
+
+  /// The parameters whose numbers are nearest to those of data.
+  LocalFit fit(const Eigen::VectorXd& numbers, const FitBounds& bounds = {}) const;
+  /// The same with one parameter held at a value: a point of its profile.
+  LocalFit fit_with(const Eigen::VectorXd& numbers, int parameter, double value,
+                    const FitBounds& bounds = {}) const;
+  double misfit(const Eigen::VectorXd& numbers, const Eigen::VectorXd& point) const;
+  /// Covariance of fitted parameters to first order, from the covariance of the numbers.
+  Eigen::MatrixXd parameter_covariance(const Eigen::VectorXd& point) const;
+
+ private:
+  struct Problem;
+  Eigen::VectorXd standard(const Eigen::VectorXd& point) const;
+  Eigen::VectorXd basis(const Eigen::VectorXd& z) const;
+  Eigen::MatrixXd basis_slope(const Eigen::VectorXd& z) const;
+  LocalFit solve(const Eigen::VectorXd& numbers, int held, double value,
+                 const FitBounds& bounds) const;
+  void find_covariance(const Eigen::MatrixXd& residuals, double freedom);
+
+  Misfit kind_;
+  bool products_ = true;
+  Eigen::VectorXd centre_;
+  Eigen::MatrixXd unit_, to_unit_;  ///< point = centre + unit z, z of unit covariance
+  Eigen::MatrixXd coefficients_;    ///< [number, basis]
+  Eigen::MatrixXd covariance_;
+  Eigen::MatrixXd whitener_;  ///< maps numbers so that their covariance becomes 1
+};
+
+}  // namespace lilytank

@@ -1,0 +1,143 @@
+#include "lilytank/emulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lilytank/camera.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+#include "lilytank/world.hpp"
+
+namespace lilytank {
+
+struct Emulator::Scene {
+  Model model;
+  Camera camera;
+};
+
+namespace {
+
+bool of_camera(const std::string& path) {
+  return path == kPositionNoise || path == kHeadingNoise;
+}
+
+// The seed of a camera must differ from that of its world.
+constexpr std::uint64_t kCameraRun = 1u << 20;
+
+State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
+  // Poses in the middle pass every check of a start; those of a recording, which has noise, may
+  // touch the wall or each other by less than a millimetre, which the first step puts right.
+  Model placed = model;
+  placed.start.layout = Layout::poses;
+  placed.start.poses.assign(start.pose.size(), Pose{});
+  State state = initial_state(placed, seed);
+  for (std::size_t i = 0; i < start.pose.size(); ++i) {
+    const Pose& pose = start.pose[i];
+    const Twist& twist = start.twist[i];
+    state.x[i] = pose.x, state.y[i] = pose.y, state.c[i] = pose.r.c, state.s[i] = pose.r.s;
+    state.vx[i] = twist.vx, state.vy[i] = twist.vy, state.omega[i] = twist.omega;
+  }
+  return state;
+}
+
+}  // namespace
+
+Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<RecordingShape> shapes,
+                   const EmulatorOptions& options)
+    : model_(std::move(model)),
+      paths_(std::move(paths)),
+      shapes_(std::move(shapes)),
+      options_(options) {
+  for (const std::string& path : paths_) {
+    if (!of_camera(path)) static_cast<void>(model_parameter(path));
+  }
+  if (options_.moment_matched && model_.flow.gusts == Gusts::per_point &&
+      model_.flow.at == FlowAt::points) {
+    model_.flow.gusts = Gusts::moment_matched;
+  }
+}
+
+Emulator::Scene Emulator::scene(std::span<const double> values, const RecordingShape& shape,
+                                const std::shared_ptr<const FlowField>& field) const {
+  Camera camera;
+  camera.position_noise = options_.position_noise, camera.heading_noise = options_.heading_noise;
+  std::vector<std::string> names;
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (paths_[i] == kPositionNoise) {
+      camera.position_noise = values[i];
+    } else if (paths_[i] == kHeadingNoise) {
+      camera.heading_noise = values[i];
+    } else {
+      names.push_back(paths_[i]), numbers.push_back(values[i]);
+    }
+  }
+  Scene out{with_parameters(model_, names, numbers), camera};
+  if (field) out.model.field = field;
+  const bool balls = shape.body == BodyKind::ball;
+  out.model.module.count = balls ? 0 : shape.bodies;
+  out.model.ball.count = balls ? shape.bodies : 0;
+  out.model.control.latches = shape.latches;
+  out.camera.rate = shape.rate, out.camera.missed = shape.missing;
+  out.camera.headings = shape.headings;
+  return out;
+}
+
+std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingShape& shape,
+                                            const BodiesAt* start, double seconds,
+                                            std::uint64_t seed) const {
+  World world = start != nullptr ? World(scene.model, state_at(scene.model, *start, seed))
+                                 : World(scene.model, seed);
+  const double settle = start != nullptr ? 0 : options_.settle;
+  const auto settling = static_cast<std::int64_t>(std::llround(settle / scene.model.dt));
+  for (std::int64_t step = 0; step < settling; ++step) {
+    if (world.step() == RunStatus::diverged) return std::nullopt;
+  }
+  Trajectory trajectory;
+  const auto steps = static_cast<std::int64_t>(std::ceil(seconds / scene.model.dt - 1e-9));
+  const auto poses = static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(shape.bodies);
+  for (auto* of : {&trajectory.x, &trajectory.y, &trajectory.theta}) of->reserve(poses);
+  append_poses(world, trajectory);
+  for (std::int64_t step = 0; step < steps; ++step) {
+    if (world.step() == RunStatus::diverged) return std::nullopt;
+    append_poses(world, trajectory);
+  }
+  Camera camera = scene.camera;
+  camera.seed = derived_seed(seed, kCameraRun);
+  Recording out = film(trajectory, camera, shape.body);
+  out.name = shape.name, out.latches = shape.latches;
+  return out;
+}
+
+std::optional<std::vector<Recording>> Emulator::record(
+    std::span<const double> values, std::uint64_t seed,
+    const std::shared_ptr<const FlowField>& field) const {
+  std::vector<Recording> out;
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const RecordingShape& shape = shapes_[i];
+    const BodiesAt* start = shape.starts.empty() ? nullptr : &shape.starts.front();
+    auto one = simulate(scene(values, shape, field), shape, start, (shape.frames - 1) / shape.rate,
+                        derived_seed(seed, i));
+    if (!one) return std::nullopt;
+    out.push_back(std::move(*one));
+  }
+  return out;
+}
+
+std::optional<Recording> Emulator::piece(std::span<const double> values, std::uint64_t seed,
+                                         std::int64_t replicate, double seconds) const {
+  const auto r = static_cast<std::uint64_t>(replicate);
+  const auto draw = random_bits({seed, Stream::calibrate, replicate, 0, 0});
+  const RecordingShape& shape = shapes_[r % shapes_.size()];
+  // A start from which the recording goes on for as long, so that the same time is compared.
+  std::size_t usable = 0;
+  while (usable < shape.starts.size() &&
+         (shape.frames - 1 - shape.starts[usable].frame) / shape.rate >= seconds) {
+    ++usable;
+  }
+  const BodiesAt* start =
+      shape.starts.empty() ? nullptr : &shape.starts[usable == 0 ? 0 : (draw[0] * usable) >> 32];
+  return simulate(scene(values, shape, nullptr), shape, start, seconds, derived_seed(seed, r));
+}
+
+}  // namespace lilytank

@@ -1,0 +1,195 @@
+#include "lilytank/local_model.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kMostSteps = 60;
+constexpr double kNeverVaries = 1e-10;
+
+Eigen::Index coefficients_of(Eigen::Index p, bool products) {
+  return 1 + 2 * p + (products ? p * (p - 1) / 2 : 0);
+}
+
+// How much correlations are drawn towards none: their summed sampling variance over their summed
+// squares. `z`: residuals divided by their deviations.
+double shrinkage(const Matrix& z) {
+  const auto n = static_cast<double>(z.rows());
+  const Matrix r = z.transpose() * z / n;
+  const Matrix squares = z.array().square().matrix();
+  const Matrix fourth = squares.transpose() * squares / n;
+  double variance = 0, size = 0;
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      variance += std::max(0.0, fourth(i, j) - r(i, j) * r(i, j)) / n;
+      size += r(i, j) * r(i, j);
+    }
+  }
+  return size > 0 ? std::clamp(variance / size, 0.0, 1.0) : 1;
+}
+
+}  // namespace
+
+LocalModel::LocalModel(const Design& design, Misfit misfit) : kind_(misfit) {
+  const Eigen::Index n = design.points.rows(), p = design.points.cols();
+  products_ = n >= 2 * coefficients_of(p, true);
+  const Eigen::Index q = coefficients_of(p, products_);
+  if (n <= q + 1) throw std::invalid_argument("too few simulations for a local model");
+  centre_ = design.points.colwise().mean();
+  const Matrix off = design.points.rowwise() - centre_.transpose();
+  Matrix spread = off.transpose() * off / static_cast<double>(n - 1);
+  spread.diagonal().array() += 1e-14;
+  unit_ = spread.llt().matrixL();
+  to_unit_ = unit_.triangularView<Eigen::Lower>().solve(Matrix::Identity(p, p));
+  Matrix x(n, q);
+  for (Eigen::Index i = 0; i < n; ++i) x.row(i) = basis(standard(design.points.row(i)));
+  coefficients_ = x.colPivHouseholderQr().solve(design.numbers).transpose();
+  find_covariance(design.numbers - x * coefficients_.transpose(), static_cast<double>(n - q));
+}
+
+void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
+  const Eigen::Index d = residuals.cols();
+  const Vector deviation = (residuals.colwise().squaredNorm() / freedom).cwiseSqrt();
+  Matrix z = residuals;
+  for (Eigen::Index k = 0; k < d; ++k) {
+    z.col(k) /= std::max(deviation(k), kNeverVaries) *
+                std::sqrt(freedom / static_cast<double>(residuals.rows()));
+  }
+  Matrix correlation = z.transpose() * z / static_cast<double>(z.rows());
+  correlation *= 1 - shrinkage(z);
+  correlation.diagonal().setOnes();
+  covariance_ = deviation.asDiagonal() * correlation * deviation.asDiagonal();
+  const Matrix root = correlation.llt().matrixL();
+  whitener_ = root.triangularView<Eigen::Lower>().solve(Matrix::Identity(d, d));
+  for (Eigen::Index k = 0; k < d; ++k) {
+    whitener_.col(k) *= deviation(k) > kNeverVaries ? 1 / deviation(k) : 0;
+  }
+  if (kind_ == Misfit::absolute) whitener_ = Matrix::Identity(d, d);
+}
+
+Vector LocalModel::standard(const Vector& point) const {
+  return to_unit_ * (point - centre_);
+}
+
+Vector LocalModel::basis(const Vector& z) const {
+  const Eigen::Index p = z.size();
+  Vector out(coefficients_of(p, products_));
+  out(0) = 1, out.segment(1, p) = z, out.segment(1 + p, p) = z.array().square();
+  Eigen::Index at = 1 + 2 * p;
+  for (Eigen::Index i = 0; products_ && i < p; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) out(at++) = z(i) * z(j);
+  }
+  return out;
+}
+
+Matrix LocalModel::basis_slope(const Vector& z) const {
+  const Eigen::Index p = z.size();
+  Matrix out = Matrix::Zero(coefficients_of(p, products_), p);
+  for (Eigen::Index i = 0; i < p; ++i) out(1 + i, i) = 1, out(1 + p + i, i) = 2 * z(i);
+  Eigen::Index at = 1 + 2 * p;
+  for (Eigen::Index i = 0; products_ && i < p; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j, ++at) out(at, i) = z(j), out(at, j) = z(i);
+  }
+  return out;
+}
+
+Vector LocalModel::mean(const Vector& point) const {
+  return coefficients_ * basis(standard(point));
+}
+
+Matrix LocalModel::slope(const Vector& point) const {
+  return coefficients_ * basis_slope(standard(point)) * to_unit_;
+}
+
+double LocalModel::misfit(const Vector& numbers, const Vector& point) const {
+  const Vector r = whitener_ * (numbers - mean(point));
+  return kind_ == Misfit::absolute ? r.cwiseAbs().sum() : r.squaredNorm();
+}
+
+Matrix LocalModel::parameter_covariance(const Vector& point) const {
+  const Matrix a = whitener_ * slope(point);
+  Matrix information = a.transpose() * a;
+  information.diagonal().array() += 1e-12 * information.trace();
+  const Matrix back = information.ldlt().solve(a.transpose() * whitener_);
+  return back * covariance_ * back.transpose();
+}
+
+LocalFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds) const {
+  return solve(numbers, -1, 0, bounds);
+}
+
+LocalFit LocalModel::fit_with(const Vector& numbers, int parameter, double value,
+                              const FitBounds& bounds) const {
+  return solve(numbers, parameter, value, bounds);
+}
+
+// One least-squares problem: Levenberg and Marquardt within a box, with weights that turn squares
+// into sizes where those are asked for.
+struct LocalModel::Problem {
+  const LocalModel& model;
+  const Vector& numbers;
+  int held;
+  Vector low, high;
+
+  // A step from `point` under damping, parameters at a bound that they push against left out.
+  Vector step(const Vector& point, double damping) const {
+    const Vector r = model.whitener_ * (numbers - model.mean(point));
+    const Matrix a = model.whitener_ * model.slope(point);
+    Vector weight = Vector::Ones(r.size());
+    if (model.kind_ == Misfit::absolute) {
+      const double small = 1e-3 * r.cwiseAbs().mean() + 1e-300;
+      weight = r.cwiseAbs().cwiseMax(small).cwiseInverse();
+    }
+    Matrix h = a.transpose() * weight.asDiagonal() * a;
+    Vector g = a.transpose() * weight.cwiseProduct(r);
+    const double most = h.diagonal().maxCoeff();
+    for (Eigen::Index k = 0; k < point.size(); ++k) {
+      const bool stuck =
+          k == held || (point(k) <= low(k) && g(k) < 0) || (point(k) >= high(k) && g(k) > 0);
+      if (stuck) h.row(k).setZero(), h.col(k).setZero(), g(k) = 0;
+      h(k, k) += damping * h(k, k) + 1e-12 * most + (stuck ? most : 0);
+    }
+    return (point + h.ldlt().solve(g)).cwiseMax(low).cwiseMin(high);
+  }
+};
+
+LocalFit LocalModel::solve(const Vector& numbers, int held, double value,
+                           const FitBounds& bounds) const {
+  const Vector reach = bounds.reach * unit_.rowwise().norm();
+  Problem problem{*this, numbers, held, centre_ - reach, centre_ + reach};
+  if (bounds.low.size() > 0) {
+    problem.low = problem.low.cwiseMax(bounds.low).cwiseMin(bounds.high);
+    problem.high = problem.high.cwiseMin(bounds.high).cwiseMax(bounds.low);
+  }
+  Vector at = centre_.cwiseMax(problem.low).cwiseMin(problem.high);
+  if (held >= 0) at(held) = problem.low(held) = problem.high(held) = value;
+  double now = misfit(numbers, at), damping = 1e-2;
+  for (int k = 0; k < kMostSteps && damping < 1e9; ++k) {
+    const Vector next = problem.step(at, damping);
+    const double then = misfit(numbers, next);
+    if (!(then < now)) {
+      damping *= 4;
+      continue;
+    }
+    const bool done = now - then < 1e-9 * (1 + std::fabs(now));
+    at = next, now = then, damping = std::max(damping / 5, 1e-9);
+    if (done) break;
+  }
+  LocalFit out{at, now, false};
+  for (Eigen::Index k = 0; k < at.size(); ++k) {
+    if (k == held) continue;
+    const bool far = std::fabs(at(k) - centre_(k)) >= reach(k) * (1 - 1e-9);
+    out.at_reach = out.at_reach || far;
+  }
+  return out;
+}
+
+}  // namespace lilytank

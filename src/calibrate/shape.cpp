@@ -1,0 +1,68 @@
+// What of a recording is imitated.
+#include <algorithm>
+#include <cmath>
+
+#include "lilytank/emulator.hpp"
+#include "lilytank/smoothing.hpp"
+
+namespace lilytank {
+namespace {
+
+// Bodies seen in each frame.
+std::vector<int> seen_by_frame(const Recording& recording) {
+  std::vector<int> seen(static_cast<std::size_t>(recording.frames), 0);
+  for (const Track& track : recording.tracks) {
+    for (std::size_t k = 0; k < track.x.size(); ++k) {
+      if (!std::isnan(track.x[k])) ++seen[static_cast<std::size_t>(track.first) + k];
+    }
+  }
+  return seen;
+}
+
+double missing_share(const Recording& recording) {
+  double all = 0, missed = 0;
+  for (const Track& track : recording.tracks) {
+    all += static_cast<double>(track.x.size());
+    missed += static_cast<double>(
+        std::count_if(track.x.begin(), track.x.end(), [](double x) { return std::isnan(x); }));
+  }
+  return all > 0 ? missed / all : 0;
+}
+
+// Appends a body's place and motion at a frame if its track knows them there.
+void add_body(const SmoothTrack& track, int frame, BodiesAt& at) {
+  const int k = frame - track.first;
+  if (k < 0 || k >= track.frames()) return;
+  const auto i = static_cast<std::size_t>(k);
+  if (!track.seen[i] || std::isnan(track.vx[i])) return;
+  const bool turns = !track.theta.empty();
+  if (turns && std::isnan(track.spin[i])) return;
+  at.pose.push_back({track.x[i], track.y[i], turns ? rotation(track.theta[i]) : Rot{}});
+  at.twist.push_back({track.vx[i], track.vy[i], turns ? track.spin[i] : 0});
+}
+
+}  // namespace
+
+RecordingShape shape_of(const Recording& recording, double interval) {
+  RecordingShape shape;
+  shape.name = recording.name, shape.body = recording.body;
+  shape.frames = recording.frames, shape.rate = recording.rate;
+  shape.headings = recording.has_heading(), shape.latches = recording.latches;
+  const std::vector<int> seen = seen_by_frame(recording);
+  shape.bodies = seen.empty() ? 0 : *std::max_element(seen.begin(), seen.end());
+  shape.missing = missing_share(recording);
+  if (recording.body == BodyKind::lily && !shape.headings) return shape;
+  const SmoothRecording smoothed =
+      smooth(recording, {.method = SmoothingMethod::polynomial, .window = 0.3, .degree = 3});
+  const int step = std::max(1, static_cast<int>(std::lround(interval * recording.rate)));
+  for (int frame = 0; frame < recording.frames; frame += step) {
+    BodiesAt at{frame, {}, {}};
+    for (const SmoothTrack& track : smoothed.tracks) add_body(track, frame, at);
+    if (static_cast<int>(at.pose.size()) == shape.bodies) shape.starts.push_back(std::move(at));
+  }
+  // A recording is imitated from its begin or from a random start, not from somewhere in it.
+  if (!shape.starts.empty() && shape.starts.front().frame > recording.rate) shape.starts.clear();
+  return shape;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,117 @@
+#include "study/kept_rows.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include "io/append_file.hpp"
+#include "io/atomic_file.hpp"
+#include "lilytank/state.hpp"
+#include "lilytank/study.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+using Rows = std::vector<std::optional<std::vector<double>>>;
+
+std::string head_of(const KeptRows& kept) {
+  return "lilytank rows 1 " + hex(kept.identity) + "\n";
+}
+
+std::string line_of(int index, const std::vector<double>& row) {
+  std::string line = std::to_string(index);
+  for (const double v : row) line += "," + shortest(v);
+  return line + ";\n";
+}
+
+// A line without its end; false if it is not a row.
+bool take_line(std::string_view line, Rows& rows) {
+  if (line.empty() || line.back() != ';') return false;
+  line.remove_suffix(1);
+  std::vector<double> row;
+  std::optional<std::int64_t> index;
+  for (bool first = true;; first = false) {
+    const auto comma = line.find(',');
+    const std::string_view cell = line.substr(0, comma);
+    if (first) {
+      index = parse_whole(cell);
+      if (!index || *index < 0) return false;
+    } else {
+      const auto value = parse_number(cell);
+      if (!value) return false;
+      row.push_back(*value);
+    }
+    if (comma == std::string_view::npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  // More rows than are wanted now may be there: from a call that asked for more.
+  if (*index < static_cast<std::int64_t>(rows.size())) rows[static_cast<std::size_t>(*index)] = row;
+  return true;
+}
+
+// Reads what is there; returns the length of the file up to its last whole row.
+std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
+  const std::string text = read_whole(kept.file);
+  const std::string head = head_of(kept);
+  if (text.size() < head.size() && head.starts_with(text)) return 0;
+  if (!text.starts_with(head)) {
+    throw InputError({kept.file, 1, 1}, "these rows are of another calculation");
+  }
+  std::size_t at = head.size();
+  for (int line = 2; at < text.size(); ++line) {
+    const auto end = text.find('\n', at);
+    if (end == std::string::npos) break;
+    if (!take_line(std::string_view(text).substr(at, end - at), rows)) {
+      throw InputError({kept.file, line, 1}, "this is not a row of numbers");
+    }
+    at = end + 1;
+  }
+  return static_cast<std::int64_t>(at);
+}
+
+}  // namespace
+
+std::optional<std::vector<std::vector<double>>> kept_rows(
+    const KeptRows& kept, int count, const std::function<std::vector<double>(int)>& work) {
+  Rows rows(static_cast<std::size_t>(count));
+  std::unique_ptr<AppendFile> file;
+  if (!kept.file.empty()) {
+    const bool there = std::filesystem::exists(kept.file);
+    const std::int64_t length = there ? read_rows(kept, rows) : 0;
+    file = std::make_unique<AppendFile>(kept.file, there ? length : -1);
+    if (length == 0) file->append(head_of(kept));
+  }
+  std::vector<int> missing;
+  for (int i = 0; i < count; ++i) {
+    if (!rows[static_cast<std::size_t>(i)]) missing.push_back(i);
+  }
+  int done = count - static_cast<int>(missing.size());
+  std::mutex one_at_a_time;
+  auto flushed = std::chrono::steady_clock::now();
+  const auto stopped = [&] { return kept.stop != nullptr && *kept.stop; };
+  for_each_world(static_cast<int>(missing.size()), kept.threads, [&](int k) {
+    if (stopped()) return;
+    const int index = missing[static_cast<std::size_t>(k)];
+    std::vector<double> row = work(index);
+    const std::lock_guard lock(one_at_a_time);
+    if (file) {
+      file->append(line_of(index, row));
+      const auto now = std::chrono::steady_clock::now();
+      if (now - flushed > std::chrono::seconds(1)) file->flush(), flushed = now;
+    }
+    rows[static_cast<std::size_t>(index)] = std::move(row);
+    ++done;
+    if (kept.progress) kept.progress(done, count);
+  });
+  if (file) file->flush();
+  std::vector<std::vector<double>> out;
+  for (auto& row : rows) {
+    if (!row) return std::nullopt;
+    out.push_back(std::move(*row));
+  }
+  return out;
+}
+
+}  // namespace lilytank
