@@ -1,0 +1,95 @@
+#include "lilytank/flow_maps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lilytank/emulator.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr int kStepsPerTick = 2;  // 12.5 ms: the balls' motion is then nearly that of the equation
+
+ActiveForce force(const char* name, std::initializer_list<double> values) {
+  ActiveForce out = with_defaults(*find_force(name));
+  std::copy(values.begin(), values.end(), out.p.begin());
+  return out;
+}
+
+// Balls that move as the extraction takes them to move.
+Model ball_model(const FlowEstimate& estimate, const BallPhysics& ball) {
+  Model m = standard_model();
+  m.steps_per_tick = kStepsPerTick, m.dt = kTick / kStepsPerTick;
+  m.tank.radius = ball.tank_radius;
+  m.ball.radius = ball.radius, m.ball.mass = ball.mass, m.ball.drag_area = ball.drag_area;
+  m.flow.K_v = 1, m.flow.rho = ball.rho;
+  m.field = std::make_shared<const FlowField>(field_of(estimate, Interpolation::bilinear));
+  m.start.radius = 0.85 * ball.tank_radius - ball.radius, m.start.distance = 2.1 * ball.radius;
+  m.forces = {force("ball_drag", {ball.drag_coefficient, ball.draws}),
+              force("stochastic", {estimate.noise->stochastic}),
+              force("damping", {1 - exp_portable(-ball.damping)})};
+  return m;
+}
+
+void add(FlowSample& to, const FlowSample& from, double times) {
+  to.mu_x += times * from.mu_x, to.mu_y += times * from.mu_y;
+  to.sigma_x += times * from.sigma_x, to.sigma_y += times * from.sigma_y;
+}
+
+}  // namespace
+
+FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recording> balls,
+                           const BallPhysics& physics, const FlowOptions& options,
+                           std::uint64_t seed, int run) {
+  if (!estimate.noise) throw InputError("the flow's error is drawn for a smooth estimate only");
+  std::vector<RecordingShape> shapes;
+  for (const Recording& one : balls) {
+    // The begin is all that is imitated of a start.
+    if (one.body == BodyKind::ball) shapes.push_back(shape_of(one, 1e6));
+  }
+  EmulatorOptions emulation;
+  emulation.settle = 5, emulation.position_noise = estimate.noise->tracking;
+  const Emulator emulator(ball_model(estimate, physics), {}, std::move(shapes), emulation);
+  const auto made = emulator.record({}, derived_seed(seed, static_cast<std::uint64_t>(run)));
+  if (!made) throw InputError("balls diverge in the flow that was found: is it that of this tank?");
+  const FlowEstimate again = estimate_smooth(*made, physics, options);
+  FlowDifference out;
+  for (std::size_t i = 0; i < again.cell.size(); ++i) {
+    FlowSample difference = again.cell[i].flow;
+    add(difference, estimate.cell[i].flow, -1);
+    out.push_back(difference);
+  }
+  return out;
+}
+
+FlowMaps::FlowMaps(std::shared_ptr<const FlowField> field, std::vector<FlowDifference> errors)
+    : field_(std::move(field)), mean_(field_->samples().size()), errors_(std::move(errors)) {
+  const double share = 1 / static_cast<double>(errors_.size());
+  for (const FlowDifference& error : errors_) {
+    for (std::size_t i = 0; i < mean_.size(); ++i) add(mean_[i], error[i], share);
+  }
+  for (FlowDifference& error : errors_) {
+    for (std::size_t i = 0; i < mean_.size(); ++i) add(error[i], mean_[i], -1);
+  }
+}
+
+std::shared_ptr<const FlowField> FlowMaps::draw(std::uint64_t seed, std::int64_t run) const {
+  if (!uncertain()) return field_;
+  std::vector<FlowSample> samples = field_->samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], mean_[i], -1);
+  const double scale = 1 / std::sqrt(static_cast<double>(errors_.size() - 1));
+  for (std::size_t k = 0; k < errors_.size(); ++k) {
+    const double z = normal_pair(
+        {seed, Stream::calibration, run, static_cast<std::uint32_t>(k), 1})[0];
+    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], errors_[k][i], z * scale);
+  }
+  for (FlowSample& s : samples) {
+    s.sigma_x = std::max(s.sigma_x, 0.0), s.sigma_y = std::max(s.sigma_y, 0.0);
+  }
+  return std::make_shared<const FlowField>(field_->cells(), field_->extent(), std::move(samples),
+                                           std::vector<bool>(mean_.size(), true),
+                                           field_->interpolation());
+}
+
+}  // namespace lilytank
