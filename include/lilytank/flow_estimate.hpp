@@ -20,6 +20,7 @@
 #include "lilytank/model.hpp"
 #include "lilytank/normality.hpp"
 #include "lilytank/recording.hpp"
+#include "lilytank/scenario.hpp"
 #include "lilytank/smoothing.hpp"
 
 namespace lilytank {
@@ -42,6 +43,8 @@ struct BallPhysics {
 /// on. A coefficient that is the default of `ball_drag`, which is fitted to another purpose
 /// [Table 1], is left at the sphere's.
 BallPhysics ball_physics(const Model& model);
+/// The same of a scenario: a coefficient that its files set is taken, whatever it is.
+BallPhysics ball_physics(const Scenario& scenario);
 
 struct FlowOptions {
   int cells = 50;  ///< along a side of the grid over the tank

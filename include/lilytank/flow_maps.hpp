@@ -15,8 +15,9 @@ namespace lilytank {
 /// One field's difference from the truth, cell by cell.
 using FlowDifference = std::vector<FlowSample>;
 
-/// Extracts the flow again from simulated balls in `estimate`'s field: draw number `run` of its error.
-/// `balls` give the shape of the recordings. Throws InputError if the estimate has no noise budget.
+/// Extracts the flow again from simulated balls in `estimate`'s field: draw number `run` of its
+/// error. `balls` give the shape of the recordings. Throws InputError if the estimate has no noise
+/// budget.
 FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recording> balls,
                            const BallPhysics& physics, const FlowOptions& options,
                            std::uint64_t seed, int run);
@@ -30,8 +31,8 @@ class FlowMaps {
 
   const std::shared_ptr<const FlowField>& best() const { return field_; }
   bool uncertain() const { return !errors_.empty(); }
-  /// A field that could be the true one: the best less its mean error and a normal combination of the
-  /// errors' scatter, draw `run`.
+  /// A field that could be the true one: the best less its mean error and a normal combination of
+  /// the errors' scatter, draw `run`.
   std::shared_ptr<const FlowField> draw(std::uint64_t seed, std::int64_t run) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lilytank/analysis.hpp"
+#include "lilytank/calibration.hpp"
 #include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/search.hpp"
@@ -157,6 +158,13 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
 /// points, over evaluations [paper, Figs. 10 (a) and 12 (a)].
 Plot search_plot(const std::vector<IterationRecord>& history, const std::string& title,
                  const std::string& y_label);
+
+/// Plots of a calibration in a directory, each as .png and .svg: "convergence" of the search
+/// [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity" maps [Fig. 7], "profiles"
+/// of the parameters, and "estimates" of simulated experiments, two parameters a plot. Returns the
+/// files' names. Throws InputError if they cannot be written.
+std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
+                                          const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

@@ -80,8 +80,8 @@ std::shared_ptr<const FlowField> FlowMaps::draw(std::uint64_t seed, std::int64_t
   for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], mean_[i], -1);
   const double scale = 1 / std::sqrt(static_cast<double>(errors_.size() - 1));
   for (std::size_t k = 0; k < errors_.size(); ++k) {
-    const double z = normal_pair(
-        {seed, Stream::calibration, run, static_cast<std::uint32_t>(k), 1})[0];
+    const double z =
+        normal_pair({seed, Stream::calibrate, run, static_cast<std::uint32_t>(k), 1})[0];
     for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], errors_[k][i], z * scale);
   }
   for (FlowSample& s : samples) {

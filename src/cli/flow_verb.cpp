@@ -45,14 +45,7 @@ FlowOptions flow_options(const VerbOptions& options) {
 
 // The drag coefficient as it was asked for, or as the experiment's files set it.
 BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
-  BallPhysics ball = ball_physics(experiment.base.model);
-  const auto& entries = experiment.base.entries;
-  const bool set = std::any_of(entries.begin(), entries.end(), [](const ScenarioEntry& entry) {
-    return entry.path == "forces.ball_drag.C" && !entry.is_default;
-  });
-  for (const ActiveForce& force : experiment.base.model.forces) {
-    if (set && force.term->name() == "ball_drag") ball.drag_coefficient = force.p[0];
-  }
+  BallPhysics ball = ball_physics(experiment.base);
   ball.drag_coefficient = options.number("drag", ball.drag_coefficient, 1e-3, 100);
   return ball;
 }

@@ -20,6 +20,7 @@ const std::vector<Verb>& verbs() {
       {"recording", "read, check and convert trackers' files; film a run", recording_verb},
       {"analyze", "what runs and recordings show, alone and against each other", analyze_verb},
       {"flow", "find the water's velocity from the tracks of balls", flow_verb},
+      {"calibrate", "find the model's parameters from recordings, with intervals", calibrate_verb},
       {"synthesize", "make a ruleset from the drawing of a target", synthesize_verb},
       {"check", "prove what a ruleset can build, where it gets stuck, how fast it would be",
        check_verb},

@@ -82,4 +82,16 @@ BallPhysics ball_physics(const Model& model) {
   return ball;
 }
 
+BallPhysics ball_physics(const Scenario& scenario) {
+  BallPhysics ball = ball_physics(scenario.model);
+  const auto& entries = scenario.entries;
+  const bool set = std::any_of(entries.begin(), entries.end(), [](const ScenarioEntry& entry) {
+    return entry.path == "forces.ball_drag.C" && !entry.is_default;
+  });
+  for (const ActiveForce& force : scenario.model.forces) {
+    if (set && force.term->name() == "ball_drag") ball.drag_coefficient = force.p[0];
+  }
+  return ball;
+}
+
 }  // namespace lilytank

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::string short_name(const CalibratedParameter& p) {
+  const std::string& path = p.parameter.path;
+  return path.substr(path.rfind('.') + 1);
+}
+std::string with_unit(const CalibratedParameter& p) {
+  return short_name(p) + (p.parameter.unit == "1" ? "" : " (" + p.parameter.unit + ")");
+}
+
+// Fig. 6a.
+Plot convergence_plot(const CalibrationResult& c) {
+  Plot plot;
+  plot.title = "Search, " + c.name;
+  plot.x_label = "iteration";
+  plot.y_label = c.objective == "msd" ? "fitness, Eq. 9 (m\u00b2)" : "fitness";
+  Curve best{"best", {}, {}, {}, {}}, median{"median of the iteration", {}, {}, {}, {}};
+  double least = 1;
+  for (const IterationRecord& r : c.history) {
+    for (auto* curve : {&best, &median}) curve->x.push_back(r.iteration);
+    best.y.push_back(std::isfinite(r.best) ? r.best : kNone);
+    median.y.push_back(std::isfinite(r.median) ? r.median : kNone);
+    least = std::min(least, r.best);
+  }
+  plot.log_y = least > 0;
+  plot.curves = {best, median};
+  return plot;
+}
+
+// Fig. 6b, a plot a set of recordings.
+PlotPage msd_page(const CalibrationResult& c) {
+  PlotPage page;
+  for (const MsdFit& m : c.msd) {
+    Plot plot;
+    plot.title = c.name + ", " + m.recordings + " recordings";
+    plot.x_label = "lag (s)", plot.y_label = "MSD (m\u00b2)";
+    plot.curves = {{"recorded", m.lag, m.real, {}, {}},
+                   {"simulated, calibrated", m.lag, m.simulated_after, {}, {}},
+                   {"simulated, before", m.lag, m.simulated_before, {}, {}}};
+    page.plots.push_back(std::move(plot));
+  }
+  return page;
+}
+
+MapPanel velocity_panel(const std::string& title, const VelocityMap& map,
+                        const std::vector<double>& values) {
+  MapPanel panel;
+  panel.title = title, panel.label = "mean velocity (m/s)";
+  panel.cells = map.cells, panel.extent = map.extent;
+  panel.values = values, panel.scale = ColourScale::diverging;
+  return panel;
+}
+
+// Fig. 7.
+Map velocity_map_of(const CalibrationResult& c) {
+  Map map;
+  map.title = "Mean velocity, " + c.name;
+  map.tank_radius = c.tank_radius, map.columns = 2;
+  const VelocityMap &real = c.real_velocity, &simulated = c.simulated_velocity;
+  map.panels.push_back(velocity_panel("Recorded, x", real, real.vx));
+  map.panels.push_back(velocity_panel("Recorded, y", real, real.vy));
+  map.panels.push_back(velocity_panel("Simulated, x", simulated, simulated.vx));
+  map.panels.push_back(velocity_panel("Simulated, y", simulated, simulated.vy));
+  double high = 0;
+  for (const MapPanel& panel : map.panels) {
+    for (const double v : panel.values) {
+      if (!std::isnan(v)) high = std::max(high, std::fabs(v));
+    }
+  }
+  for (MapPanel& panel : map.panels) panel.low = -high, panel.high = high;
+  return map;
+}
+
+constexpr double kChi95 = 3.8415;  // 95 % point of chi squared with one degree of freedom
+
+// How the misfit rises beside the estimate; with covariances, the dashed level is its 95 %.
+PlotPage profile_page(const CalibrationResult& c) {
+  PlotPage page;
+  page.columns = 3;
+  for (const CalibratedParameter& p : c.parameters) {
+    if (p.profile_value.size() < 2) continue;
+    Plot plot;
+    plot.x_label = with_unit(p), plot.y_label = "rise of the misfit";
+    plot.width = 460, plot.height = 360;
+    plot.curves.push_back({"profile", p.profile_value, p.profile_rise, {}, {}});
+    if (c.objective != "msd") {
+      plot.curves.push_back(
+          {"95 %", {p.profile_value.front(), p.profile_value.back()}, {kChi95, kChi95}, {}, {}});
+      plot.y_low = 0, plot.y_high = 16;
+    }
+    plot.curves.push_back({"interval", {p.low, p.high}, {0, 0}, {}, {}});
+    page.plots.push_back(std::move(plot));
+  }
+  return page;
+}
+
+// Estimates of simulated experiments, two parameters a plot: what cannot be told apart is a line.
+PlotPage pair_page(const CalibrationResult& c) {
+  PlotPage page;
+  page.columns = 4;
+  const std::size_t n = c.parameters.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const CalibratedParameter &x = c.parameters[j], &y = c.parameters[i];
+      if (x.parameter.nuisance || y.parameter.nuisance) continue;
+      char title[40];
+      std::snprintf(title, sizeof title, "correlation %.2f", c.correlation[i * n + j]);
+      Plot plot;
+      plot.title = title, plot.x_label = with_unit(x), plot.y_label = with_unit(y);
+      plot.width = 420, plot.height = 360;
+      Curve dots;
+      for (const auto& of : c.replicate_estimates) {
+        dots.x.insert(dots.x.end(), {x.parameter.from_scale(of[j]), kNone});
+        dots.y.insert(dots.y.end(), {y.parameter.from_scale(of[i]), kNone});
+      }
+      Curve estimate{"", {x.estimate}, {y.estimate}, {}, {}};
+      estimate.markers = true;
+      plot.curves = {dots, estimate};
+      page.plots.push_back(std::move(plot));
+    }
+  }
+  return page;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_calibration(const CalibrationResult& c, const std::string& dir) {
+  std::vector<std::string> names;
+  const auto draw = [&](const std::string& name, const auto& what, const auto& how) {
+    for (const char* ending : {".png", ".svg"}) {
+      how(what, (std::filesystem::path(dir) / (name + ending)).string());
+      names.push_back(name + ending);
+    }
+  };
+  if (!c.history.empty()) draw("convergence", convergence_plot(c), draw_plot);
+  if (!c.msd.empty()) draw("msd", msd_page(c), draw_plots);
+  if (!c.real_velocity.vx.empty() && !c.simulated_velocity.vx.empty()) {
+    draw("velocity", velocity_map_of(c), draw_map);
+  }
+  const PlotPage profiles = profile_page(c), pairs = pair_page(c);
+  if (!profiles.plots.empty()) draw("profiles", profiles, draw_plots);
+  if (!pairs.plots.empty()) draw("estimates", pairs, draw_plots);
+  return names;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,80 @@
+#include "lilytank/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "calibrate/stages.hpp"
+#include "io/atomic_file.hpp"
+#include "lilytank/state.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A directory belongs to one calibration, told by a file.
+void take_directory(const CalibrationSetup& setup) {
+  const CalibrationOptions& o = setup.options;
+  if (o.out.empty()) return;
+  const fs::path mark = fs::path(o.out) / "work" / "identity";
+  const std::string identity = "lilytank calibration 1 " + hex(setup.identity) + "\n";
+  std::error_code problem;
+  if (fs::exists(mark, problem) && read_whole(mark.string()) != identity) {
+    if (!o.force) {
+      throw InputError(o.out +
+                       " holds another calibration (other data, options or program): choose "
+                       "another --out, or replace it with --force");
+    }
+    fs::remove_all(fs::path(o.out) / "work", problem);
+  }
+  fs::create_directories(mark.parent_path(), problem);
+  if (problem) throw InputError(system_problem("cannot make", o.out, problem.value()));
+  write_atomically(mark.string(), identity);
+}
+
+CalibrationResult begun(const CalibrationSetup& setup) {
+  CalibrationResult out;
+  out.name = setup.name, out.objective = name_of(setup.options.objective);
+  out.flow = setup.flow ? setup.flow->name : "scenario";
+  out.search_name = setup.options.search_name, out.body = setup.body;
+  out.recordings = static_cast<int>(setup.training.size());
+  out.dt = setup.model.dt, out.tank_radius = setup.model.tank.radius;
+  for (const RecordingShape& shape : setup.shapes) {
+    out.bodies = std::max(out.bodies, shape.bodies);
+    out.seconds += shape.frames / shape.rate;
+  }
+  for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
+    CalibratedParameter p;
+    p.parameter = setup.parameters[i], p.start = setup.start[i];
+    out.parameters.push_back(std::move(p));
+  }
+  if (setup.flow) out.flow_csv = flow_csv(*setup.flow);
+  return out;
+}
+
+}  // namespace
+
+std::optional<CalibrationResult> calibrate(const Experiment& experiment,
+                                           const CalibrationOptions& options) try {
+  CalibrationSetup setup = set_up(experiment, options);
+  take_directory(setup);
+  Stages stages(setup);
+  CalibrationResult out = begun(setup);
+  const FlowMaps maps = stages.flow_maps();
+  const std::vector<double> searched = stages.search(out);
+  for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];
+  const std::vector<double> told = setup.numbers(setup.training);
+  const Eigen::VectorXd observed =
+      Eigen::Map<const Eigen::VectorXd>(told.data(), static_cast<Eigen::Index>(told.size()));
+  const LocalAnswer answer = find_locally(stages, searched, maps, observed);
+  out.rounds = answer.rounds;
+  find_intervals(stages, answer, maps, observed, out);
+  if (options.comparisons > 0) compare_with_data(stages, out);
+  out.simulations = stages.simulations();
+  return out;
+} catch (const Stopped&) {
+  return std::nullopt;
+}
+
+}  // namespace lilytank

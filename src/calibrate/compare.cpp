@@ -1,0 +1,137 @@
+// How like the recordings simulated ones are, before and after: Eq. 9 against the noise floor, and
+// maps of the mean velocity.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibrate/stages.hpp"
+#include "lilytank/random.hpp"
+#include "lilytank/smoothing.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr std::uint64_t kCompareSeed = 3000, kSplitSeed = 3001;
+constexpr int kMapCells = 25;
+using Curve = std::vector<double>;
+
+// Half of 0 .. n-1, rounded down, at random; what is left over comes after it.
+std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t seed, int draw) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0u);
+  for (std::size_t i = n; i > 1; --i) {
+    const auto bits =
+        random_bits({seed, Stream::calibrate, draw, static_cast<std::uint32_t>(i), 3});
+    std::swap(order[i - 1], order[(bits[0] * i) >> 32]);
+  }
+  return order;
+}
+
+std::vector<Recording> some_of(const std::vector<Recording>& pieces,
+                               const std::vector<std::size_t>& order, std::size_t from,
+                               std::size_t to) {
+  std::vector<Recording> out;
+  for (std::size_t i = from; i < to; ++i) out.push_back(pieces[order[i]]);
+  return out;
+}
+
+class Comparison {
+ public:
+  Comparison(Stages& stages, const std::vector<Recording>& recordings,
+             const std::vector<RecordingShape>& shapes, std::string name)
+      : stages_(stages),
+        setup_(stages.setup()),
+        emulator_(setup_.emulator(shapes)),
+        pieces_(pieces_of(recordings, setup_.piece)),
+        rule_{.seconds = setup_.piece},
+        seed_(derived_seed(setup_.options.seed, kSplitSeed)) {
+    out_.recordings = std::move(name);
+    out_.pieces = static_cast<int>(pieces_.size()), out_.seconds = setup_.piece;
+    out_.real = eq9_curve(pieces_, rule_);
+    for (std::size_t k = 0; k < out_.real.size(); ++k) {
+      out_.lag.push_back(rule_.lag * static_cast<double>(k + 1));
+    }
+  }
+
+  MsdFit fit(const std::vector<double>& start, const std::vector<double>& estimate) {
+    const int n = setup_.options.comparisons;
+    for (int i = 0; i < n; ++i) {
+      const auto order = shuffled(pieces_.size(), seed_, i);
+      const std::size_t half = pieces_.size() / 2;
+      halves_.push_back(eq9_curve(some_of(pieces_, order, 0, half), rule_));
+      const Curve other = eq9_curve(some_of(pieces_, order, half, 2 * half), rule_);
+      out_.floor += eq9(halves_.back(), other) / n;
+    }
+    out_.before = against(start, "before", out_.simulated_before);
+    out_.after = against(estimate, "after", out_.simulated_after);
+    return std::move(out_);
+  }
+
+ private:
+  // Mean of Eq. 9 against simulated halves; `mean` becomes the curve of all that was simulated.
+  double against(const std::vector<double>& values, const std::string& when, Curve& mean) {
+    const int n = setup_.options.comparisons;
+    const auto rows = stages_.rows("comparison " + when + ", " + out_.recordings, n, [&](int i) {
+      const auto made = emulator_.record(
+          values, derived_seed(setup_.options.seed, kCompareSeed + static_cast<unsigned>(i)));
+      if (!made) return Curve{};
+      const auto pieces = pieces_of(*made, setup_.piece);
+      const auto order = shuffled(pieces.size(), seed_, i);
+      Curve row = eq9_curve(some_of(pieces, order, 0, pieces.size() / 2), rule_);
+      const Curve whole = eq9_curve(pieces, rule_);
+      row.insert(row.end(), whole.begin(), whole.end());
+      return row;
+    });
+    double sum = 0;
+    mean.assign(out_.real.size(), 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      // A diverged world is as unlike the recordings as can be.
+      if (rows[i].empty()) return INFINITY;
+      const auto middle = rows[i].begin() + static_cast<std::ptrdiff_t>(mean.size());
+      sum += eq9(Curve(rows[i].begin(), middle), halves_[i]) / n;
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += rows[i][mean.size() + k] / n;
+    }
+    return sum;
+  }
+
+  Stages& stages_;
+  const CalibrationSetup& setup_;
+  Emulator emulator_;
+  std::vector<Recording> pieces_;
+  Eq9 rule_;
+  std::uint64_t seed_;
+  std::vector<Curve> halves_;
+  MsdFit out_;
+};
+
+VelocityMap map_of(const std::vector<Recording>& recordings, double radius) {
+  std::vector<SmoothRecording> smoothed;
+  for (const Recording& one : recordings) {
+    smoothed.push_back(
+        smooth(one, {.method = SmoothingMethod::polynomial, .window = 0.3, .degree = 3}));
+  }
+  return velocity_map(smoothed, kMapCells, radius);
+}
+
+}  // namespace
+
+void compare_with_data(Stages& stages, CalibrationResult& out) {
+  const CalibrationSetup& setup = stages.setup();
+  std::vector<double> start, estimate;
+  for (const CalibratedParameter& p : out.parameters) {
+    start.push_back(p.start), estimate.push_back(p.estimate);
+  }
+  out.msd.push_back(
+      Comparison(stages, setup.training, setup.shapes, "training").fit(start, estimate));
+  if (!setup.held_out.empty()) {
+    out.msd.push_back(
+        Comparison(stages, setup.held_out, setup.held_out_shapes, "held out").fit(start, estimate));
+  }
+  const auto made =
+      setup.emulator(setup.shapes).record(estimate, derived_seed(setup.options.seed, kCompareSeed));
+  const double radius = setup.model.tank.radius;
+  out.real_velocity = map_of(setup.training, radius);
+  if (made) out.simulated_velocity = map_of(*made, radius);
+}
+
+}  // namespace lilytank

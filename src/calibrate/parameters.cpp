@@ -1,0 +1,62 @@
+// What is looked for, and between which bounds.
+#include <algorithm>
+
+#include "lilytank/calibration.hpp"
+#include "lilytank/math.hpp"
+
+namespace lilytank {
+namespace {
+
+template <std::size_t n>
+std::size_t index_of(const std::string& word, const std::string (&words)[n], const char* what) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (word == words[i]) return i;
+  }
+  std::string all;
+  for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
+  throw InputError(std::string(what) + " '" + word + "' is none of " + all +
+                   did_you_mean(word, words));
+}
+
+const std::string kObjectives[]{"summary", "msd-weighted", "msd"};
+const std::string kFlows[]{"smooth", "paper", "scenario"};
+
+}  // namespace
+
+double FitParameter::to_scale(double value) const {
+  return logarithmic ? log_portable(value) : value;
+}
+double FitParameter::from_scale(double value) const {
+  return logarithmic ? exp_portable(value) : value;
+}
+
+// Within these bounds a step of 25 ms takes less than a third of a body's speed relative to the
+// water, for any speed of the water in such a tank.
+std::vector<FitParameter> standard_parameters(BodyKind body) {
+  if (body == BodyKind::ball) {
+    return {{"flow.K_v", "1", 0.4, 2.5, true},
+            {"forces.ball_drag.C", "1", 0.05, 5, true},
+            {"forces.stochastic.sigma_stoch", "N", 5e-4, 0.04, true},
+            {"forces.damping.D_linear", "1", 0, 0.8, false}};
+  }
+  return {{"flow.K_v", "1", 0.4, 2.5, true},
+          {"forces.face_drag.K_F", "1", 0.05, 3, true},
+          {"forces.stochastic.sigma_stoch", "N", 1e-3, 0.04, true},
+          {"forces.damping.D_linear", "1", 0, 0.8, false},
+          {"forces.damping.D_angular", "1", 0, 0.8, false}};
+}
+
+CalibrationObjective objective_named(const std::string& word) {
+  return static_cast<CalibrationObjective>(index_of(word, kObjectives, "objective"));
+}
+std::string name_of(CalibrationObjective objective) {
+  return kObjectives[static_cast<std::size_t>(objective)];
+}
+CalibrationFlow flow_named(const std::string& word) {
+  return static_cast<CalibrationFlow>(index_of(word, kFlows, "flow"));
+}
+std::string name_of(CalibrationFlow flow) {
+  return kFlows[static_cast<std::size_t>(flow)];
+}
+
+}  // namespace lilytank

@@ -1,0 +1,195 @@
+// The files of a calibration.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/calibration.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+// Six digits: more than any interval is narrow. Empty where there is no number.
+std::string number(double value) {
+  if (!std::isfinite(value)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string overlay(const CalibrationResult& c) {
+  std::string out = "# Parameters found from the recordings of " + c.name + " (objective " +
+                    c.objective +
+                    "): lay this over a scenario, as in\n"
+                    "#   lilytank run scenarios/tank_lilies.toml calibrated.toml\n"
+                    "# 95 % intervals follow each value; they hold for this step and this flow.\n";
+  out += "run.dt = " + shortest(c.dt) + "\n";
+  if (!c.flow_csv.empty()) out += "flow.file = \"flow.csv\"\n";
+  for (const CalibratedParameter& p : c.parameters) {
+    if (p.parameter.nuisance) continue;
+    const std::string value = number(p.estimate);
+    out += p.parameter.path + " = " + value + "  # " + number(p.low) + " .. " + number(p.high) +
+           (p.parameter.unit == "1" ? "" : " " + p.parameter.unit) + "\n";
+  }
+  return out;
+}
+
+std::string intervals_csv(const CalibrationResult& c) {
+  std::string out =
+      "parameter,unit,scale,bound_low,bound_high,start,searched,estimate,low,high,deviation,bias,"
+      "nuisance\n";
+  for (const CalibratedParameter& p : c.parameters) {
+    const FitParameter& of = p.parameter;
+    out += of.path + "," + of.unit + "," + (of.logarithmic ? "log" : "linear");
+    for (const double v :
+         {of.low, of.high, p.start, p.searched, p.estimate, p.low, p.high, p.deviation, p.bias}) {
+      out += "," + number(v);
+    }
+    out += of.nuisance ? ",1\n" : ",0\n";
+  }
+  return out;
+}
+
+std::string correlation_csv(const CalibrationResult& c) {
+  std::string out = "first,second,correlation\n";
+  const std::size_t n = c.parameters.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      out += c.parameters[i].parameter.path + "," + c.parameters[j].parameter.path + "," +
+             number(c.correlation[i * n + j]) + "\n";
+    }
+  }
+  return out;
+}
+
+std::string profiles_csv(const CalibrationResult& c) {
+  std::string out = "parameter,value,misfit_rise\n";
+  for (const CalibratedParameter& p : c.parameters) {
+    for (std::size_t i = 0; i < p.profile_value.size(); ++i) {
+      out += p.parameter.path + "," + number(p.profile_value[i]) + "," + number(p.profile_rise[i]) +
+             "\n";
+    }
+  }
+  return out;
+}
+
+std::string numbers_csv(const CalibrationResult& c) {
+  std::string out = "group,number,observed,expected,deviation,z\n";
+  for (const ComparedNumber& n : c.numbers) {
+    out += n.entry.group + "," + n.entry.name;
+    for (const double v : {n.observed, n.expected, n.deviation, n.z()}) out += "," + number(v);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string msd_csv(const CalibrationResult& c) {
+  std::string out = "recordings,lag_s,real_m2,before_m2,after_m2\n";
+  for (const MsdFit& m : c.msd) {
+    for (std::size_t k = 0; k < m.lag.size(); ++k) {
+      out += m.recordings;
+      for (const double v : {m.lag[k], m.real[k], m.simulated_before[k], m.simulated_after[k]}) {
+        out += "," + number(v);
+      }
+      out += "\n";
+    }
+  }
+  return out;
+}
+
+std::string velocity_csv(const CalibrationResult& c) {
+  std::string out = "ix,iy,real_vx_mps,real_vy_mps,simulated_vx_mps,simulated_vy_mps\n";
+  const VelocityMap &a = c.real_velocity, &b = c.simulated_velocity;
+  for (std::size_t i = 0; i < a.vx.size(); ++i) {
+    const auto cells = static_cast<std::size_t>(a.cells);
+    out += std::to_string(i % cells) + "," + std::to_string(i / cells) + "," + number(a.vx[i]) +
+           "," + number(a.vy[i]);
+    out += b.vx.empty() ? ",," : "," + number(b.vx[i]) + "," + number(b.vy[i]);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string history_csv(const CalibrationResult& c) {
+  std::string out = "iteration,evaluations,best,median,worst,spread\n";
+  for (const IterationRecord& r : c.history) {
+    out += std::to_string(r.iteration) + "," + std::to_string(r.evaluations);
+    for (const double v : {r.best, r.median, r.worst, r.spread}) out += "," + number(v);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+std::string json_number(double value) {
+  return std::isfinite(value) ? number(value) : "null";
+}
+
+std::string json(const CalibrationResult& c) {
+  std::string out =
+      "{\n  \"name\": " + quoted(c.name) + ",\n  \"objective\": " + quoted(c.objective) +
+      ",\n  \"flow\": " + quoted(c.flow) + ",\n  \"search\": " + quoted(c.search_name) +
+      ",\n  \"dt\": " + json_number(c.dt) +
+      ",\n  \"simulations\": " + std::to_string(c.simulations) +
+      ",\n  \"misfit\": " + json_number(c.misfit) +
+      ",\n  \"misfit_p\": " + json_number(c.misfit_p) + ",\n  \"parameters\": [";
+  const char* comma = "";
+  for (const CalibratedParameter& p : c.parameters) {
+    out += std::string(comma) + "\n    {\"path\": " + quoted(p.parameter.path) +
+           ", \"unit\": " + quoted(p.parameter.unit) + ", \"start\": " + json_number(p.start) +
+           ", \"estimate\": " + json_number(p.estimate) + ", \"low\": " + json_number(p.low) +
+           ", \"high\": " + json_number(p.high) + "}";
+    comma = ",";
+  }
+  out += "\n  ],\n  \"eq9\": [";
+  comma = "";
+  for (const MsdFit& m : c.msd) {
+    out += std::string(comma) + "\n    {\"recordings\": " + quoted(m.recordings) +
+           ", \"pieces\": " + std::to_string(m.pieces) +
+           ", \"seconds\": " + json_number(m.seconds) + ", \"before\": " + json_number(m.before) +
+           ", \"after\": " + json_number(m.after) + ", \"floor\": " + json_number(m.floor) + "}";
+    comma = ",";
+  }
+  out += "\n  ],\n  \"warnings\": [";
+  comma = "";
+  for (const std::string& w : c.warnings) {
+    out += std::string(comma) + "\n    " + quoted(w);
+    comma = ",";
+  }
+  return out + (c.warnings.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+}  // namespace
+
+std::vector<std::string> write_calibration(const CalibrationResult& c, const std::string& dir) {
+  const std::filesystem::path path(dir);
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  std::vector<std::pair<std::string, std::string>> files{
+      {"calibrated.toml", overlay(c)},         {"intervals.csv", intervals_csv(c)},
+      {"correlation.csv", correlation_csv(c)}, {"profiles.csv", profiles_csv(c)},
+      {"numbers.csv", numbers_csv(c)},         {"history.csv", history_csv(c)},
+      {"calibration.json", json(c)},           {"calibration.txt", calibration_text(c)}};
+  if (!c.msd.empty()) {
+    files.emplace_back("msd.csv", msd_csv(c));
+    files.emplace_back("velocity.csv", velocity_csv(c));
+  }
+  if (!c.flow_csv.empty()) files.emplace_back("flow.csv", c.flow_csv);
+  std::vector<std::string> names;
+  for (const auto& [name, content] : files) {
+    write_atomically((path / name).string(), content);
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,47 @@
+// A calibration before anything is looked for: data, flow, emulators, what is compared.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lilytank/calibration.hpp"
+
+namespace lilytank {
+
+/// What depends on the experiment and the options alone.
+struct CalibrationSetup {
+  CalibrationOptions options;
+  std::string name;
+  Model model;  ///< with the flow that was found, at the scenario's values
+  BodyKind body = BodyKind::lily;
+  std::vector<Recording> training, held_out;
+  std::vector<RecordingShape> shapes, held_out_shapes;
+  std::vector<FitParameter> parameters;  ///< nuisances at the end
+  std::vector<double> start;             ///< their first values
+  MotionSummary summary;
+  double piece = 60;  ///< s, of Eq. 9 and of the search's simulations
+  std::optional<FlowEstimate> flow;
+  BallPhysics ball;
+  std::vector<Recording> balls;
+  std::uint64_t identity = 0;  ///< of data, model and every option that a result depends on
+
+  std::vector<std::string> paths() const;
+  std::size_t told() const;  ///< parameters without nuisances
+  Emulator emulator(const std::vector<RecordingShape>& of) const;
+  /// With steps of 25 ms: for the search, which need not be exact.
+  Emulator coarse() const;
+
+  /// What the objective compares, of recordings of the experiment's whole length.
+  std::vector<double> numbers(const std::vector<Recording>& recordings) const;
+  std::vector<SummaryEntry> entries() const;
+};
+
+/// Reads nothing further than the experiment; extracts the flow. Throws InputError.
+CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& options);
+
+/// Recordings cut into pieces of `seconds`, what is left over left out; headings and ids kept.
+std::vector<Recording> pieces_of(const std::vector<Recording>& recordings, double seconds);
+
+}  // namespace lilytank

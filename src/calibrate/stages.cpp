@@ -1,0 +1,163 @@
+#include "calibrate/stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "lilytank/random.hpp"
+#include "lilytank/search_run.hpp"
+#include "lilytank/state.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
+
+std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchSpace& space) {
+  const CalibrationOptions& o = setup.options;
+  const std::vector<double> start(setup.start.begin(),
+                                  setup.start.begin() + static_cast<std::ptrdiff_t>(space.size()));
+  const std::uint64_t seed = derived_seed(o.seed, kSearchOrder);
+  if (o.search_name == "cma-es") {
+    CmaEsOptions options;
+    options.budget = o.search_budget, options.start = start;
+    return make_cma_es(space, options, seed);
+  }
+  SwarmOptions options = swarm_preset(o.search_name);
+  if (o.search_particles > 0) options.particles = o.search_particles;
+  if (o.search_iterations > 0) options.iterations = o.search_iterations;
+  options.starts = {start};
+  return make_swarm(space, options, seed);
+}
+
+}  // namespace
+
+Stages::Stages(CalibrationSetup& setup) : setup_(setup), emulator_(setup.emulator(setup.shapes)) {
+  if (setup.options.out.empty()) return;
+  std::error_code ignored;
+  fs::create_directories(fs::path(setup.options.out) / "work", ignored);
+}
+
+std::string Stages::file(const std::string& stage) const {
+  if (setup_.options.out.empty()) return "";
+  return (fs::path(setup_.options.out) / "work" / (stage + ".rows")).string();
+}
+
+std::vector<std::vector<double>> Stages::rows(const std::string& stage, int count,
+                                              const std::function<std::vector<double>(int)>& work) {
+  KeptRows kept;
+  kept.file = file(stage), kept.identity = setup_.identity;
+  kept.threads = setup_.options.threads, kept.stop = setup_.options.stop;
+  if (setup_.options.progress) {
+    kept.progress = [&](int done, int all) {
+      setup_.options.progress(static_cast<double>(done) / all, stage);
+    };
+  }
+  auto out = kept_rows(kept, count, work);
+  if (!out) throw Stopped{};
+  return std::move(*out);
+}
+
+FlowMaps Stages::flow_maps() {
+  const bool exact = !setup_.flow || !setup_.flow->noise || setup_.options.flow_draws < 2;
+  if (exact) return FlowMaps(setup_.model.field);
+  const std::uint64_t seed = derived_seed(setup_.options.seed, kFlowSeed);
+  const auto found = rows("flow errors", setup_.options.flow_draws, [&](int run) {
+    std::vector<double> row;
+    for (const FlowSample& s :
+         redraw_flow(*setup_.flow, setup_.balls, setup_.ball, FlowOptions{}, seed, run)) {
+      row.insert(row.end(), {s.mu_x, s.mu_y, s.sigma_x, s.sigma_y});
+    }
+    return row;
+  });
+  std::vector<FlowDifference> errors;
+  for (const std::vector<double>& row : found) {
+    FlowDifference error;
+    for (std::size_t i = 0; i + 3 < row.size(); i += 4) {
+      error.push_back({row[i], row[i + 1], row[i + 2], row[i + 3]});
+    }
+    errors.push_back(std::move(error));
+  }
+  return FlowMaps(setup_.model.field, std::move(errors));
+}
+
+std::vector<double> Stages::search(CalibrationResult& out) {
+  const CalibrationSearch objective(setup_);
+  std::unique_ptr<Search> search = make_search(setup_, objective.space());
+  const auto value = [&](const Trial& trial) { return std::optional(objective.value(trial)); };
+  if (setup_.options.out.empty()) {
+    for (auto trials = search->ask(); !trials.empty(); trials = search->ask()) {
+      std::vector<double> values;
+      for (auto& row : rows("search", static_cast<int>(trials.size()), [&](int i) {
+             return std::vector<double>{objective.value(trials[static_cast<std::size_t>(i)])};
+           })) {
+        values.push_back(row.front());
+      }
+      search->tell(values);
+    }
+  } else {
+    SearchRunOptions run;
+    run.dir = (fs::path(setup_.options.out) / "work" / "search").string();
+    run.identity = "calibration " + hex(setup_.identity), run.force = setup_.options.force;
+    run.threads = setup_.options.threads, run.stop = setup_.options.stop;
+    if (setup_.options.progress) {
+      run.progress = [&](const SearchProgress& now) {
+        char note[80];
+        std::snprintf(note, sizeof note, "search, best fitness %.4g", now.best);
+        setup_.options.progress(now.done, note);
+      };
+    }
+    SearchRunResult result = run_search(std::move(search), value, run);
+    if (result.stopped) throw Stopped{};
+    search = std::move(result.search);
+  }
+  out.history = search->history();
+  std::vector<double> values = setup_.start;
+  const Incumbent best = search->best();
+  if (!std::isfinite(best.mean)) throw InputError("the model diverges wherever it was tried");
+  std::copy(best.point.begin(), best.point.end(), values.begin());
+  return values;
+}
+
+std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
+                                                  const Eigen::MatrixXd& points, std::uint64_t seed,
+                                                  const FlowMaps& maps) {
+  const auto found = rows(stage, static_cast<int>(points.rows()), [&](int i) {
+    const auto run = static_cast<std::uint64_t>(i);
+    const auto field = maps.draw(derived_seed(seed, kFlowMix), i);
+    const auto made =
+        emulator_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
+    return made ? setup_.numbers(*made) : std::vector<double>{};
+  });
+  simulations_ += static_cast<int>(found.size());
+  return found;
+}
+
+Eigen::VectorXd Stages::to_scale(const std::vector<double>& values) const {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out(static_cast<Eigen::Index>(i)) = setup_.parameters[i].to_scale(values[i]);
+  }
+  return out;
+}
+
+std::vector<double> Stages::from_scale(const Eigen::VectorXd& point) const {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < setup_.parameters.size(); ++i) {
+    const FitParameter& p = setup_.parameters[i];
+    out.push_back(std::clamp(p.from_scale(point(static_cast<Eigen::Index>(i))), p.low, p.high));
+  }
+  return out;
+}
+
+FitBounds Stages::bounds() const {
+  FitBounds out;
+  std::vector<double> low, high;
+  for (const FitParameter& p : setup_.parameters) low.push_back(p.low), high.push_back(p.high);
+  out.low = to_scale(low), out.high = to_scale(high);
+  return out;
+}
+
+}  // namespace lilytank

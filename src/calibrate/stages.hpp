@@ -1,0 +1,67 @@
+// The stages of a calibration, in their order. Each keeps what it has done in the directory and
+// goes on from there.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/setup.hpp"
+#include "lilytank/local_model.hpp"
+#include "study/kept_rows.hpp"
+
+namespace lilytank {
+
+/// Thrown by a stage once the stop signal is set; caught by calibrate().
+struct Stopped {};
+
+/// What the stages share.
+class Stages {
+ public:
+  explicit Stages(CalibrationSetup& setup);
+
+  /// The flow and the draws of its error.
+  FlowMaps flow_maps();
+  /// The search's answer, with nuisances at their start.
+  std::vector<double> search(CalibrationResult& out);
+
+  /// Numbers that the objective compares, of whole experiments simulated at points (a row each, on
+  /// the fitted scale), each in another flow that the balls allow; empty rows where worlds
+  /// diverged.
+  std::vector<std::vector<double>> simulate(const std::string& stage, const Eigen::MatrixXd& points,
+                                            std::uint64_t seed, const FlowMaps& maps);
+  /// Rows kept under a stage's name.
+  std::vector<std::vector<double>> rows(const std::string& stage, int count,
+                                        const std::function<std::vector<double>(int)>& work);
+
+  const CalibrationSetup& setup() const { return setup_; }
+  Eigen::VectorXd to_scale(const std::vector<double>& values) const;
+  /// Clipped to the bounds.
+  std::vector<double> from_scale(const Eigen::VectorXd& point) const;
+  FitBounds bounds() const;
+  int simulations() const { return simulations_; }
+
+ private:
+  std::string file(const std::string& stage) const;
+  CalibrationSetup& setup_;
+  Emulator emulator_;
+  int simulations_ = 0;
+};
+
+/// A local model about the answer, and the data's fit.
+struct LocalAnswer {
+  LocalModel model;
+  LocalFit fit;
+  int rounds = 0;
+  bool settled = false;  ///< the last design was about the answer
+};
+LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
+                         const Eigen::VectorXd& observed);
+
+/// Fills in estimates, intervals, correlations, profiles, misfit and numbers.
+void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
+                    const Eigen::VectorXd& observed, CalibrationResult& out);
+
+/// Eq. 9 before and after, against the noise floor, and Fig. 7's maps.
+void compare_with_data(Stages& stages, CalibrationResult& out);
+
+}  // namespace lilytank

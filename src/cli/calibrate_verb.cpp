@@ -1,0 +1,138 @@
+// lilytank calibrate: the model's parameters from recordings.
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "lilytank/calibration.hpp"
+#include "lilytank/model_parameter.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+#include "text/number.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+void add_options(VerbOptions& options) {
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  const auto list = [] { return cxxopts::value<std::vector<std::string>>(); };
+  options.add()("objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", text(),
+                "WORD")("flow", "smooth (default) or paper: from the balls; or scenario", text(),
+                        "WORD")("balls", "calibrate the balls' parameters instead of the Lilies'")(
+      "vary", "another parameter, or another range of one: forces.body_force.fx=-0.01..0.01",
+      list(),
+      "PATH=LOW..HIGH")("hold-out", "keep the last N recordings for testing (0)", text(), "N")(
+      "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(
+      "budget", "evaluations of the search (600; of a swarm as many as the paper)", text(), "N")(
+      "replicates", "experiments simulated for the intervals (200)", text(), "N")(
+      "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
+      "N")("start", "overlay whose values the search starts from, as calibrated.toml", text(),
+           "FILE")("set", "a value over the experiment's, as run.dt='5 ms'", list(), "PATH=VALUE")(
+      "out", "directory of the results (default: out/calibrate-<name>)", text(), "DIR")(
+      "seed", "of everything that is drawn (1)", text(), "N")(
+      "threads", "worlds at a time (default: one a core)", text(), "N")(
+      "force", "replace another calibration's files")("quiet", "no progress");
+}
+
+// "PATH=LOW..HIGH": takes the place of the parameter of that path, or comes after the others.
+void vary(const VerbOptions& options, const std::string& asked,
+          std::vector<FitParameter>& parameters) {
+  const auto equals = asked.find('='), dots = asked.find("..");
+  const auto malformed = [&]() {
+    options.refuse("--vary " + asked +
+                   " is not of the form PATH=LOW..HIGH, as in --vary "
+                   "forces.face_drag.K_F=0.1..1");
+  };
+  if (equals == std::string::npos || dots == std::string::npos || dots < equals) malformed();
+  const ModelParameter of = model_parameter(asked.substr(0, equals));
+  const auto low = parse_number(asked.substr(equals + 1, dots - equals - 1));
+  const auto high = parse_number(asked.substr(dots + 2));
+  if (!low || !high) malformed();
+  if (!(*low < *high) || *low < of.low || *high > of.high) {
+    options.refuse("--vary " + asked + ": the range must rise and lie within " + shortest(of.low) +
+                   " .. " + shortest(of.high));
+  }
+  // A range over a factor of three or more is looked through by factors.
+  const bool logarithmic = *low > 0 && *high >= 3 * *low;
+  const FitParameter wanted{of.path, of.unit, *low, *high, logarithmic, false};
+  for (FitParameter& p : parameters) {
+    if (p.path == of.path) {
+      p = wanted;
+      return;
+    }
+  }
+  parameters.push_back(wanted);
+}
+
+CalibrationOptions calibration_options(const VerbOptions& options) {
+  CalibrationOptions c;
+  c.body = options.has("balls") ? BodyKind::ball : BodyKind::lily;
+  c.objective = objective_named(options.text("objective", "summary"));
+  c.flow = flow_named(options.text("flow", "smooth"));
+  c.parameters = standard_parameters(c.body);
+  for (const std::string& asked : options.list("vary")) vary(options, asked, c.parameters);
+  c.hold_out = static_cast<int>(options.whole("hold-out", 0, 0, 1000));
+  c.search_name = options.text(
+      "search", c.objective == CalibrationObjective::msd ? "paper-lilies" : c.search_name);
+  std::vector<std::string> searches = swarm_presets();
+  searches.push_back("cma-es");
+  if (std::find(searches.begin(), searches.end(), c.search_name) == searches.end()) {
+    options.refuse("--search " + c.search_name + " is not known" +
+                   did_you_mean(c.search_name, searches));
+  }
+  c.search_budget = options.whole("budget", c.search_budget, 20, 100000000);
+  if (c.search_name != "cma-es" && options.has("budget")) {
+    const SwarmOptions swarm = swarm_preset(c.search_name);
+    c.search_iterations = static_cast<int>(
+        std::max<std::int64_t>(1, c.search_budget / (swarm.particles * swarm.evaluations)));
+  }
+  c.replicates = static_cast<int>(options.whole("replicates", c.replicates, 20, 100000));
+  c.flow_draws = static_cast<int>(options.whole("flow-draws", c.flow_draws, 0, 10000));
+  c.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  c.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
+  c.force = options.has("force");
+  return c;
+}
+
+}  // namespace
+
+int calibrate_verb(const Arguments& arguments) {
+  VerbOptions options("calibrate", "EXPERIMENT.toml...",
+                      "Finds the model's parameters from an experiment's recordings: estimates, "
+                      "intervals, what the data cannot tell, and how like the recordings the "
+                      "model then is.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().empty()) {
+    options.refuse("of what? write lilytank calibrate EXPERIMENT.toml");
+  }
+  CalibrationOptions job = calibration_options(options);
+  std::vector<std::string> files = options.positional();
+  if (options.has("start")) files.push_back(options.text("start"));
+  const Experiment experiment = load_experiment(files, options.list("set"));
+  job.out = options.text(
+      "out", (std::filesystem::path("out") / ("calibrate-" + experiment.name)).string());
+  if (job.out.empty()) options.refuse("--out is empty");
+  job.stop = &stop_signal();
+  Progress progress(options.has("quiet"));
+  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  const auto found = calibrate(experiment, job);
+  progress.clear();
+  if (!found) {
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  write_calibration(*found, job.out);
+#ifdef LILYTANK_HAS_RENDER
+  draw_calibration(*found, job.out);
+#else
+  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  std::cout << calibration_text(*found) << std::flush;
+  std::cerr << "results in " << job.out << "\n";
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli
