@@ -15,7 +15,7 @@ using Vector = Eigen::VectorXd;
 constexpr double kFirstSpread = 0.08;  // deviation of the first design, as a share of the ranges
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
 constexpr double kLastSpread = 2;      // of the last design, in standard errors
-constexpr double kSettled = 1.2;  // deviations of the design that the answer may be off its centre
+constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -104,7 +104,7 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
     const LocalFit fit = model.fit(observed, near);
     const Vector moved = spread.triangularView<Eigen::Lower>().solve(fit.point - centre);
     const bool settled =
-        moved.norm() < kSettled * std::sqrt(static_cast<double>(moved.size())) && !fit.at_reach;
+        moved.norm() < kSettled && !fit.at_reach;
     answer.emplace(LocalAnswer{std::move(model), fit, round, settled && last});
     if (answer->settled) break;
     centre = fit.point;

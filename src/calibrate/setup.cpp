@@ -159,12 +159,6 @@ Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& of) const
   return Emulator(model, paths(), of);
 }
 
-Emulator CalibrationSetup::coarse() const {
-  Model coarser = model;
-  coarser.steps_per_tick = 1, coarser.dt = kTick;
-  return Emulator(coarser, paths(), shapes);
-}
-
 std::vector<double> CalibrationSetup::numbers(const std::vector<Recording>& recordings) const {
   if (options.objective == CalibrationObjective::summary) return summarise(recordings, summary);
   Eq9 rule = kLocalCurve;

@@ -30,8 +30,6 @@ struct CalibrationSetup {
   std::vector<std::string> paths() const;
   std::size_t told() const;  ///< parameters without nuisances
   Emulator emulator(const std::vector<RecordingShape>& of) const;
-  /// With steps of 25 ms: for the search, which need not be exact.
-  Emulator coarse() const;
 
   /// What the objective compares, of recordings of the experiment's whole length.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;

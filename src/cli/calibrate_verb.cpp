@@ -5,8 +5,10 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
+#include "io/atomic_file.hpp"
 #include "lilytank/calibration.hpp"
 #include "lilytank/model_parameter.hpp"
+#include "lilytank/recovery.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -27,9 +29,16 @@ void add_options(VerbOptions& options) {
       "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(
       "budget", "evaluations of the search (600; of a swarm as many as the paper)", text(), "N")(
       "replicates", "experiments simulated for the intervals (200)", text(), "N")(
-      "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
-      "N")("start", "overlay whose values the search starts from, as calibrated.toml", text(),
-           "FILE")("set", "a value over the experiment's, as run.dt='5 ms'", list(), "PATH=VALUE")(
+      "simulations", "of the first local models (120); the last one has twice as many", text(),
+      "N")("flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)",
+           text(), "N")("start", "overlay whose values the search starts from, as calibrated.toml",
+                        text(), "FILE")("set", "a value over the experiment's, as run.dt='5 ms'",
+                                        list(), "PATH=VALUE")(
+      "recover",
+      "calibrate N synthetic experiments in this scenario and see whether the intervals "
+      "hold the truth",
+      text(), "N")("duration", "of a recording, with --recover ('10 min')", text(), "TIME")(
+      "recordings", "of an experiment, with --recover (3)", text(), "N")(
       "out", "directory of the results (default: out/calibrate-<name>)", text(), "DIR")(
       "seed", "of everything that is drawn (1)", text(), "N")(
       "threads", "worlds at a time (default: one a core)", text(), "N")(
@@ -89,11 +98,42 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
         std::max<std::int64_t>(1, c.search_budget / (swarm.particles * swarm.evaluations)));
   }
   c.replicates = static_cast<int>(options.whole("replicates", c.replicates, 20, 100000));
+  c.round = static_cast<int>(options.whole("simulations", c.round, 40, 100000));
+  c.last_round = 2 * c.round;
   c.flow_draws = static_cast<int>(options.whole("flow-draws", c.flow_draws, 0, 10000));
   c.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   c.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
   c.force = options.has("force");
   return c;
+}
+
+// --recover: no recordings are read, they are simulated.
+int recover_verb(const VerbOptions& options, CalibrationOptions job) {
+  const Scenario scenario = load_scenario(options.positional(), options.list("set"));
+  RecoveryOptions r;
+  r.experiments = static_cast<int>(options.whole("recover", 10, 1, 100000));
+  r.recordings = static_cast<int>(options.whole("recordings", r.recordings, 1, 100));
+  r.seconds = options.number("duration", r.seconds, 10, 1e6, "s");
+  if (options.has("objective")) r.objectives = {job.objective};
+  if (options.has("flow") && job.flow == CalibrationFlow::smooth) r.balls = 24;
+  const std::string title = scenario.title.empty() ? "scenario" : scenario.title;
+  job.out = options.text("out", (std::filesystem::path("out") / ("recover-" + title)).string());
+  job.stop = &stop_signal();
+  Progress progress(options.has("quiet"));
+  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  r.calibration = job;
+  const auto rows = recover(scenario, r);
+  progress.clear();
+  if (!rows) {
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  write_atomically((std::filesystem::path(job.out) / "recovery.csv").string(), recovery_csv(*rows));
+  write_atomically((std::filesystem::path(job.out) / "recovery.txt").string(),
+                   recovery_text(*rows));
+  std::cout << recovery_text(*rows) << std::flush;
+  std::cerr << "results in " << job.out << "\n";
+  return Exit::done;
 }
 
 }  // namespace
@@ -109,6 +149,7 @@ int calibrate_verb(const Arguments& arguments) {
     options.refuse("of what? write lilytank calibrate EXPERIMENT.toml");
   }
   CalibrationOptions job = calibration_options(options);
+  if (options.has("recover")) return recover_verb(options, std::move(job));
   std::vector<std::string> files = options.positional();
   if (options.has("start")) files.push_back(options.text("start"));
   const Experiment experiment = load_experiment(files, options.list("set"));

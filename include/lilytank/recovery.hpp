@@ -1,0 +1,45 @@
+// Whether a calibration's intervals can be trusted: synthetic experiments with known parameters,
+// calibrated like any other.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lilytank/calibration.hpp"
+
+namespace lilytank {
+
+struct RecoveryOptions {
+  int experiments = 10;
+  int recordings = 3;                                  ///< of Lilies in an experiment
+  double seconds = 600;                                ///< of a recording
+  double rate = 30;                                    ///< frames per second
+  double position_noise = 3e-4, heading_noise = 0.01;  ///< m, rad
+  int balls = 0;  ///< of as many recordings of balls; 0: the flow is taken as known
+  std::vector<CalibrationObjective> objectives{CalibrationObjective::summary,
+                                               CalibrationObjective::msd};
+  CalibrationOptions calibration;  ///< of each; its objective, flow and directory are set
+};
+
+/// One interval and the truth.
+struct RecoveryRow {
+  int experiment = 0;
+  std::string objective, parameter;
+  double truth = 0, estimate = 0, low = 0, high = 0;  ///< 95 %
+  double bound_low = 0, bound_high = 0;
+  bool logarithmic = false;
+  bool covered() const { return low <= truth && truth <= high; }
+};
+
+/// Draws true parameters, uniform over the middle half of each range (by factors where the range is
+/// searched so), simulates recordings with per-point gusts and calibrates from the scenario's
+/// values. Experiments whose worlds diverge are drawn again. Nothing if it was stopped.
+std::optional<std::vector<RecoveryRow>> recover(const Scenario& scenario,
+                                                const RecoveryOptions& options);
+
+/// Coverage, bias and width by objective and parameter.
+std::string recovery_text(const std::vector<RecoveryRow>& rows);
+/// One row an interval.
+std::string recovery_csv(const std::vector<RecoveryRow>& rows);
+
+}  // namespace lilytank
