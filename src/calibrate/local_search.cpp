@@ -103,8 +103,7 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
     near.reach = 2.5;
     const LocalFit fit = model.fit(observed, near);
     const Vector moved = spread.triangularView<Eigen::Lower>().solve(fit.point - centre);
-    const bool settled =
-        moved.norm() < kSettled && !fit.at_reach;
+    const bool settled = moved.norm() < kSettled && !fit.at_reach;
     answer.emplace(LocalAnswer{std::move(model), fit, round, settled && last});
     if (answer->settled) break;
     centre = fit.point;

@@ -24,7 +24,8 @@ struct CalibrationSearch::Parts {
   SearchSpace space;
   std::vector<double> observed, deviation;
 
-  explicit Parts(CalibrationSetup from) : setup(std::move(from)), emulator(setup.emulator(setup.shapes)) {
+  explicit Parts(CalibrationSetup from)
+      : setup(std::move(from)), emulator(setup.emulator(setup.shapes)) {
     for (const FitParameter& p : setup.parameters) {
       if (!p.nuisance) space.push_back({p.path, p.low, p.high, p.logarithmic});
     }

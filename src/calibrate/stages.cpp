@@ -23,6 +23,8 @@ std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchS
   if (o.search_name == "cma-es") {
     CmaEsOptions options;
     options.budget = o.search_budget, options.start = start;
+    options.final_evaluations =
+        static_cast<int>(std::clamp<std::int64_t>(o.search_budget / 10, 4, 100));
     return make_cma_es(space, options, seed);
   }
   SwarmOptions options = swarm_preset(o.search_name);

@@ -30,10 +30,10 @@ void add_options(VerbOptions& options) {
       "budget", "evaluations of the search (600; of a swarm as many as the paper)", text(), "N")(
       "replicates", "experiments simulated for the intervals (200)", text(), "N")(
       "simulations", "of the first local models (120); the last one has twice as many", text(),
-      "N")("flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)",
-           text(), "N")("start", "overlay whose values the search starts from, as calibrated.toml",
-                        text(), "FILE")("set", "a value over the experiment's, as run.dt='5 ms'",
-                                        list(), "PATH=VALUE")(
+      "N")("comparisons", "experiments simulated for Eq. 9 before and after (24)", text(), "N")(
+      "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
+      "N")("start", "overlay whose values the search starts from, as calibrated.toml", text(),
+           "FILE")("set", "a value over the experiment's, as run.dt='5 ms'", list(), "PATH=VALUE")(
       "recover",
       "calibrate N synthetic experiments in this scenario and see whether the intervals "
       "hold the truth",
@@ -100,6 +100,7 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
   c.replicates = static_cast<int>(options.whole("replicates", c.replicates, 20, 100000));
   c.round = static_cast<int>(options.whole("simulations", c.round, 40, 100000));
   c.last_round = 2 * c.round;
+  c.comparisons = static_cast<int>(options.whole("comparisons", c.comparisons, 2, 100000));
   c.flow_draws = static_cast<int>(options.whole("flow-draws", c.flow_draws, 0, 10000));
   c.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   c.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));

@@ -1,0 +1,140 @@
+// lilytank calibrate: what users see. Few and short simulations: nothing here is about the answer.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "cli/process.hpp"
+#include "cli/program.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kTank = LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml";
+const std::vector<std::string> kQuick{"calibrate",     kTank, "--budget",      "40",
+                                      "--simulations", "40",  "--replicates",  "20",
+                                      "--flow-draws",  "3",   "--comparisons", "3"};
+
+std::string words(const std::vector<std::string>& of) {
+  std::string out;
+  for (const std::string& word : of) out += "'" + word + "' ";
+  return out;
+}
+
+TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
+  const Program lilytank;
+  Answer a = lilytank(words(kQuick) + "--out c");
+  ASSERT_EQ(a.code, 0) << a.err;
+  for (const char* text : {"calibration of tank", "flow.K_v", "forces.damping.D_angular",
+                           "training", "held out", "noise floor", "misfit"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+  EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);
+  for (const char* name : {"intervals.csv", "correlation.csv", "profiles.csv", "numbers.csv",
+                           "history.csv", "msd.csv", "velocity.csv", "calibration.json"}) {
+    EXPECT_GT(lilytank.here.read(std::string("c/") + name).size(), 50u) << name;
+  }
+#ifdef LILYTANK_HAS_RENDER
+  for (const char* name : {"convergence", "msd", "velocity", "profiles", "estimates"}) {
+    EXPECT_GT(lilytank.here.read(std::string("c/") + name + ".png").size(), 5000u) << name;
+    EXPECT_GT(lilytank.here.read(std::string("c/") + name + ".svg").size(), 2000u) << name;
+  }
+#endif
+  a = lilytank("run '" LILYTANK_SOURCE_DIR
+               "/scenarios/tank_lilies.toml' c/calibrated.toml "
+               "--set run.duration='1 s' --out r --quiet");
+  EXPECT_EQ(a.code, 0) << a.err;
+  // Again: nothing is left to do, and the answer is the same.
+  a = lilytank(words(kQuick) + "--out c");
+  EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);
+}
+
+TEST(calibrateVerb, killedAtAnyMomentTheSameCommandEndsInTheSameFiles) {
+  const Program lilytank;
+  auto quick = kQuick;
+  quick.insert(quick.end(), {"--hold-out", "0", "--quiet"});
+  ASSERT_EQ(lilytank(words(quick) + "--out whole").code, 0);
+  quick.insert(quick.end(), {"--out", "parts"});
+  const auto size = [&](const std::string& file) {
+    std::error_code gone;
+    const auto n = std::filesystem::file_size(lilytank.here.path(file), gone);
+    return gone ? 0 : n;
+  };
+  // In every stage, as soon as something of it is there, and once before.
+  for (const char* file : {"", "flow errors.rows", "search/evaluations.csv", "local model 1.rows",
+                           "replicates.rows", "comparison after, training.rows"}) {
+    Process process(lilytank.here.path(), quick);
+    process.await([&] { return size(std::string("parts/work/") + file) > 100; });
+    process.end(SIGKILL);
+  }
+  ASSERT_EQ(lilytank(words(quick)).code, 0);
+  const auto whole = lilytank.files("whole"), parts = lilytank.files("parts");
+  for (const auto& [name, content] : whole) {
+    // Rows are kept in the order in which they were done.
+    if (name.ends_with(".rows")) continue;
+    ASSERT_TRUE(parts.count(name)) << name;
+    EXPECT_EQ(parts.at(name), content) << name;
+  }
+}
+
+TEST(calibrateVerb, asWellOfBallsAndByThePapersObjective) {
+  const Program lilytank;
+  Answer a = lilytank(words(kQuick) + "--balls --out b --quiet");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("forces.ball_drag.C"), std::string::npos) << a.out;
+  EXPECT_EQ(a.out.find("D_angular"), std::string::npos) << a.out;
+  a = lilytank(words(kQuick) + "--objective msd --flow scenario --out m --quiet");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("objective msd, flow scenario"), std::string::npos) << a.out;
+}
+
+TEST(calibrateVerb, refusesWithOneLine) {
+  const Program lilytank;
+  lilytank.here.write("balls.toml", "[[recording]]\nfile = \"l.csv\"\nbody = \"ball\"\n");
+  lilytank.here.write("l.csv", "frame,time,id,x,y\n0,0,0,0,0\n1,0.1,0,0,0\n");
+  const struct {
+    std::string words, message;
+  } cases[] = {
+      {"", "of what? write lilytank calibrate EXPERIMENT.toml"},
+      {kTank + " --objective sumary", "did you mean 'summary'?"},
+      {kTank + " --flow smoth", "did you mean 'smooth'?"},
+      {kTank + " --search paper-lily", "did you mean 'paper-lilies'?"},
+      {kTank + " --vary forces.face_drag.K_f=0.1..1", "did you mean 'forces.face_drag.K_F'?"},
+      {kTank + " --vary flow.K_v", "is not of the form PATH=LOW..HIGH"},
+      {kTank + " --vary flow.K_v=2..1", "the range must rise and lie within 0 .. 10"},
+      {"balls.toml", "has no recording of body = \"lily\" that is not held out"},
+      {kTank + " --hold-out 9", "there is nothing to calibrate from"},
+  };
+  for (const auto& c : cases) {
+    const Answer a = lilytank("calibrate " + c.words + " --out x");
+    EXPECT_EQ(a.code, 2) << c.words;
+    EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
+    EXPECT_EQ(std::count(a.err.begin(), a.err.end(), '\n'), 1) << a.err;
+    EXPECT_FALSE(lilytank.here.has("x")) << c.words;
+  }
+}
+
+TEST(calibrateVerb, aDirectoryOfAnotherCalibrationIsKept) {
+  const Program lilytank;
+  const std::string quick = words(kQuick) + "--flow scenario --out c --quiet";
+  ASSERT_EQ(lilytank(quick).code, 0);
+  const auto before = lilytank.files("c");
+  const Answer a = lilytank(quick + " --seed 2");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_NE(a.err.find("holds another calibration"), std::string::npos) << a.err;
+  EXPECT_EQ(lilytank.files("c"), before);
+  EXPECT_EQ(lilytank(quick + " --seed 2 --force").code, 0);
+}
+
+TEST(calibrateVerb, recoverTellsWhetherIntervalsHoldTheTruth) {
+  const Program lilytank;
+  lilytank.here.write("s.toml", "title = \"s\"\n[module]\ncount = 6\ndraught = 0.025\n");
+  const Answer a = lilytank(
+      "calibrate s.toml --recover 1 --recordings 1 --duration '20 s' --budget 40 "
+      "--simulations 40 --replicates 20 --objective summary --out c --quiet");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("flow.K_v"), std::string::npos) << a.out;
+  EXPECT_EQ(lilytank.here.read("c/recovery.txt"), a.out);
+  EXPECT_NE(lilytank.here.read("c/recovery.csv").find("1,summary,flow.K_v,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lilytank

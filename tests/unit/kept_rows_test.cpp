@@ -1,0 +1,78 @@
+// Rows that are kept: what was done is not done again, and damage is refused.
+#include "study/kept_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "lilytank/error.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+using Row = std::vector<double>;
+
+Row row_of(int i) {
+  return i == 3 ? Row{} : Row{0.1 * i, 1.0 / (i + 1), -1e-300};
+}
+
+TEST(KeptRows, areReadFromTheFileAndOnlyTheMissingAreDone) {
+  const TemporaryDirectory here;
+  const KeptRows kept{here.path("r.rows"), 5};
+  std::atomic<int> done = 0;
+  const auto work = [&](int i) { return ++done, row_of(i); };
+  const auto first = kept_rows(kept, 6, work);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(done, 6);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ((*first)[static_cast<std::size_t>(i)], row_of(i));
+  const auto more = kept_rows(kept, 9, work);
+  EXPECT_EQ(done, 9);
+  EXPECT_EQ(more->size(), 9u);
+  EXPECT_TRUE(std::equal(first->begin(), first->end(), more->begin()));
+}
+
+TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
+  const TemporaryDirectory here;
+  const KeptRows kept{here.path("r.rows"), 5, 1};
+  const auto whole = kept_rows(kept, 4, row_of);
+  const std::string text = here.read("r.rows");
+  for (std::size_t length = 0; length < text.size(); length += 7) {
+    here.write("r.rows", text.substr(0, length));
+    EXPECT_EQ(kept_rows(kept, 4, row_of), whole) << length;
+  }
+}
+
+TEST(KeptRows, ofAnotherCalculationOrDamagedAreRefused) {
+  const TemporaryDirectory here;
+  kept_rows({here.path("r.rows"), 5}, 2, row_of);
+  EXPECT_THROW(kept_rows({here.path("r.rows"), 6}, 2, row_of), InputError);
+  const std::string text = here.read("r.rows");
+  for (const char* line : {"x,1;\n", "0,nonsense;\n", "0,1\n", "-1,2;\n"}) {
+    here.write("r.rows", text + line);
+    try {
+      kept_rows({here.path("r.rows"), 5}, 2, row_of);
+      ADD_FAILURE() << line;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("r.rows:4:1"), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(KeptRows, stopKeepsWhatIsDone) {
+  const TemporaryDirectory here;
+  std::atomic<bool> stop = false;
+  KeptRows kept{here.path("r.rows"), 5, 1, &stop};
+  EXPECT_FALSE(kept_rows(kept, 8, [&](int i) {
+    stop = i >= 3;
+    return row_of(i);
+  }));
+  stop = false;
+  int done = 0;
+  EXPECT_TRUE(kept_rows(kept, 8, [&](int i) { return ++done, row_of(i); }));
+  EXPECT_LT(done, 8);
+  EXPECT_GT(done, 0);
+}
+
+}  // namespace
+}  // namespace lilytank

@@ -1,0 +1,121 @@
+// Local models: a quadratic is found exactly, and what is told of parameters is what theory says.
+#include "lilytank/local_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+double normal(std::int64_t row, std::uint32_t column, std::uint32_t what) {
+  return normal_pair({7, Stream::calibrate, row, column, what})[0];
+}
+
+/// Six numbers of two parameters, quadratic in them.
+Vector truth(const Vector& p) {
+  Vector out(6);
+  out << 1 + p(0), 2 - p(1) + 0.3 * p(0) * p(0), p(0) + p(1), 0.5 * p(0) * p(1), 3,
+      p(1) * p(1) - p(0);
+  return out;
+}
+
+/// Simulations about (0.5, -0.2) with noise of the same deviation in every number but the fifth.
+Design design(int count, double noise) {
+  Design out{Matrix(count, 2), Matrix(count, 6)};
+  for (int i = 0; i < count; ++i) {
+    out.points.row(i) << 0.5 + 0.3 * normal(i, 0, 100), -0.2 + 0.2 * normal(i, 1, 100);
+    out.numbers.row(i) = truth(out.points.row(i));
+    for (int k = 0; k < 6; ++k) {
+      if (k != 4) out.numbers(i, k) += noise * normal(i, static_cast<std::uint32_t>(k), 101);
+    }
+  }
+  return out;
+}
+
+TEST(LocalModel, findsAQuadraticAndItsParameters) {
+  for (const Misfit misfit : {Misfit::covariance, Misfit::absolute}) {
+    const LocalModel model(design(60, 1e-7), misfit);
+    Vector at(2);
+    at << 0.7, -0.35;
+    EXPECT_LT((model.mean(at) - truth(at)).norm(), 1e-5);
+    Matrix slope(6, 2);
+    slope << 1, 0, 0.6 * at(0), -1, 1, 1, 0.5 * at(1), 0.5 * at(0), 0, 0, -1, 2 * at(1);
+    EXPECT_LT((model.slope(at) - slope).norm(), 1e-4);
+    const LocalFit fit = model.fit(truth(at));
+    EXPECT_LT((fit.point - at).norm(), 1e-4);
+    EXPECT_FALSE(fit.at_reach);
+  }
+}
+
+TEST(LocalModel, intervalsFromTheCovarianceAreThoseThatScatterShows) {
+  const double noise = 0.02;
+  const LocalModel model(design(400, noise));
+  Vector at(2);
+  at << 0.5, -0.2;
+  const Matrix expected = model.parameter_covariance(at);
+  const int n = 2000;
+  Matrix found(n, 2);
+  double misfit = 0;
+  for (int i = 0; i < n; ++i) {
+    Vector data = truth(at);
+    for (int k = 0; k < 6; ++k) {
+      if (k != 4) data(k) += noise * normal(i, static_cast<std::uint32_t>(k), 102);
+    }
+    const LocalFit fit = model.fit(data);
+    found.row(i) = fit.point;
+    misfit += fit.misfit / n;
+  }
+  const Vector mean = found.colwise().mean();
+  const Matrix off = found.rowwise() - mean.transpose();
+  const Matrix scatter = off.transpose() * off / (n - 1);
+  for (int k = 0; k < 2; ++k) {
+    // The model's own error: 1 / sqrt(400) of the noise at the centre, a little more with
+    // quadratics.
+    EXPECT_NEAR(mean(k), at(k), 0.3 * std::sqrt(expected(k, k)));
+    // Deviations from 2000 are known to 1.6 %, the covariance from 400 to some 4 %.
+    EXPECT_NEAR(std::sqrt(scatter(k, k) / expected(k, k)), 1, 0.12);
+  }
+  // Five numbers that vary, less two parameters.
+  EXPECT_NEAR(misfit, 3, 0.4);
+}
+
+TEST(LocalModel, aProfileRisesByOneAtAStandardError) {
+  const LocalModel model(design(400, 0.02));
+  Vector at(2);
+  at << 0.5, -0.2;
+  const LocalFit best = model.fit(truth(at));
+  const double error = std::sqrt(model.parameter_covariance(best.point)(0, 0));
+  for (const double side : {-1, 1}) {
+    const LocalFit held = model.fit_with(truth(at), 0, best.point(0) + side * error);
+    EXPECT_DOUBLE_EQ(held.point(0), best.point(0) + side * error);
+    EXPECT_NEAR(held.misfit - best.misfit, 1, 0.15);
+  }
+}
+
+TEST(LocalModel, boundsHoldAndReachIsTold) {
+  const LocalModel model(design(60, 1e-7));
+  Vector at(2);
+  at << 0.7, -0.35;
+  FitBounds bounds;
+  bounds.low = Vector::Constant(2, -1), bounds.high = Vector::Constant(2, 0.6);
+  const LocalFit fit = model.fit(truth(at), bounds);
+  EXPECT_DOUBLE_EQ(fit.point(0), 0.6);
+  at << 5, -0.2;
+  FitBounds near;
+  near.reach = 1;
+  EXPECT_TRUE(model.fit(truth(at), near).at_reach);
+}
+
+TEST(LocalModel, tooFewSimulationsAreRefused) {
+  EXPECT_THROW(LocalModel(design(6, 0.1)), std::invalid_argument);
+  EXPECT_NO_THROW(LocalModel(design(9, 0.1)));  // without products of the two
+}
+
+}  // namespace
+}  // namespace lilytank
