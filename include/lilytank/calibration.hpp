@@ -64,8 +64,8 @@ struct CalibrationOptions {
   int search_particles = 0, search_iterations = 0;  ///< of a swarm
   std::int64_t search_budget = 600;                 ///< evaluations, of other searches
   int flow_draws = 24;                              ///< of the flow's error; 0: the flow is exact
-  int round = 120, last_round = 240;                ///< simulations of a local model
-  int most_rounds = 6;
+  int round = 120, last_round = 240;  ///< simulations of a round, and of the last local model
+  int most_rounds = 8;
   int replicates = 200;  ///< experiments simulated for the intervals
   int comparisons = 24;  ///< experiments simulated for Eq. 9 before and after
   std::uint64_t seed = 1;

@@ -16,6 +16,7 @@ constexpr double kFirstSpread = 0.08;  // deviation of the first design, as a sh
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
 constexpr double kLastSpread = 2;      // of the last design, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
+constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -29,7 +30,7 @@ Matrix scattered(const Vector& centre, const Matrix& spread, int count, const Fi
       z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 2})[0];
     }
     // Far points would bend a quadratic, and tell little of the middle.
-    const double far = z.norm() / (1.5 * std::sqrt(static_cast<double>(p)));
+    const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
     if (far > 1) z /= far;
     Vector at = centre + (i % 2 == 0 ? 1 : -1) * (spread * z);
     for (Eigen::Index k = 0; k < p; ++k) {
@@ -42,28 +43,46 @@ Matrix scattered(const Vector& centre, const Matrix& spread, int count, const Fi
   return points;
 }
 
-// Rows of worlds that diverged are left out.
-Design design_of(const Matrix& points, const std::vector<std::vector<double>>& rows) {
-  std::vector<Eigen::Index> whole;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].empty()) whole.push_back(static_cast<Eigen::Index>(i));
+// All simulations so far; those of worlds that diverged are left out.
+class Simulated {
+ public:
+  void add(const Matrix& points, std::vector<std::vector<double>> rows) {
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].empty()) {
+        ++lost;
+      } else {
+        points_.push_back(points.row(static_cast<Eigen::Index>(i)));
+        rows_.push_back(std::move(rows[i]));
+      }
+    }
+    if (2 * lost > rows.size()) {
+      throw InputError("more than half of the simulations about the search's answer diverged");
+    }
   }
-  if (2 * whole.size() < rows.size()) {
-    throw InputError("more than half of the simulations about the search's answer diverged");
+  // Those about a centre, of this round or an earlier one.
+  Design near(const Vector& centre, const Matrix& spread) const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Vector z = spread.triangularView<Eigen::Lower>().solve(points_[i] - centre);
+      if (z.norm() < kNear * std::sqrt(static_cast<double>(z.size()))) chosen.push_back(i);
+    }
+    Design out;
+    const auto n = static_cast<Eigen::Index>(chosen.size());
+    out.points.resize(n, centre.size());
+    out.numbers.resize(n, static_cast<Eigen::Index>(rows_.front().size()));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const std::size_t from = chosen[static_cast<std::size_t>(i)];
+      out.points.row(i) = points_[from];
+      out.numbers.row(i) = Eigen::Map<const Vector>(rows_[from].data(), out.numbers.cols());
+    }
+    return out;
   }
-  Design out;
-  const auto n = static_cast<Eigen::Index>(whole.size());
-  const auto& first = rows[static_cast<std::size_t>(whole.front())];
-  out.points.resize(n, points.cols());
-  out.numbers.resize(n, static_cast<Eigen::Index>(first.size()));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index from = whole[static_cast<std::size_t>(i)];
-    out.points.row(i) = points.row(from);
-    const auto& row = rows[static_cast<std::size_t>(from)];
-    out.numbers.row(i) = Eigen::Map<const Vector>(row.data(), out.numbers.cols());
-  }
-  return out;
-}
+
+ private:
+  std::vector<Vector> points_;
+  std::vector<std::vector<double>> rows_;
+};
 
 // The next design's spread: so many standard errors, along no axis more than the first one's.
 Matrix spread_of(const Matrix& covariance, const Vector& most) {
@@ -93,22 +112,28 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
   }
   Matrix spread = most.asDiagonal();
   std::optional<LocalAnswer> answer;
-  bool last = false;
+  Simulated simulated;
+  bool narrow = false;
   for (int round = 1; round <= o.most_rounds; ++round) {
     const std::uint64_t seed = derived_seed(o.seed, kRoundSeed + static_cast<std::uint64_t>(round));
-    const Matrix points = scattered(centre, spread, last ? o.last_round : o.round, bounds, seed);
-    const std::string stage = "local model " + std::to_string(round);
-    LocalModel model(design_of(points, stages.simulate(stage, points, seed, maps)), kind);
+    const Matrix points = scattered(centre, spread, o.round, bounds, seed);
+    simulated.add(points,
+                  stages.simulate("local model " + std::to_string(round), points, seed, maps));
+    const Design design = simulated.near(centre, spread);
+    LocalModel model(design, kind);
     FitBounds near = bounds;
     near.reach = 2.5;
     const LocalFit fit = model.fit(observed, near);
     const Vector moved = spread.triangularView<Eigen::Lower>().solve(fit.point - centre);
-    const bool settled = moved.norm() < kSettled && !fit.at_reach;
-    answer.emplace(LocalAnswer{std::move(model), fit, round, settled && last});
-    if (answer->settled) break;
-    centre = fit.point;
-    if (!fit.at_reach) spread = spread_of(answer->model.parameter_covariance(fit.point), most);
-    last = !fit.at_reach;
+    const bool settled = narrow && !fit.at_reach && moved.norm() < kSettled;
+    answer.emplace(LocalAnswer{std::move(model), fit, round, settled});
+    if (settled && design.points.rows() >= o.last_round) break;
+    // A centre that is good enough stays, so that all simulations about it count.
+    if (!settled) centre = fit.point;
+    if (!settled && !fit.at_reach) {
+      spread = spread_of(answer->model.parameter_covariance(fit.point), most);
+    }
+    narrow = !fit.at_reach;
   }
   return std::move(*answer);
 }

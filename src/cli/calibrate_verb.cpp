@@ -23,7 +23,7 @@ void add_options(VerbOptions& options) {
   options.add()("objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", text(),
                 "WORD")("flow", "smooth (default) or paper: from the balls; or scenario", text(),
                         "WORD")("balls", "calibrate the balls' parameters instead of the Lilies'")(
-      "vary", "another parameter, or another range of one: forces.body_force.fx=-0.01..0.01",
+      "vary", "another parameter, or another range of one: forces.body_force.force_x=-0.01..0.01",
       list(),
       "PATH=LOW..HIGH")("hold-out", "keep the last N recordings for testing (0)", text(), "N")(
       "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(

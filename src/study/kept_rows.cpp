@@ -1,7 +1,9 @@
 #include "study/kept_rows.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -20,9 +22,15 @@ std::string head_of(const KeptRows& kept) {
   return "lilytank rows 1 " + hex(kept.identity) + "\n";
 }
 
+// What has no value (a lag that no track is long enough for) has none in the file either.
+std::optional<double> number_of(std::string_view cell) {
+  if (cell == "nan") return std::numeric_limits<double>::quiet_NaN();
+  return parse_number(cell);
+}
+
 std::string line_of(int index, const std::vector<double>& row) {
   std::string line = std::to_string(index);
-  for (const double v : row) line += "," + shortest(v);
+  for (const double v : row) line += "," + (std::isfinite(v) ? shortest(v) : "nan");
   return line + ";\n";
 }
 
@@ -39,7 +47,7 @@ bool take_line(std::string_view line, Rows& rows) {
       index = parse_whole(cell);
       if (!index || *index < 0) return false;
     } else {
-      const auto value = parse_number(cell);
+      const auto value = number_of(cell);
       if (!value) return false;
       row.push_back(*value);
     }
@@ -95,6 +103,7 @@ std::optional<std::vector<std::vector<double>>> kept_rows(
     if (stopped()) return;
     const int index = missing[static_cast<std::size_t>(k)];
     std::vector<double> row = work(index);
+    for (double& v : row) v = std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN();
     const std::lock_guard lock(one_at_a_time);
     if (file) {
       file->append(line_of(index, row));

@@ -19,8 +19,8 @@ struct KeptRows {
 };
 
 /// Rows 0 .. count - 1, those that the file has read from it. A row may be empty (a world that
-/// diverged). Nothing once `stop` is set. Throws InputError if the file is damaged or of another
-/// identity; a last row cut by a kill is done again.
+/// diverged); numbers that are not finite become NaN. Nothing once `stop` is set. Throws InputError
+/// if the file is damaged or of another identity; a last row cut by a kill is done again.
 std::optional<std::vector<std::vector<double>>> kept_rows(
     const KeptRows& kept, int count, const std::function<std::vector<double>(int)>& work);
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 
 #include "lilytank/error.hpp"
 #include "support/temporary_directory.hpp"
@@ -40,6 +41,17 @@ TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
   for (std::size_t length = 0; length < text.size(); length += 7) {
     here.write("r.rows", text.substr(0, length));
     EXPECT_EQ(kept_rows(kept, 4, row_of), whole) << length;
+  }
+}
+
+TEST(KeptRows, aNumberThatIsNoneStaysNone) {
+  const TemporaryDirectory here;
+  const KeptRows kept{here.path("r.rows"), 5};
+  const auto nan = [](int) { return Row{1, std::nan(""), 2}; };
+  for (int time = 0; time < 2; ++time) {
+    const auto rows = kept_rows(kept, 1, nan);
+    EXPECT_TRUE(std::isnan(rows->front()[1]));
+    EXPECT_EQ(rows->front()[2], 2);
   }
 }
 

@@ -29,7 +29,7 @@ TEST(ModelParameter, pathsReachNumbersAndNothingElseChanges) {
 
 TEST(ModelParameter, namingAParameterOfAForceThatIsOffSwitchesItOn) {
   const Model model = standard_model();
-  const Texts paths{"forces.body_force.fx"};
+  const Texts paths{"forces.body_force.force_x"};
   const Model changed = with_parameters(model, paths, std::vector<double>{0.001});
   EXPECT_EQ(changed.forces.size(), model.forces.size() + 1);
   EXPECT_EQ(parameter_value(changed, paths[0]), 0.001);
