@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kFlowCost = 3;  // of simulating balls and extracting, in simulated experiments
+constexpr int kRoundsExpected = 3;
 constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
 
 std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchSpace& space) {
@@ -34,9 +36,23 @@ std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchS
   return make_swarm(space, options, seed);
 }
 
+std::int64_t budget_of(const CalibrationOptions& o) {
+  if (o.search_name == "cma-es") return o.search_budget;
+  const SwarmOptions swarm = swarm_preset(o.search_name);
+  return std::int64_t{o.search_particles > 0 ? o.search_particles : swarm.particles} *
+         (o.search_iterations > 0 ? o.search_iterations : swarm.iterations) * swarm.evaluations;
+}
+
 }  // namespace
 
 Stages::Stages(CalibrationSetup& setup) : setup_(setup), emulator_(setup.emulator(setup.shapes)) {
+  const CalibrationOptions& o = setup.options;
+  double seconds = 0;
+  for (const RecordingShape& shape : setup.shapes) seconds += shape.frames / shape.rate;
+  search_cost_ = static_cast<double>(budget_of(o)) * setup.piece / seconds;
+  expected_ = (setup.flow ? kFlowCost * o.flow_draws : 0) + search_cost_ +
+              kRoundsExpected * o.round + o.replicates +
+              (setup.held_out.empty() ? 2 : 4) * o.comparisons;
   if (setup.options.out.empty()) return;
   std::error_code ignored;
   fs::create_directories(fs::path(setup.options.out) / "work", ignored);
@@ -48,32 +64,41 @@ std::string Stages::file(const std::string& stage) const {
 }
 
 std::vector<std::vector<double>> Stages::rows(const std::string& stage, int count,
-                                              const std::function<std::vector<double>(int)>& work) {
+                                              const std::function<std::vector<double>(int)>& work,
+                                              double cost) {
   KeptRows kept;
   kept.file = file(stage), kept.identity = setup_.identity;
   kept.threads = setup_.options.threads, kept.stop = setup_.options.stop;
-  if (setup_.options.progress) {
-    kept.progress = [&](int done, int all) {
-      setup_.options.progress(static_cast<double>(done) / all, stage);
-    };
-  }
+  kept.progress = [&](int done, int all) {
+    tell(spent_ + cost * done, stage + ", " + std::to_string(done) + " of " + std::to_string(all));
+  };
   auto out = kept_rows(kept, count, work);
   if (!out) throw Stopped{};
+  spent_ += cost * count;
   return std::move(*out);
+}
+
+// More rounds than expected leave a little to do at the end.
+void Stages::tell(double spent, const std::string& stage) const {
+  if (!setup_.options.progress) return;
+  setup_.options.progress(std::min(0.98, spent / expected_), stage);
 }
 
 FlowMaps Stages::flow_maps() {
   const bool exact = !setup_.flow || !setup_.flow->noise || setup_.options.flow_draws < 2;
   if (exact) return FlowMaps(setup_.model.field);
   const std::uint64_t seed = derived_seed(setup_.options.seed, kFlowSeed);
-  const auto found = rows("flow errors", setup_.options.flow_draws, [&](int run) {
-    std::vector<double> row;
-    for (const FlowSample& s :
-         redraw_flow(*setup_.flow, setup_.balls, setup_.ball, FlowOptions{}, seed, run)) {
-      row.insert(row.end(), {s.mu_x, s.mu_y, s.sigma_x, s.sigma_y});
-    }
-    return row;
-  });
+  const auto found = rows(
+      "flow errors", setup_.options.flow_draws,
+      [&](int run) {
+        std::vector<double> row;
+        for (const FlowSample& s :
+             redraw_flow(*setup_.flow, setup_.balls, setup_.ball, FlowOptions{}, seed, run)) {
+          row.insert(row.end(), {s.mu_x, s.mu_y, s.sigma_x, s.sigma_y});
+        }
+        return row;
+      },
+      kFlowCost);
   std::vector<FlowDifference> errors;
   for (const std::vector<double>& row : found) {
     FlowDifference error;
@@ -92,9 +117,12 @@ std::vector<double> Stages::search(CalibrationResult& out) {
   if (setup_.options.out.empty()) {
     for (auto trials = search->ask(); !trials.empty(); trials = search->ask()) {
       std::vector<double> values;
-      for (auto& row : rows("search", static_cast<int>(trials.size()), [&](int i) {
-             return std::vector<double>{objective.value(trials[static_cast<std::size_t>(i)])};
-           })) {
+      for (auto& row : rows(
+               "search", static_cast<int>(trials.size()),
+               [&](int i) {
+                 return std::vector<double>{objective.value(trials[static_cast<std::size_t>(i)])};
+               },
+               0)) {
         values.push_back(row.front());
       }
       search->tell(values);
@@ -104,17 +132,16 @@ std::vector<double> Stages::search(CalibrationResult& out) {
     run.dir = (fs::path(setup_.options.out) / "work" / "search").string();
     run.identity = "calibration " + hex(setup_.identity), run.force = setup_.options.force;
     run.threads = setup_.options.threads, run.stop = setup_.options.stop;
-    if (setup_.options.progress) {
-      run.progress = [&](const SearchProgress& now) {
-        char note[80];
-        std::snprintf(note, sizeof note, "search, best fitness %.4g", now.best);
-        setup_.options.progress(now.done, note);
-      };
-    }
+    run.progress = [&](const SearchProgress& now) {
+      char note[80];
+      std::snprintf(note, sizeof note, "search, best fitness %.4g", now.best);
+      tell(spent_ + search_cost_ * now.done, note);
+    };
     SearchRunResult result = run_search(std::move(search), value, run);
     if (result.stopped) throw Stopped{};
     search = std::move(result.search);
   }
+  spent_ += search_cost_;
   out.history = search->history();
   std::vector<double> values = setup_.start;
   const Incumbent best = search->best();

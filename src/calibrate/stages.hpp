@@ -29,9 +29,10 @@ class Stages {
   /// diverged.
   std::vector<std::vector<double>> simulate(const std::string& stage, const Eigen::MatrixXd& points,
                                             std::uint64_t seed, const FlowMaps& maps);
-  /// Rows kept under a stage's name.
+  /// Rows kept under a stage's name. `cost` of one, in simulated experiments, is for the progress.
   std::vector<std::vector<double>> rows(const std::string& stage, int count,
-                                        const std::function<std::vector<double>(int)>& work);
+                                        const std::function<std::vector<double>(int)>& work,
+                                        double cost = 1);
 
   const CalibrationSetup& setup() const { return setup_; }
   Eigen::VectorXd to_scale(const std::vector<double>& values) const;
@@ -42,9 +43,11 @@ class Stages {
 
  private:
   std::string file(const std::string& stage) const;
+  void tell(double spent, const std::string& stage) const;
   CalibrationSetup& setup_;
   Emulator emulator_;
   int simulations_ = 0;
+  double search_cost_ = 0, expected_ = 0, spent_ = 0;  ///< in simulated experiments
 };
 
 /// A local model about the answer, and the data's fit.
