@@ -83,7 +83,9 @@ Map velocity_map_of(const CalibrationResult& c) {
 
 constexpr double kChi95 = 3.8415;  // 95 % point of chi squared with one degree of freedom
 
-// How the misfit rises beside the estimate; with covariances, the dashed level is its 95 %.
+constexpr double kBar = 0.4;  // where the interval is drawn
+
+// How the misfit rises beside the estimate; with covariances it is comparable with chi squared.
 PlotPage profile_page(const CalibrationResult& c) {
   PlotPage page;
   page.columns = 3;
@@ -91,14 +93,19 @@ PlotPage profile_page(const CalibrationResult& c) {
     if (p.profile_value.size() < 2) continue;
     Plot plot;
     plot.x_label = with_unit(p), plot.y_label = "rise of the misfit";
-    plot.width = 460, plot.height = 360;
+    plot.width = 520, plot.height = 400;
     plot.curves.push_back({"profile", p.profile_value, p.profile_rise, {}, {}});
     if (c.objective != "msd") {
-      plot.curves.push_back(
-          {"95 %", {p.profile_value.front(), p.profile_value.back()}, {kChi95, kChi95}, {}, {}});
+      plot.curves.push_back({"95 % of chi squared",
+                             {p.profile_value.front(), p.profile_value.back()},
+                             {kChi95, kChi95},
+                             {},
+                             {}});
       plot.y_low = 0, plot.y_high = 16;
     }
-    plot.curves.push_back({"interval", {p.low, p.high}, {0, 0}, {}, {}});
+    Curve interval{"95 % interval", {p.low, p.estimate, p.high}, {kBar, kBar, kBar}, {}, {}};
+    interval.markers = true;
+    plot.curves.push_back(std::move(interval));
     page.plots.push_back(std::move(plot));
   }
   return page;

@@ -62,7 +62,7 @@ struct CalibrationOptions {
   /// The search: its name for reports, and how it is made from a space, a start and a seed.
   std::string search_name = "cma-es";
   int search_particles = 0, search_iterations = 0;  ///< of a swarm
-  std::int64_t search_budget = 600;                 ///< evaluations, of other searches
+  std::int64_t search_budget = 1500;                ///< evaluations, of other searches
   int flow_draws = 24;                              ///< of the flow's error; 0: the flow is exact
   int round = 120, last_round = 240;  ///< simulations of a round, and of the last local model
   int most_rounds = 8;
@@ -97,6 +97,15 @@ struct ComparedNumber {
   double z() const { return deviation > 0 ? (observed - expected) / deviation : 0; }
 };
 
+/// One local model on the way to the answer.
+struct LocalRound {
+  int simulations = 0;  ///< that it rests on
+  double moved = 0;     ///< of its answer from its centre, in deviations of the simulated points
+  double misfit = 0;
+  bool at_reach = false;         ///< the answer is as far off as it was allowed to be
+  std::vector<double> estimate;  ///< of every parameter
+};
+
 /// Eq. 9 of a set of recordings, m^2. Every value is the mean over random halves of the recordings'
 /// pieces, each against as many pieces: `floor` against the other half, the others against
 /// simulated ones. So equal numbers mean equal likeness.
@@ -121,7 +130,8 @@ struct CalibrationResult {
   std::vector<MsdFit> msd;
   std::vector<std::string> warnings;
   std::vector<IterationRecord> history;  ///< of the search
-  int rounds = 0, simulations = 0;       ///< of whole experiments
+  std::vector<LocalRound> rounds_taken;
+  int rounds = 0, simulations = 0;  ///< of whole experiments
   /// A map of mean velocities of the recordings, and of as many simulated ones [paper, Fig. 7].
   VelocityMap real_velocity, simulated_velocity;
   double tank_radius = 0.3;

@@ -26,18 +26,18 @@ class FlowMaps {
  public:
   /// A flow that is known, or taken to be.
   explicit FlowMaps(std::shared_ptr<const FlowField> field) : field_(std::move(field)) {}
-  /// A flow with draws of its error; at least two.
-  FlowMaps(std::shared_ptr<const FlowField> field, std::vector<FlowDifference> errors);
+  /// A flow as it was extracted, with draws of the extraction's error; at least two.
+  FlowMaps(const FlowField& extracted, std::vector<FlowDifference> errors);
 
+  /// The extracted field less its mean error.
   const std::shared_ptr<const FlowField>& best() const { return field_; }
   bool uncertain() const { return !errors_.empty(); }
-  /// A field that could be the true one: the best less its mean error and a normal combination of
-  /// the errors' scatter, draw `run`.
+  /// A field that could be the true one: the best and a normal combination of the errors' scatter,
+  /// draw `run`.
   std::shared_ptr<const FlowField> draw(std::uint64_t seed, std::int64_t run) const;
 
  private:
   std::shared_ptr<const FlowField> field_;
-  FlowDifference mean_;
   std::vector<FlowDifference> errors_;  ///< about their mean
 };
 

@@ -49,8 +49,15 @@ CalibrationResult begun(const CalibrationSetup& setup) {
     p.parameter = setup.parameters[i], p.start = setup.start[i];
     out.parameters.push_back(std::move(p));
   }
-  if (setup.flow) out.flow_csv = flow_csv(*setup.flow);
   return out;
+}
+
+// The extracted flow without its mean error, as a grid that a run reads.
+std::string corrected_csv(const CalibrationSetup& setup, const FlowField& best) {
+  if (!setup.flow) return "";
+  FlowEstimate estimate = *setup.flow;
+  for (std::size_t i = 0; i < estimate.cell.size(); ++i) estimate.cell[i].flow = best.samples()[i];
+  return flow_csv(estimate);
 }
 
 }  // namespace
@@ -62,12 +69,14 @@ std::optional<CalibrationResult> calibrate(const Experiment& experiment,
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();
+  setup.model.field = maps.best();
+  out.flow_csv = corrected_csv(setup, *maps.best());
   const std::vector<double> searched = stages.search(out);
   for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];
   const std::vector<double> told = setup.numbers(setup.training);
   const Eigen::VectorXd observed =
       Eigen::Map<const Eigen::VectorXd>(told.data(), static_cast<Eigen::Index>(told.size()));
-  const LocalAnswer answer = find_locally(stages, searched, maps, observed);
+  const LocalAnswer answer = find_locally(stages, searched, maps, observed, out);
   out.rounds = answer.rounds;
   find_intervals(stages, answer, maps, observed, out);
   if (options.comparisons > 0) compare_with_data(stages, out);

@@ -37,6 +37,15 @@ void add(FlowSample& to, const FlowSample& from, double times) {
   to.sigma_x += times * from.sigma_x, to.sigma_y += times * from.sigma_y;
 }
 
+// A field on the cells of another, deviations cut at 0.
+std::shared_ptr<const FlowField> like(const FlowField& other, std::vector<FlowSample> samples) {
+  for (FlowSample& s : samples) {
+    s.sigma_x = std::max(s.sigma_x, 0.0), s.sigma_y = std::max(s.sigma_y, 0.0);
+  }
+  return std::make_shared<const FlowField>(other.cells(), other.extent(), std::move(samples),
+                                           other.measured(), other.interpolation());
+}
+
 }  // namespace
 
 FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recording> balls,
@@ -63,33 +72,31 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
   return out;
 }
 
-FlowMaps::FlowMaps(std::shared_ptr<const FlowField> field, std::vector<FlowDifference> errors)
-    : field_(std::move(field)), mean_(field_->samples().size()), errors_(std::move(errors)) {
+FlowMaps::FlowMaps(const FlowField& extracted, std::vector<FlowDifference> errors)
+    : errors_(std::move(errors)) {
+  FlowDifference mean(extracted.samples().size());
   const double share = 1 / static_cast<double>(errors_.size());
   for (const FlowDifference& error : errors_) {
-    for (std::size_t i = 0; i < mean_.size(); ++i) add(mean_[i], error[i], share);
+    for (std::size_t i = 0; i < mean.size(); ++i) add(mean[i], error[i], share);
   }
   for (FlowDifference& error : errors_) {
-    for (std::size_t i = 0; i < mean_.size(); ++i) add(error[i], mean_[i], -1);
+    for (std::size_t i = 0; i < mean.size(); ++i) add(error[i], mean[i], -1);
   }
+  std::vector<FlowSample> samples = extracted.samples();
+  for (std::size_t i = 0; i < mean.size(); ++i) add(samples[i], mean[i], -1);
+  field_ = like(extracted, std::move(samples));
 }
 
 std::shared_ptr<const FlowField> FlowMaps::draw(std::uint64_t seed, std::int64_t run) const {
   if (!uncertain()) return field_;
   std::vector<FlowSample> samples = field_->samples();
-  for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], mean_[i], -1);
   const double scale = 1 / std::sqrt(static_cast<double>(errors_.size() - 1));
   for (std::size_t k = 0; k < errors_.size(); ++k) {
     const double z =
         normal_pair({seed, Stream::calibrate, run, static_cast<std::uint32_t>(k), 1})[0];
     for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], errors_[k][i], z * scale);
   }
-  for (FlowSample& s : samples) {
-    s.sigma_x = std::max(s.sigma_x, 0.0), s.sigma_y = std::max(s.sigma_y, 0.0);
-  }
-  return std::make_shared<const FlowField>(field_->cells(), field_->extent(), std::move(samples),
-                                           std::vector<bool>(mean_.size(), true),
-                                           field_->interpolation());
+  return like(*field_, std::move(samples));
 }
 
 }  // namespace lilytank

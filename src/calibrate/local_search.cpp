@@ -2,6 +2,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
@@ -12,7 +14,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kFirstSpread = 0.08;  // deviation of the first design, as a share of the ranges
+constexpr double kFirstSpread = 0.04;  // deviation of the first design, as a share of the ranges
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
 constexpr double kLastSpread = 2;      // of the last design, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
@@ -99,7 +101,7 @@ Matrix spread_of(const Matrix& covariance, const Vector& most) {
 }  // namespace
 
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
-                         const Vector& observed) {
+                         const Vector& observed, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   const CalibrationOptions& o = setup.options;
   const Misfit kind =
@@ -122,16 +124,31 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
     const Design design = simulated.near(centre, spread);
     LocalModel model(design, kind);
     FitBounds near = bounds;
-    near.reach = 2.5;
+    near.reach = 2;
     const LocalFit fit = model.fit(observed, near);
     const Vector moved = spread.triangularView<Eigen::Lower>().solve(fit.point - centre);
     const bool settled = narrow && !fit.at_reach && moved.norm() < kSettled;
+    out.rounds_taken.push_back({static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
+                                fit.at_reach, stages.from_scale(fit.point)});
+    if (std::getenv("CALDEBUG")) {
+      fprintf(stderr, "round %d n %d moved %.2f misfit %.1f reach %d:", round,
+              int(design.points.rows()), moved.norm(), fit.misfit, fit.at_reach);
+      for (double v : stages.from_scale(fit.point)) fprintf(stderr, " %.4g", v);
+      fprintf(stderr, " | spread");
+      for (Eigen::Index k = 0; k < spread.rows(); ++k)
+        fprintf(stderr, " %.3g", spread.row(k).norm());
+      fprintf(stderr, "\n");
+    }
     answer.emplace(LocalAnswer{std::move(model), fit, round, settled});
     if (settled && design.points.rows() >= o.last_round) break;
     // A centre that is good enough stays, so that all simulations about it count.
     if (!settled) centre = fit.point;
     if (!settled && !fit.at_reach) {
-      spread = spread_of(answer->model.parameter_covariance(fit.point), most);
+      // Where the numbers are not explained yet, errors are larger than their covariance says.
+      const auto freedom = static_cast<double>(observed.size() - centre.size());
+      const double unexplained =
+          kind == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
+      spread = spread_of(unexplained * answer->model.parameter_covariance(fit.point), most);
     }
     narrow = !fit.at_reach;
   }

@@ -107,7 +107,7 @@ FlowMaps Stages::flow_maps() {
     }
     errors.push_back(std::move(error));
   }
-  return FlowMaps(setup_.model.field, std::move(errors));
+  return FlowMaps(*setup_.model.field, std::move(errors));
 }
 
 std::vector<double> Stages::search(CalibrationResult& out) {

@@ -58,7 +58,7 @@ struct LocalAnswer {
   bool settled = false;  ///< the last design was about the answer
 };
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
-                         const Eigen::VectorXd& observed);
+                         const Eigen::VectorXd& observed, CalibrationResult& out);
 
 /// Fills in estimates, intervals, correlations, profiles, misfit and numbers.
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,

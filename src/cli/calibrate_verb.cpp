@@ -27,7 +27,7 @@ void add_options(VerbOptions& options) {
       list(),
       "PATH=LOW..HIGH")("hold-out", "keep the last N recordings for testing (0)", text(), "N")(
       "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(
-      "budget", "evaluations of the search (600; of a swarm as many as the paper)", text(), "N")(
+      "budget", "evaluations of the search (1500; of a swarm as many as the paper)", text(), "N")(
       "replicates", "experiments simulated for the intervals (200)", text(), "N")(
       "simulations", "of the first local models (120); the last one has twice as many", text(),
       "N")("comparisons", "experiments simulated for Eq. 9 before and after (24)", text(), "N")(

@@ -1,0 +1,55 @@
+// Planted parameters are found again: two of them from a short recording, by every objective that
+// comes with intervals of its own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lilytank/calibration.hpp"
+#include "lilytank/recovery.hpp"
+
+namespace lilytank {
+namespace {
+
+RecoveryOptions small() {
+  RecoveryOptions r;
+  r.experiments = 3, r.recordings = 1, r.seconds = 60;
+  CalibrationOptions& c = r.calibration;
+  c.parameters = {{"forces.face_drag.K_F", "1", 0.2, 1, true},
+                  {"forces.stochastic.sigma_stoch", "N", 0.004, 0.04, true}};
+  c.search_budget = 60, c.round = 60, c.last_round = 120, c.replicates = 60;
+  return r;
+}
+
+Scenario tank() {
+  return load_scenario({LILYTANK_SOURCE_DIR "/scenarios/tank_lilies.toml"},
+                       {"module.draught=0.025", "module.count=8"});
+}
+
+TEST(CalibrationRecovery, intervalsHoldPlantedParametersAndAreNarrow) {
+  RecoveryOptions r = small();
+  r.objectives = {CalibrationObjective::summary};
+  const auto rows = recover(tank(), r);
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->size(), 6u);
+  for (const RecoveryRow& row : *rows) {
+    // Four standard errors, so that a fair interval fails once in 16 000 times.
+    const double error = (std::log(row.high) - std::log(row.low)) / (2 * 1.96);
+    EXPECT_LT(std::fabs(std::log(row.estimate / row.truth)), 4 * error) << row.parameter;
+    // A minute of eight modules tells both to within a fifth.
+    EXPECT_LT(error, 0.1) << row.parameter;
+  }
+}
+
+TEST(CalibrationRecovery, isTheSameForAnyNumberOfThreads) {
+  RecoveryOptions r = small();
+  r.experiments = 1, r.seconds = 20, r.objectives = {CalibrationObjective::summary};
+  r.calibration.threads = 1;
+  const auto one = recover(tank(), r);
+  r.calibration.threads = 3;
+  const auto three = recover(tank(), r);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(recovery_csv(*one), recovery_csv(*three));
+}
+
+}  // namespace
+}  // namespace lilytank
