@@ -64,7 +64,7 @@ struct CalibrationOptions {
   int search_particles = 0, search_iterations = 0;  ///< of a swarm
   std::int64_t search_budget = 1500;                ///< evaluations, of other searches
   int flow_draws = 24;                              ///< of the flow's error; 0: the flow is exact
-  int round = 120, last_round = 240;  ///< simulations of a round, and of the last local model
+  int round = 120, last_round = 240;  ///< simulations of a round, and of the last model
   int most_rounds = 8;
   int replicates = 200;  ///< experiments simulated for the intervals
   int comparisons = 24;  ///< experiments simulated for Eq. 9 before and after
@@ -99,6 +99,7 @@ struct ComparedNumber {
 
 /// One local model on the way to the answer.
 struct LocalRound {
+  std::string name;     ///< "rough model 1": of pieces; "local model 1": of whole experiments
   int simulations = 0;  ///< that it rests on
   double moved = 0;     ///< of its answer from its centre, in deviations of the simulated points
   double misfit = 0;

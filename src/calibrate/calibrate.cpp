@@ -69,7 +69,6 @@ std::optional<CalibrationResult> calibrate(const Experiment& experiment,
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();
-  setup.model.field = maps.best();
   out.flow_csv = corrected_csv(setup, *maps.best());
   const std::vector<double> searched = stages.search(out);
   for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];

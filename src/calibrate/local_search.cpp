@@ -2,8 +2,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
@@ -19,6 +17,8 @@ constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scal
 constexpr double kLastSpread = 2;      // of the last design, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
+constexpr double kReach = 2;               // deviations of the design that a round may go
+constexpr double kNarrower = 0.5;
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -98,61 +98,103 @@ Matrix spread_of(const Matrix& covariance, const Vector& most) {
   return root;
 }
 
+struct Phase {
+  std::string name;
+  Stages::Of of;
+  int round, enough;  ///< simulations of a round, and of the last model at least
+  int most_rounds;
+};
+
+// From the search's answer to that of the last local model.
+class Way {
+ public:
+  Way(Stages& stages, const FlowMaps& maps, const Vector& observed, const std::vector<double>& from)
+      : stages_(stages),
+        maps_(maps),
+        observed_(observed),
+        bounds_(stages.bounds()),
+        centre_(stages.to_scale(from)) {
+    const CalibrationSetup& setup = stages.setup();
+    kind_ = setup.options.objective == CalibrationObjective::msd ? Misfit::absolute
+                                                                 : Misfit::covariance;
+    most_ = kFirstSpread * (bounds_.high - bounds_.low);
+    for (std::size_t i = setup.told(); i < setup.parameters.size(); ++i) {
+      most_(static_cast<Eigen::Index>(i)) = kNoiseSpread;
+    }
+    spread_ = most_.asDiagonal();
+  }
+
+  void go(const Phase& phase) {
+    Simulated simulated;
+    bool close = false;
+    for (int round = 1; round <= phase.most_rounds; ++round) {
+      const std::string name = phase.name + std::to_string(round);
+      const std::uint64_t seed = derived_seed(stages_.setup().options.seed, seed_++);
+      const Matrix points = scattered(centre_, spread_, phase.round, bounds_, seed);
+      simulated.add(points, stages_.simulate(name, points, seed, maps_, phase.of));
+      const Design design = simulated.near(centre_, spread_);
+      const LocalRound last = look(design, close, name);
+      if (answer_->settled && design.points.rows() >= phase.enough) return;
+      close = !last.at_reach;
+    }
+  }
+
+  /// Whole experiments scatter less than the pieces that led here.
+  void narrow() { spread_ *= kNarrower; }
+
+  const std::vector<LocalRound>& taken() const { return taken_; }
+  LocalAnswer answer() { return std::move(*answer_); }
+
+ private:
+  // Asks one local model, and puts the next round's points where it points to.
+  LocalRound look(const Design& design, bool close, const std::string& name) {
+    LocalModel model(design, kind_);
+    FitBounds near = bounds_;
+    near.reach = kReach;
+    const LocalFit fit = model.fit(observed_, near);
+    const Vector moved = spread_.triangularView<Eigen::Lower>().solve(fit.point - centre_);
+    const bool settled = close && !fit.at_reach && moved.norm() < kSettled;
+    taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
+                      fit.at_reach, stages_.from_scale(fit.point)});
+    const Matrix covariance = model.parameter_covariance(fit.point);
+    answer_.emplace(LocalAnswer{std::move(model), fit, static_cast<int>(taken_.size()), settled});
+    // A centre that is good enough stays, so that all simulations about it count.
+    if (settled) return taken_.back();
+    centre_ = fit.point;
+    // Where the numbers are not explained yet, errors are larger than their covariance says.
+    const auto freedom = static_cast<double>(observed_.size() - centre_.size());
+    const double unexplained =
+        kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
+    if (!fit.at_reach) spread_ = spread_of(unexplained * covariance, most_);
+    return taken_.back();
+  }
+
+  Stages& stages_;
+  const FlowMaps& maps_;
+  const Vector& observed_;
+  FitBounds bounds_;
+  Vector centre_, most_;
+  Matrix spread_;
+  Misfit kind_ = Misfit::covariance;
+  std::uint64_t seed_ = kRoundSeed;
+  std::optional<LocalAnswer> answer_;
+  std::vector<LocalRound> taken_;
+};
+
 }  // namespace
 
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
                          const Vector& observed, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
-  const CalibrationOptions& o = setup.options;
-  const Misfit kind =
-      o.objective == CalibrationObjective::msd ? Misfit::absolute : Misfit::covariance;
-  const FitBounds bounds = stages.bounds();
-  Vector centre = stages.to_scale(from);
-  Vector most = kFirstSpread * (bounds.high - bounds.low);
-  for (std::size_t i = setup.told(); i < setup.parameters.size(); ++i) {
-    most(static_cast<Eigen::Index>(i)) = kNoiseSpread;
-  }
-  Matrix spread = most.asDiagonal();
-  std::optional<LocalAnswer> answer;
-  Simulated simulated;
-  bool narrow = false;
-  for (int round = 1; round <= o.most_rounds; ++round) {
-    const std::uint64_t seed = derived_seed(o.seed, kRoundSeed + static_cast<std::uint64_t>(round));
-    const Matrix points = scattered(centre, spread, o.round, bounds, seed);
-    simulated.add(points,
-                  stages.simulate("local model " + std::to_string(round), points, seed, maps));
-    const Design design = simulated.near(centre, spread);
-    LocalModel model(design, kind);
-    FitBounds near = bounds;
-    near.reach = 2;
-    const LocalFit fit = model.fit(observed, near);
-    const Vector moved = spread.triangularView<Eigen::Lower>().solve(fit.point - centre);
-    const bool settled = narrow && !fit.at_reach && moved.norm() < kSettled;
-    out.rounds_taken.push_back({static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
-                                fit.at_reach, stages.from_scale(fit.point)});
-    if (std::getenv("CALDEBUG")) {
-      fprintf(stderr, "round %d n %d moved %.2f misfit %.1f reach %d:", round,
-              int(design.points.rows()), moved.norm(), fit.misfit, fit.at_reach);
-      for (double v : stages.from_scale(fit.point)) fprintf(stderr, " %.4g", v);
-      fprintf(stderr, " | spread");
-      for (Eigen::Index k = 0; k < spread.rows(); ++k)
-        fprintf(stderr, " %.3g", spread.row(k).norm());
-      fprintf(stderr, "\n");
-    }
-    answer.emplace(LocalAnswer{std::move(model), fit, round, settled});
-    if (settled && design.points.rows() >= o.last_round) break;
-    // A centre that is good enough stays, so that all simulations about it count.
-    if (!settled) centre = fit.point;
-    if (!settled && !fit.at_reach) {
-      // Where the numbers are not explained yet, errors are larger than their covariance says.
-      const auto freedom = static_cast<double>(observed.size() - centre.size());
-      const double unexplained =
-          kind == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
-      spread = spread_of(unexplained * answer->model.parameter_covariance(fit.point), most);
-    }
-    narrow = !fit.at_reach;
-  }
-  return std::move(*answer);
+  Way way(stages, maps, observed, from);
+  // Pieces are cheap and their scatter is wide: they lead to where whole experiments begin.
+  way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
+          setup.options.most_rounds});
+  way.narrow();
+  way.go({"local model ", Stages::Of::experiments, setup.options.round, setup.options.last_round,
+          setup.options.most_rounds});
+  out.rounds_taken = way.taken();
+  return way.answer();
 }
 
 }  // namespace lilytank

@@ -121,6 +121,20 @@ std::string history_csv(const CalibrationResult& c) {
   return out;
 }
 
+// How the local models came to the answer.
+std::string rounds_csv(const CalibrationResult& c) {
+  std::string out = "round,simulations,moved,misfit,at_reach";
+  for (const CalibratedParameter& p : c.parameters) out += "," + p.parameter.path;
+  out += "\n";
+  for (const LocalRound& r : c.rounds_taken) {
+    out += r.name + "," + std::to_string(r.simulations) + "," + number(r.moved) + "," +
+           number(r.misfit) + (r.at_reach ? ",1" : ",0");
+    for (const double v : r.estimate) out += "," + number(v);
+    out += "\n";
+  }
+  return out;
+}
+
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -178,7 +192,8 @@ std::vector<std::string> write_calibration(const CalibrationResult& c, const std
       {"calibrated.toml", overlay(c)},         {"intervals.csv", intervals_csv(c)},
       {"correlation.csv", correlation_csv(c)}, {"profiles.csv", profiles_csv(c)},
       {"numbers.csv", numbers_csv(c)},         {"history.csv", history_csv(c)},
-      {"calibration.json", json(c)},           {"calibration.txt", calibration_text(c)}};
+      {"rounds.csv", rounds_csv(c)},           {"calibration.json", json(c)},
+      {"calibration.txt", calibration_text(c)}};
   if (!c.msd.empty()) {
     files.emplace_back("msd.csv", msd_csv(c));
     files.emplace_back("velocity.csv", velocity_csv(c));

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFlowCost = 3;  // of simulating balls and extracting, in simulated experiments
-constexpr int kRoundsExpected = 3;
+constexpr double kRoundsExpected = 3, kRoughExpected = 4;
 constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
 
 std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchSpace& space) {
@@ -45,13 +45,14 @@ std::int64_t budget_of(const CalibrationOptions& o) {
 
 }  // namespace
 
-Stages::Stages(CalibrationSetup& setup) : setup_(setup), emulator_(setup.emulator(setup.shapes)) {
+Stages::Stages(CalibrationSetup& setup) : setup_(setup), best_(setup.emulator(setup.shapes)) {
   const CalibrationOptions& o = setup.options;
   double seconds = 0;
   for (const RecordingShape& shape : setup.shapes) seconds += shape.frames / shape.rate;
-  search_cost_ = static_cast<double>(budget_of(o)) * setup.piece / seconds;
+  piece_cost_ = setup.piece / seconds;
+  search_cost_ = static_cast<double>(budget_of(o)) * piece_cost_;
   expected_ = (setup.flow ? kFlowCost * o.flow_draws : 0) + search_cost_ +
-              kRoundsExpected * o.round + o.replicates +
+              (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round + o.replicates +
               (setup.held_out.empty() ? 2 : 4) * o.comparisons;
   if (setup.options.out.empty()) return;
   std::error_code ignored;
@@ -107,7 +108,10 @@ FlowMaps Stages::flow_maps() {
     }
     errors.push_back(std::move(error));
   }
-  return FlowMaps(*setup_.model.field, std::move(errors));
+  FlowMaps maps(*setup_.model.field, std::move(errors));
+  setup_.model.field = maps.best();
+  best_ = setup_.emulator(setup_.shapes);
+  return maps;
 }
 
 std::vector<double> Stages::search(CalibrationResult& out) {
@@ -152,16 +156,21 @@ std::vector<double> Stages::search(CalibrationResult& out) {
 
 std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
                                                   const Eigen::MatrixXd& points, std::uint64_t seed,
-                                                  const FlowMaps& maps) {
-  const auto found = rows(stage, static_cast<int>(points.rows()), [&](int i) {
+                                                  const FlowMaps& maps, Of of) {
+  const auto piece = [&](int i) {
+    const auto made = best_.piece(from_scale(points.row(i)), seed, i, setup_.piece);
+    return made ? setup_.numbers({*made}) : std::vector<double>{};
+  };
+  const auto experiment = [&](int i) {
     const auto run = static_cast<std::uint64_t>(i);
     const auto field = maps.draw(derived_seed(seed, kFlowMix), i);
-    const auto made =
-        emulator_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
+    const auto made = best_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
     return made ? setup_.numbers(*made) : std::vector<double>{};
-  });
-  simulations_ += static_cast<int>(found.size());
-  return found;
+  };
+  const auto count = static_cast<int>(points.rows());
+  if (of == Of::pieces) return rows(stage, count, piece, piece_cost_);
+  simulations_ += count;
+  return rows(stage, count, experiment);
 }
 
 Eigen::VectorXd Stages::to_scale(const std::vector<double>& values) const {

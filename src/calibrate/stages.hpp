@@ -19,16 +19,18 @@ class Stages {
  public:
   explicit Stages(CalibrationSetup& setup);
 
-  /// The flow and the draws of its error.
+  /// The flow and the draws of its error; the setup's model then has the best of it.
   FlowMaps flow_maps();
   /// The search's answer, with nuisances at their start.
   std::vector<double> search(CalibrationResult& out);
 
+  enum class Of { experiments, pieces };
   /// Numbers that the objective compares, of whole experiments simulated at points (a row each, on
-  /// the fitted scale), each in another flow that the balls allow; empty rows where worlds
-  /// diverged.
+  /// the fitted scale), each in another flow that the balls allow; or of single pieces in the best
+  /// flow. Empty rows where worlds diverged.
   std::vector<std::vector<double>> simulate(const std::string& stage, const Eigen::MatrixXd& points,
-                                            std::uint64_t seed, const FlowMaps& maps);
+                                            std::uint64_t seed, const FlowMaps& maps,
+                                            Of of = Of::experiments);
   /// Rows kept under a stage's name. `cost` of one, in simulated experiments, is for the progress.
   std::vector<std::vector<double>> rows(const std::string& stage, int count,
                                         const std::function<std::vector<double>(int)>& work,
@@ -45,9 +47,10 @@ class Stages {
   std::string file(const std::string& stage) const;
   void tell(double spent, const std::string& stage) const;
   CalibrationSetup& setup_;
-  Emulator emulator_;
+  Emulator best_;  ///< in the flow without its mean error
   int simulations_ = 0;
-  double search_cost_ = 0, expected_ = 0, spent_ = 0;  ///< in simulated experiments
+  double piece_cost_ = 0, search_cost_ = 0, expected_ = 0,
+         spent_ = 0;  ///< in simulated experiments
 };
 
 /// A local model about the answer, and the data's fit.
