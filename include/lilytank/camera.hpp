@@ -17,6 +17,11 @@ struct Camera {
   double latency = 0;              ///< s, a frame shows where bodies were this long before its time
   double swaps = 0;                ///< 1/s, rate at which two bodies that are near are exchanged
   double swap_distance = 0.045;    ///< m, how near
+  double lens = 0;                 ///< 1/m^2: places are seen at x (1 + lens |x|^2)
+  double tilt = 0;                 ///< rad, of the camera's axis from the vertical, aimed at the
+                                   ///< tank's centre; rescaled so that the centre's scale is 1
+  double tilt_direction = 0;       ///< rad, in which the axis leans
+  double height = 1;               ///< m, of the camera above the tank's centre
   bool headings = true;            ///< whether headings are tracked (of balls never)
   std::uint64_t seed = 1;
 };

@@ -43,11 +43,20 @@ struct Moment {
   std::int64_t gust = 0;  ///< 25 ms intervals since the start: a gust is held for one
   std::uint64_t seed = 0;
   bool gusts = true;                 ///< false: the mean flow only
-  const FlowField* water = nullptr;  ///< the flow now; null: the model's
+  const FlowField* field = nullptr;  ///< the flow now; null: the model's
+  double gain = 1;                   ///< factor on its mean and deviation, beside K_v
+  /// m/s, [bodies] what terms that stir add to the water's velocity at each body; empty: nothing.
+  std::span<const double> ux, uy;
 };
 
 /// The flow field at that moment.
-const FlowField& water(const Model& model, const Moment& now);
+const FlowField& field_now(const Model& model, const Moment& now);
+
+/// What terms that stir do to the water.
+struct Stirring {
+  double gain = 1;           ///< factor on the field's mean and deviation
+  std::span<double> ux, uy;  ///< m/s, [bodies] added to the water's velocity at a body
+};
 
 /// Factors on twists at the end of a step; 1 leaves them alone.
 struct Decay {
@@ -69,6 +78,23 @@ class ForceTerm {
   virtual void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
                    std::span<Wrench> out) const {
     static_cast<void>(p), static_cast<void>(out);
+  }
+  /// Whether stir() does anything.
+  virtual bool stirs() const { return false; }
+  /// Changes the water that all other terms see: multiplies `water.gain`, adds to its velocities.
+  /// Called before any add(); `now` holds what terms before this one did. Never throws or
+  /// allocates.
+  virtual void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
+                    Stirring& water) const {
+    static_cast<void>(now), static_cast<void>(p), static_cast<void>(water);
+  }
+  /// Whether transform() does anything.
+  virtual bool transforms() const { return false; }
+  /// Changes the sum of all terms' wrenches, once all have added theirs: what a body makes of a
+  /// force. Never throws or allocates.
+  virtual void transform(const Model&, const Kinematics&, const Moment& now,
+                         std::span<const double> p, std::span<Wrench> sum) const {
+    static_cast<void>(now), static_cast<void>(p), static_cast<void>(sum);
   }
   /// Damping at the end of a step of length dt (s).
   virtual Decay decay(std::span<const double> p, double dt) const {

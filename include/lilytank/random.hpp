@@ -28,6 +28,10 @@ enum class Stream : std::uint32_t {
   lattice = 15,    ///< meetings and evaluations of the lattice model (never a world)
   gillespie = 16,  ///< reactions of the well-mixed model (never a world)
   calibrate = 17,  ///< where a calibration's simulations lie and begin
+  eddies = 18,     ///< waves of the correlated gusts
+  phase = 19,      ///< of a module's vortex shedding
+  state_noise = 20,  ///< the random force that depends on the state
+  kick = 21,         ///< when and how hard a module is knocked
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

@@ -101,7 +101,7 @@ void add_writing_options(VerbOptions& options) {
                 cxxopts::value<std::vector<std::string>>(), "KEY=VALUE")(
       "camera",
       "of a run: rate, position_noise, heading_noise, dropped, missed, latency, swaps, "
-      "swap_distance, headings, seed",
+      "swap_distance, lens, tilt, tilt_direction, height, headings, seed",
       cxxopts::value<std::vector<std::string>>(), "KEY=VALUE");
 }
 

@@ -27,14 +27,16 @@ class BallDrag final : public ForceTerm {
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     const double scale = 0.5 * model.flow.rho * model.ball.drag_area * p[0];
-    const FlowField& field = water(model, now);
+    const FlowField& field = field_now(model, now);
+    const double K_v = model.flow.K_v * now.gain;
     const double share = now.gusts ? 1 / std::sqrt(p[1]) : 0;
     for (int i = k.modules; i < k.size(); ++i) {
       const FlowSample f = field.at(k.x[i], k.y[i]);
       const auto xi =
           normal_pair({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i), 0});
-      const double wx = model.flow.K_v * (f.mu_x + f.sigma_x * share * xi[0]) - k.vx[i];
-      const double wy = model.flow.K_v * (f.mu_y + f.sigma_y * share * xi[1]) - k.vy[i];
+      double wx = K_v * (f.mu_x + f.sigma_x * share * xi[0]) - k.vx[i];
+      double wy = K_v * (f.mu_y + f.sigma_y * share * xi[1]) - k.vy[i];
+      if (!now.ux.empty()) wx += now.ux[i], wy += now.uy[i];
       const double size = scale * std::sqrt(wx * wx + wy * wy);
       out[i].fx += size * wx;
       out[i].fy += size * wy;

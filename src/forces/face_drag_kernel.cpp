@@ -184,13 +184,13 @@ namespace lilytank {
 HWY_EXPORT(drag);
 
 DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
-    : field(&water(model, now)),
+    : field(&field_now(model, now)),
       gusts(model.flow.gusts),
       gusty(now.gusts),
       at(model.flow.at),
       segments(segments_),
       half(static_cast<float>(0.5 * model.module.side)),
-      K_v(static_cast<float>(model.flow.K_v)),
+      K_v(static_cast<float>(model.flow.K_v * now.gain)),
       draw{now.seed, Stream::gust, now.gust, 0, 0} {
   const double side = model.module.side, pitch = side / segments;
   double second = 0, fourth = 0;

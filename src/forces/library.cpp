@@ -8,15 +8,40 @@ namespace lilytank {
 
 std::span<const ForceTerm* const> force_library() {
   // The order of addition is part of every result: new terms go to the end.
-  static const std::array<const ForceTerm*, 6> terms{
-      &face_drag(), &ball_drag(),  &stochastic_force(),
-      &damping(),   &body_force(), &pair_attraction(),
-  };
+  static const std::array<const ForceTerm*, 29> terms{&face_drag(),
+                                                      &ball_drag(),
+                                                      &stochastic_force(),
+                                                      &damping(),
+                                                      &body_force(),
+                                                      &pair_attraction(),
+                                                      &pair_repulsion(),
+                                                      &magnetic_dipole(),
+                                                      &latch_stick(),
+                                                      &lubrication(),
+                                                      &wake_shielding(),
+                                                      &wall_force(),
+                                                      &wall_layer(),
+                                                      &magnus_lift(),
+                                                      &viscous_drag(),
+                                                      &rotational_drag(),
+                                                      &coriolis(),
+                                                      &flow_pulsation(),
+                                                      &flow_drift(),
+                                                      &local_flow(),
+                                                      &correlated_gusts(),
+                                                      &vortex_shedding(),
+                                                      &self_propulsion(),
+                                                      &spin_torque(),
+                                                      &state_dependent_noise(),
+                                                      &heavy_tailed_kicks(),
+                                                      &added_mass(),
+                                                      &heterogeneous_module(),
+                                                      &mass_offset()};
   return terms;
 }
 
-const FlowField& water(const Model& model, const Moment& now) {
-  return now.water != nullptr ? *now.water : *model.field;
+const FlowField& field_now(const Model& model, const Moment& now) {
+  return now.field != nullptr ? *now.field : *model.field;
 }
 
 const ForceTerm* find_force(std::string_view name) {

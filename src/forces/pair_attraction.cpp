@@ -3,6 +3,7 @@
 
 #include "library.hpp"
 #include "lilytank/model.hpp"
+#include "pairs.hpp"
 
 namespace lilytank {
 namespace {
@@ -26,17 +27,10 @@ class PairAttraction final : public ForceTerm {
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {
-    const double far = model.module.side + 8 * p[1];
-    for (int i = 0; i < k.modules; ++i) {
-      for (int j = i + 1; j < k.modules; ++j) {
-        const double dx = k.x[j] - k.x[i], dy = k.y[j] - k.y[i], square = dx * dx + dy * dy;
-        if (square >= far * far || square == 0) continue;
-        const double r = std::sqrt(square), gap = std::fmax(0, r - model.module.side);
-        const double size = p[0] * exp_portable(-gap / p[1]) / r;
-        out[i].fx += size * dx, out[i].fy += size * dy;
-        out[j].fx -= size * dx, out[j].fy -= size * dy;
-      }
-    }
+    for_near_pairs(k, model.module.side + 8 * p[1], [&](const NearPair& pair) {
+      const double gap = std::fmax(0, pair.r - model.module.side);
+      pull_together(pair, p[0] * exp_portable(-gap / p[1]), out);
+    });
   }
 };
 

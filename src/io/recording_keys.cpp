@@ -189,6 +189,10 @@ void assign_camera_option(const Assignment& from, Camera& c) {
       {"latency", [&] { c.latency = v.number("s", 0, 100); }},
       {"swaps", [&] { c.swaps = v.number("1/s", 0, 1000); }},
       {"swap_distance", [&] { c.swap_distance = v.number("m", 0, 10); }},
+      {"lens", [&] { c.lens = v.number("1/m^2", -5, 5); }},
+      {"tilt", [&] { c.tilt = v.number("rad", 0, 0.5); }},
+      {"tilt_direction", [&] { c.tilt_direction = v.number("rad", -7, 7); }},
+      {"height", [&] { c.height = v.number("m", 0.1, 100); }},
       {"headings", [&] { c.headings = v.on(); }},
       {"seed", [&] { c.seed = static_cast<std::uint64_t>(v.whole(0, kLargestSeed)); }},
   });

@@ -66,6 +66,7 @@ class Filming {
     const double length = trajectory.time.back() - trajectory.time.front();
     out_.frames = 1 + static_cast<int>(std::floor(length * camera.rate + 1e-6));
     headings_ = camera.headings && !balls;
+    tilt_ = rotation(camera.tilt), lean_ = rotation(camera.tilt_direction);
     shown_.resize(static_cast<std::size_t>(count_));
     std::iota(shown_.begin(), shown_.end(), 0);
   }
@@ -101,13 +102,22 @@ class Filming {
     }
   }
 
+  // Where a place in the tank is seen: through a camera that leans, then its lens.
+  Vec2 image_of(const Vec2& place) const {
+    const Vec2 seen = unrotate(lean_, place);
+    const double nearer = 1 - seen.x() * tilt_.s / camera_.height;
+    const Vec2 image = rotate(lean_, {seen.x() * tilt_.c / nearer, seen.y() / nearer});
+    return image * (1 + camera_.lens * image.squaredNorm());
+  }
+
   void see(int f, int id) {
     Track& track = out_.tracks[static_cast<std::size_t>(id)];
     const int body = first_ + shown_[static_cast<std::size_t>(id)];
     const auto i = static_cast<std::size_t>(f);
     const auto noise = normal_pair(draw(f, id, kPlace));
-    track.x[i] = scene_.x(body) + camera_.position_noise * noise[0];
-    track.y[i] = scene_.y(body) + camera_.position_noise * noise[1];
+    const Vec2 place = image_of({scene_.x(body), scene_.y(body)});
+    track.x[i] = place.x() + camera_.position_noise * noise[0];
+    track.y[i] = place.y() + camera_.position_noise * noise[1];
     if (!headings_) return;
     const double seen =
         scene_.theta(body) + camera_.heading_noise * normal_pair(draw(f, id, kHeading))[0];
@@ -153,6 +163,7 @@ class Filming {
   std::vector<int> shown_;  ///< which body has an id
   int first_ = 0, count_ = 0;
   bool headings_ = false;
+  Rot tilt_, lean_;
 };
 
 }  // namespace

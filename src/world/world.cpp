@@ -18,6 +18,8 @@ struct World::Impl {
   Motion motion;
   Controller controller;
   std::vector<Wrench> wrenches;
+  std::vector<const ActiveForce*> stirring, transforming;
+  std::vector<double> stirred_x, stirred_y;  // m/s, [bodies] added to the water's velocity
   std::vector<Event> events;
   Kinematics kinematics;
   Decay decay;
@@ -36,21 +38,25 @@ struct World::Impl {
     for (const ActiveForce& force : m.forces) {
       const Decay d = force.term->decay(force.p, m.dt);
       decay.linear *= d.linear, decay.angular *= d.angular;
+      if (force.term->stirs()) stirring.push_back(&force);
+      if (force.term->transforms()) transforming.push_back(&force);
     }
+    if (!stirring.empty()) stirred_x.resize(wrenches.size()), stirred_y.resize(wrenches.size());
     linear_to_angular = decay.linear / decay.angular;
   }
 
   Moment now() const {
-    const FlowField* water =
+    const FlowField* field =
         state.field == 0 ? model->field.get() : model->other_fields[state.field - 1].get();
     return {.time = state.step * model->dt,
             .step = state.step,
             .gust = state.step / model->steps_per_tick,
             .seed = state.seed,
-            .water = water};
+            .field = field};
   }
 
   void add_forces();
+  void stir(Moment& moment);
   void kick();
   Wrench sum_of_members(int slot) const;
   void damp();
@@ -61,9 +67,25 @@ struct World::Impl {
 // Wrenches of all active terms, from the state at the start of the step.
 void World::Impl::add_forces() {
   std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-  const Moment moment = now();
+  Moment moment = now();
+  stir(moment);
   for (const ActiveForce& force : model->forces)
     force.term->add(*model, kinematics, moment, force.p, wrenches);
+  for (const ActiveForce* force : transforming)
+    force->term->transform(*model, kinematics, moment, force->p, wrenches);
+}
+
+// What terms that change the water make of it at this moment.
+void World::Impl::stir(Moment& moment) {
+  if (stirring.empty()) return;
+  std::fill(stirred_x.begin(), stirred_x.end(), 0.0);
+  std::fill(stirred_y.begin(), stirred_y.end(), 0.0);
+  moment.ux = stirred_x, moment.uy = stirred_y;
+  Stirring water{1, stirred_x, stirred_y};
+  for (const ActiveForce* force : stirring) {
+    force->term->stir(*model, kinematics, moment, force->p, water);
+    moment.gain = water.gain;
+  }
 }
 
 // Members' wrenches become their assembly's change of twist.
@@ -132,7 +154,8 @@ bool World::Impl::healthy() const {
 
 // The worst body and the term with the largest force on it, from the wrenches of this step.
 void World::Impl::blame() {
-  const Moment moment = now();
+  Moment moment = now();
+  stir(moment);
   const auto badness = [&](int slot) {
     const double size = std::fabs(state.vx[slot]) + std::fabs(state.vy[slot]) +
                         std::fabs(state.omega[slot]) * assemblies.reach[slot];

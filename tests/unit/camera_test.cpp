@@ -164,6 +164,28 @@ TEST(Camera, ballsAreFilmedWithoutHeadings) {
   EXPECT_NEAR(std::hypot(r.tracks[0].x[0], r.tracks[0].y[0]), 0.2, 1e-6);
 }
 
+TEST(Camera, aLensBendsAndATiltTapers) {
+  const Trajectory t = circles(3, 0, 5);
+  const Recording clean = film(t, perfect());
+  Camera camera = perfect();
+  camera.lens = 0.5;
+  const Recording bent = film(t, camera);
+  camera.lens = 0, camera.tilt = 0.1, camera.height = 0.8, camera.tilt_direction = kPi / 2;
+  const Recording tapered = film(t, camera);
+  for (std::size_t b = 0; b < 3; ++b) {
+    for (std::size_t f = 0; f < clean.tracks[b].x.size(); f += 7) {
+      const double x = clean.tracks[b].x[f], y = clean.tracks[b].y[f];
+      EXPECT_NEAR(bent.tracks[b].x[f], x * (1 + 0.5 * (x * x + y * y)), 1e-12);
+      EXPECT_NEAR(bent.tracks[b].y[f], y * (1 + 0.5 * (x * x + y * y)), 1e-12);
+      // A pinhole 0.8 m along an axis that leans to +y by 0.1 rad, the picture's scale set at the
+      // centre: depth along the axis is 0.8 - y sin(0.1).
+      const double depth = 0.8 - y * std::sin(0.1);
+      EXPECT_NEAR(tapered.tracks[b].x[f], 0.8 * x / depth, 1e-12);
+      EXPECT_NEAR(tapered.tracks[b].y[f], 0.8 * y * std::cos(0.1) / depth, 1e-12);
+    }
+  }
+}
+
 TEST(Camera, refusesWhatCannotBeFilmed) {
   EXPECT_THROW(film(circles(3, 0, 5), {}, BodyKind::ball), InputError);
   EXPECT_THROW(film(circles(3, 0, 0), {}), InputError);

@@ -1,0 +1,35 @@
+// Pumps that fade or gain.
+#include <cmath>
+
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"rate", "1/s", 0, -0.1, 0.1, "growth of the flow, as a share a second"},
+};
+
+class FlowDrift final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "flow_drift"; }
+  std::string_view summary() const override { return "the whole flow grows or fades in time"; }
+  std::string_view equation() const override {
+    return "u *= max(0, 1 + rate t), mean and deviation";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool stirs() const override { return true; }
+  void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
+            Stirring& water) const override {
+    water.gain *= std::fmax(0, 1 + p[0] * now.time);
+  }
+};
+
+}  // namespace
+
+const ForceTerm& flow_drift() {
+  static const FlowDrift term;
+  return term;
+}
+
+}  // namespace lilytank

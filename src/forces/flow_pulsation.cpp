@@ -1,0 +1,39 @@
+// Pumps that pulsate.
+#include <cmath>
+
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"share", "1", 0, 0, 1, "amplitude, as a share of the flow"},
+    {"frequency", "Hz", 0.9, 0, 20, "of the pulsation"},
+    {"phase", "rad", 0, -6.2832, 6.2832, "at time 0"},
+};
+
+class FlowPulsation final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "flow_pulsation"; }
+  std::string_view summary() const override { return "the whole flow rises and falls in time"; }
+  std::string_view equation() const override {
+    return "u *= 1 + share cos(2 pi frequency t + phase), mean and deviation";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool stirs() const override { return true; }
+  void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
+            Stirring& water) const override {
+    const double cycles = p[1] * now.time;
+    const double angle = 2 * kPi * (cycles - std::floor(cycles)) + p[2];
+    water.gain *= 1 + p[0] * rotation(angle).c;
+  }
+};
+
+}  // namespace
+
+const ForceTerm& flow_pulsation() {
+  static const FlowPulsation term;
+  return term;
+}
+
+}  // namespace lilytank

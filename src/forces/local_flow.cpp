@@ -1,0 +1,43 @@
+// A stream that the flow field does not know.
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"speed_x", "m/s", 0, -2, 2, "of the added stream in its middle"},
+    {"speed_y", "m/s", 0, -2, 2, "of the added stream in its middle"},
+    {"x", "m", 0, -5, 5, "middle"},
+    {"y", "m", 0, -5, 5, "middle"},
+    {"width", "m", 0.05, 0.005, 5, "deviation of its bell-shaped profile"},
+};
+
+class LocalFlow final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "local_flow"; }
+  std::string_view summary() const override {
+    return "a stream in one place beside those of the flow field";
+  }
+  std::string_view equation() const override {
+    return "u += (speed_x, speed_y) exp(-d^2 / (2 width^2)), d the distance from (x, y)";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool stirs() const override { return true; }
+  void stir(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+            Stirring& water) const override {
+    for (int i = 0; i < k.size(); ++i) {
+      const double dx = k.x[i] - p[2], dy = k.y[i] - p[3];
+      const double share = exp_portable(-(dx * dx + dy * dy) / (2 * p[4] * p[4]));
+      water.ux[i] += p[0] * share, water.uy[i] += p[1] * share;
+    }
+  }
+};
+
+}  // namespace
+
+const ForceTerm& local_flow() {
+  static const LocalFlow term;
+  return term;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,42 @@
+// Repulsion of modules that are near each other.
+#include "library.hpp"
+#include "lilytank/model.hpp"
+#include "pairs.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"strength", "N", 0, 0, 0.1, "force at contact"},
+    {"range", "m", 0.012, 0.001, 0.1, "gap over which the force falls by e"},
+};
+
+class PairRepulsion final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "pair_repulsion"; }
+  std::string_view summary() const override {
+    return "repulsion between modules along the line of their centres, falling with the gap";
+  }
+  std::string_view equation() const override {
+    return "F = -strength exp(-g / range), g = max(0, r - side), r the distance of the centres; "
+           "nothing beyond g = 8 range";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+
+  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+           std::span<Wrench> out) const override {
+    for_near_pairs(k, model.module.side + 8 * p[1], [&](const NearPair& pair) {
+      const double gap = std::fmax(0, pair.r - model.module.side);
+      pull_together(pair, -p[0] * exp_portable(-gap / p[1]), out);
+    });
+  }
+};
+
+}  // namespace
+
+const ForceTerm& pair_repulsion() {
+  static const PairRepulsion term;
+  return term;
+}
+
+}  // namespace lilytank

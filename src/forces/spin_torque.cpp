@@ -1,0 +1,31 @@
+// A constant torque on every module.
+#include "library.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"torque", "N m", 0, -0.01, 0.01, "counter-clockwise"},
+};
+
+class SpinTorque final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "spin_torque"; }
+  std::string_view summary() const override { return "every module is turned the same way"; }
+  std::string_view equation() const override { return "torque = constant"; }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+
+  void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+           std::span<Wrench> out) const override {
+    for (int i = 0; i < k.modules; ++i) out[i].torque += p[0];
+  }
+};
+
+}  // namespace
+
+const ForceTerm& spin_torque() {
+  static const SpinTorque term;
+  return term;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,46 @@
+// The boundary layer at the wall.
+#include <cmath>
+
+#include "library.hpp"
+#include "lilytank/model.hpp"
+#include "water.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr Parameter kParameters[] = {
+    {"share", "1", 0, 0, 1, "share of the mean flow that is missing at the wall"},
+    {"thickness", "m", 0.01, 0.001, 0.1, "distance from the wall over which the layer falls by e"},
+};
+
+class WallLayer final : public ForceTerm {
+ public:
+  std::string_view name() const override { return "wall_layer"; }
+  std::string_view summary() const override {
+    return "the water is slower near the wall than the flow field says";
+  }
+  std::string_view equation() const override {
+    return "u -= share exp(-(R - r) / thickness) K_v mu(x), r the distance from the tank's centre";
+  }
+  std::span<const Parameter> parameters() const override { return kParameters; }
+  bool stirs() const override { return true; }
+  void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
+            Stirring& water) const override {
+    for (int i = 0; i < k.size(); ++i) {
+      const double r = std::sqrt(k.x[i] * k.x[i] + k.y[i] * k.y[i]);
+      const double depth = std::fmax(0, model.tank.radius - r);
+      const Vec2 missing =
+          p[0] * exp_portable(-depth / p[1]) * mean_flow(model, now, k.x[i], k.y[i]);
+      water.ux[i] -= missing.x(), water.uy[i] -= missing.y();
+    }
+  }
+};
+
+}  // namespace
+
+const ForceTerm& wall_layer() {
+  static const WallLayer term;
+  return term;
+}
+
+}  // namespace lilytank
