@@ -66,7 +66,8 @@ std::string file_text(const Plan& plan, const Ruleset& rules, const std::vector<
   return text.substr(0, first) + comments + text.substr(first);
 }
 
-void draw(const VerbOptions& options, const Target& target, const Plan& plan) {
+void draw(const VerbOptions& options, [[maybe_unused]] const Target& target,
+          [[maybe_unused]] const Plan& plan) {
   if (!options.has("figure")) return;
 #ifdef LILYTANK_HAS_RENDER
   draw_stages(target, stages_of(target, plan), target.name, options.text("figure"));
