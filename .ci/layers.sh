@@ -77,8 +77,19 @@ layer recording recording io analysis text
 layer flow flow recording io analysis text
 layer synthesis synthesis io analysis text
 layer study study jobs io analysis text
+layer optimize optimize study synthesis io analysis text
 layer calibrate calibrate study io analysis text
-layer cli cli calibrate study jobs recording flow synthesis io analysis text
+layer cli cli calibrate optimize study jobs recording flow synthesis io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
+# Two types of one name in one namespace are one type to the linker, which takes the first one's
+# functions for both.
+twice=$(find include src render -name '*.hpp' -print0 |
+        xargs -0 grep -hoE '^(struct|class|enum class) [A-Za-z]+( final)?( :.*)? \{' |
+        sed -E 's/^(struct|enum class|class) ([A-Za-z]+).*/\2/' | sort | uniq -d | grep -vx 'Impl')
+if [[ -n $twice ]]; then
+  printf 'more than one type is named:\n%s\n' "$twice"
+  faults=1
+fi
+
 exit "$faults"

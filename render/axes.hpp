@@ -6,7 +6,7 @@
 namespace lilytank {
 
 /// A mark on an axis; minor ticks have no label.
-struct Tick {
+struct AxisTick {
   double value = 0;
   std::string label;
   bool major = true;
@@ -32,7 +32,7 @@ class Range {
 struct Axis {
   double low = 0, high = 1;
   bool log = false;
-  std::vector<Tick> ticks;  ///< rising
+  std::vector<AxisTick> ticks;  ///< rising
   /// What labels leave out: "×10⁻³" or "+1.25×10⁴" or both; empty where they are complete.
   std::string note;
 

@@ -192,7 +192,7 @@ void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pl
   canvas.stroke(palette::ink, 1.1);
   TextStyle right = kTickText;
   right.align = Align::right;
-  for (const Tick& t : axis.ticks) {
+  for (const AxisTick& t : axis.ticks) {
     const double k = place.size * axis.share(t.value);
     if (!t.major || !(k >= -0.5 && k <= place.size + 0.5)) continue;
     const double x = place.left + k, y = place.bottom() - k;
@@ -238,7 +238,7 @@ void draw_bar(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pla
   const Axis axis = make_axis(range.low, range.high, false, 6, false);
   double widest = 0;
   const TextStyle text{13, palette::ink, false, Align::left};
-  for (const Tick& t : axis.ticks) {
+  for (const AxisTick& t : axis.ticks) {
     if (!t.major) continue;
     const double y = place.bottom() - place.size * axis.share(t.value);
     canvas.line(x + kBarWidth - 4, y, x + kBarWidth, y, palette::ink, 1.1);

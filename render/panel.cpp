@@ -93,7 +93,7 @@ double Panel::plot_y(double copies) const {
 void Panel::curve_axes(const Canvas& canvas) const {
   const double left = plot_.x, right = plot_.x + plot_.width;
   const Axis up = make_axis(0, 1.08 * most_, false, 3, true);
-  for (const Tick& tick : up.ticks) {
+  for (const AxisTick& tick : up.ticks) {
     if (!tick.major) continue;
     const double y = plot_y(tick.value);
     canvas.line(left, y, right, y, tick.value == 0 ? palette::muted : palette::hairline, 1.5);
@@ -101,7 +101,7 @@ void Panel::curve_axes(const Canvas& canvas) const {
   }
   const Axis along = make_axis(0, end_ / unit_.seconds, false, 6, false);
   const double base = plot_y(0);
-  for (const Tick& tick : along.ticks) {
+  for (const AxisTick& tick : along.ticks) {
     if (!tick.major) continue;
     const double x = plot_x(tick.value * unit_.seconds);
     canvas.line(x, base, x, base + 7, palette::muted, 1.5);

@@ -76,7 +76,8 @@ void choose_axes(const Plot& plot, PlotArea& area) {
 
 double widest_label(const Canvas& canvas, const Axis& axis) {
   double widest = 0;
-  for (const Tick& t : axis.ticks) widest = std::max(widest, canvas.width_of(t.label, kTickText));
+  for (const AxisTick& t : axis.ticks)
+    widest = std::max(widest, canvas.width_of(t.label, kTickText));
   return widest;
 }
 
@@ -98,11 +99,11 @@ PlotArea layout(const Canvas& canvas, const Plot& plot, double right_margin) {
 
 void draw_grid(const Canvas& canvas, const PlotArea& area) {
   const Colour faint = mixed(palette::hairline, palette::paper, 0.45);
-  for (const Tick& t : area.x.ticks) {
+  for (const AxisTick& t : area.x.ticks) {
     const double x = area.at_x(t.value);
     if (t.major) canvas.line(x, area.top, x, area.bottom(), faint, 1);
   }
-  for (const Tick& t : area.y.ticks) {
+  for (const AxisTick& t : area.y.ticks) {
     const double y = area.at_y(t.value);
     if (t.major) canvas.line(area.left, y, area.right(), y, faint, 1);
   }
@@ -121,7 +122,7 @@ void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
   TextStyle text = kTickText;
   text.align = Align::centre;
   double free_from = -1e9;  // labels that would touch the one before are left out
-  for (const Tick& t : area.x.ticks) {
+  for (const AxisTick& t : area.x.ticks) {
     const double x = area.at_x(t.value), y = area.bottom();
     canvas.line(x, y, x, y - (t.major ? kMajor : kMinor), palette::ink, kWidth);
     const double half = canvas.width_of(t.label, text) / 2;
@@ -131,7 +132,7 @@ void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
   }
   text.align = Align::right;
   double free_below = 1e9;
-  for (const Tick& t : area.y.ticks) {
+  for (const AxisTick& t : area.y.ticks) {
     const double x = area.left, y = area.at_y(t.value);
     canvas.line(x, y, x + (t.major ? kMajor : kMinor), y, palette::ink, kWidth);
     if (t.label.empty() || y > free_below) continue;

@@ -24,13 +24,13 @@ struct Slip {
   double n, t;
 };
 
-Slip slip(const Contact& c, const Mover& a, const Mover& b) {
+Slip slip(const ContactPoint& c, const Mover& a, const Mover& b) {
   const double vx = b.twist.vx - a.twist.vx, vy = b.twist.vy - a.twist.vy;
   return {c.nx * vx + c.ny * vy + c.bn * b.twist.omega - c.an * a.twist.omega,
           c.nx * vy - c.ny * vx + c.bt * b.twist.omega - c.at * a.twist.omega};
 }
 
-void kick(const Contact& c, Mover& a, Mover& b, double n, double t) {
+void kick(const ContactPoint& c, Mover& a, Mover& b, double n, double t) {
   const double jx = n * c.nx - t * c.ny, jy = n * c.ny + t * c.nx;
   a.twist.vx -= a.inv_mass * jx, a.twist.vy -= a.inv_mass * jy;
   b.twist.vx += b.inv_mass * jx, b.twist.vy += b.inv_mass * jy;
@@ -39,7 +39,7 @@ void kick(const Contact& c, Mover& a, Mover& b, double n, double t) {
 }
 
 // Arms and effective masses for the point at which the contact lies.
-void prepare(Contact& c, const Mover& a, const Mover& b) {
+void prepare(ContactPoint& c, const Mover& a, const Mover& b) {
   const double ax = c.x - a.pose.x, ay = c.y - a.pose.y;
   const double bx = c.x - b.pose.x, by = c.y - b.pose.y;
   c.an = ax * c.ny - ay * c.nx, c.at = ax * c.nx + ay * c.ny;
@@ -113,7 +113,7 @@ ContactSolver::ContactSolver(const Model& model)
 
 // The impulses that one contact needs in the end if nothing else changes, by Coulomb's law: none,
 // sticking, or sliding. (vn, vt) is the velocity with the impulses so far.
-void ContactSolver::resolve(Contact& c, double vn, double vt) const {
+void ContactSolver::resolve(ContactPoint& c, double vn, double vt) const {
   const double bare_n = vn - c.nn * c.impulse_n - c.nt * c.impulse_t;
   const double bare_t = vt - c.nt * c.impulse_n - c.tt * c.impulse_t;
   const double need = c.target - bare_n;
@@ -136,7 +136,7 @@ void ContactSolver::resolve(Contact& c, double vn, double vt) const {
 // One pass over all contacts; returns the largest change of velocity (m/s).
 double ContactSolver::sweep(std::vector<Mover>& movers) {
   double change = 0;
-  for (Contact& c : contacts_) {
+  for (ContactPoint& c : contacts_) {
     Mover &a = movers[c.a], &b = movers[c.b];
     const Slip v = slip(c, a, b);
     if (c.impulse_n == 0 && v.n >= c.target) continue;
@@ -164,7 +164,7 @@ bool ContactSolver::approach(Island& island, double margin, double h) {
     if (near.gap.size > margin) continue;
     const Mover &a = movers[near.a], &b = movers[near.b];
     island.touches(near, margin, [&](double nx, double ny, const Touch& touch) {
-      Contact& c = contacts_.emplace_back();
+      ContactPoint& c = contacts_.emplace_back();
       c.a = near.a, c.b = near.b;
       c.nx = nx, c.ny = ny;
       c.x = touch.x, c.y = touch.y, c.gap = touch.gap;
@@ -183,9 +183,9 @@ bool ContactSolver::approach(Island& island, double margin, double h) {
 // Which contacts go on after the motion, and the velocities that they ask for. A contact that did
 // not act and is not closed is left for a later substep. True if they ask for something new.
 bool ContactSolver::retarget(const std::vector<Mover>& movers) {
-  std::erase_if(contacts_, [](const Contact& c) { return c.impulse_n == 0 && c.gap > 0; });
+  std::erase_if(contacts_, [](const ContactPoint& c) { return c.impulse_n == 0 && c.gap > 0; });
   bool again = false;
-  for (Contact& c : contacts_) {
+  for (ContactPoint& c : contacts_) {
     const bool bounces =
         c.impulse_n > 0 && c.approach < -threshold_ && !movers[c.a].dull && !movers[c.b].dull;
     const double target = bounces ? -restitution_ * c.approach : 0;
@@ -199,7 +199,7 @@ void ContactSolver::rebound(Island& island, double h) {
   std::vector<Mover>& movers = island.movers();
   bool wall = false;
   const bool again = retarget(movers);
-  for (Contact& c : contacts_) {
+  for (ContactPoint& c : contacts_) {
     wall = wall || c.a == 0;
     if (!again) continue;
     // The point moved with both bodies (on the wall: with the corner). Where it lies now, the

@@ -7,7 +7,7 @@
 namespace lilytank {
 
 /// A point where two movers touch or may within the substep.
-struct Contact {
+struct ContactPoint {
   int a = 0, b = 0;                       ///< movers; a = 0: the wall
   double nx = 0, ny = 0;                  ///< unit normal from a to b; the tangent is (-ny, nx)
   double x = 0, y = 0, gap = 0;           ///< m
@@ -35,14 +35,14 @@ class ContactSolver {
   void rebound(Island& island, double h);
 
  private:
-  void resolve(Contact& contact, double vn, double vt) const;
+  void resolve(ContactPoint& contact, double vn, double vt) const;
   bool retarget(const std::vector<Mover>& movers);
   void iterate(std::vector<Mover>& movers);
   double sweep(std::vector<Mover>& movers);
 
   double friction_, restitution_, threshold_;
   double energy_ = 0;  // J, of the island before its contacts were solved
-  std::vector<Contact> contacts_;
+  std::vector<ContactPoint> contacts_;
 };
 
 }  // namespace lilytank
