@@ -14,11 +14,10 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kFirstSpread = 0.04;  // deviation of the first design, as a share of the ranges
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
-constexpr double kLastSpread = 2;      // of the last design, in standard errors
+constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
 constexpr double kReach = 2;               // deviations of the design that a round may go
-constexpr double kNarrower = 0.5;
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -90,7 +89,7 @@ class Simulated {
 Matrix spread_of(const Matrix& covariance, const Vector& most) {
   Matrix c = covariance;
   for (Eigen::Index k = 0; k < c.rows(); ++k) c(k, k) += 1e-8 * most(k) * most(k);
-  Matrix root = kLastSpread * Matrix(c.llt().matrixL());
+  Matrix root = kRoughSpread * Matrix(c.llt().matrixL());
   for (Eigen::Index k = 0; k < c.rows(); ++k) {
     const double size = root.row(k).norm();
     if (size > most(k)) root.row(k) *= most(k) / size;
@@ -133,14 +132,19 @@ class Way {
       const Matrix points = scattered(centre_, spread_, phase.round, bounds_, seed);
       simulated.add(points, stages_.simulate(name, points, seed, maps_, phase.of));
       const Design design = simulated.near(centre_, spread_);
-      const LocalRound last = look(design, close, name);
+      const LocalRound last = look(design, close || fixed_, name);
       if (answer_->settled && design.points.rows() >= phase.enough) return;
       close = !last.at_reach;
     }
   }
 
-  /// Whole experiments scatter less than the pieces that led here.
-  void narrow() { spread_ *= kNarrower; }
+  /// Whole experiments scatter less than the pieces that led here. From here on the width stays: a
+  /// covariance from slopes that are known too little is too small, and narrower points would know
+  /// them even less.
+  void narrow() {
+    spread_ *= std::min(1.0, kLastSpread / kRoughSpread * std::sqrt(stages_.piece_cost()));
+    fixed_ = true;
+  }
 
   const std::vector<LocalRound>& taken() const { return taken_; }
   LocalAnswer answer() { return std::move(*answer_); }
@@ -165,7 +169,7 @@ class Way {
     const auto freedom = static_cast<double>(observed_.size() - centre_.size());
     const double unexplained =
         kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
-    if (!fit.at_reach) spread_ = spread_of(unexplained * covariance, most_);
+    if (!fixed_ && !fit.at_reach) spread_ = spread_of(unexplained * covariance, most_);
     return taken_.back();
   }
 
@@ -176,6 +180,7 @@ class Way {
   Vector centre_, most_;
   Matrix spread_;
   Misfit kind_ = Misfit::covariance;
+  bool fixed_ = false;
   std::uint64_t seed_ = kRoundSeed;
   std::optional<LocalAnswer> answer_;
   std::vector<LocalRound> taken_;

@@ -42,6 +42,8 @@ class Stages {
   std::vector<double> from_scale(const Eigen::VectorXd& point) const;
   FitBounds bounds() const;
   int simulations() const { return simulations_; }
+  /// A piece's share of an experiment.
+  double piece_cost() const { return piece_cost_; }
 
  private:
   std::string file(const std::string& stage) const;
