@@ -13,7 +13,7 @@ using Texts = std::vector<std::string>;
 
 Texts labels(const Axis& axis) {
   Texts texts;
-  for (const Tick& t : axis.ticks) {
+  for (const AxisTick& t : axis.ticks) {
     if (!t.label.empty()) texts.push_back(t.label);
   }
   return texts;
@@ -65,7 +65,7 @@ TEST(Axes, EveryRangeGivesAUsableAxis) {
         ASSERT_FALSE(labels(axis).empty());
         double before = -inf;
         std::set<std::string> seen;
-        for (const Tick& t : axis.ticks) {
+        for (const AxisTick& t : axis.ticks) {
           ASSERT_GT(t.value, before);
           before = t.value;
           ASSERT_GT(axis.share(t.value), -0.01);
