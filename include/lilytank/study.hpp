@@ -54,8 +54,8 @@ struct StudyPlan {
   /// as without it, but for what a world might still have come to that is not to come: divergence
   /// and illegal assemblies. Not stored: it does not tell studies apart.
   bool until_settled = false;
-  std::vector<std::string> axes;     ///< names: dotted paths, or those of overlay axes
-  std::vector<Setting> settings;     ///< the last axis changes fastest
+  std::vector<std::string> axes;  ///< names: dotted paths, or those of overlay axes
+  std::vector<Setting> settings;  ///< the last axis changes fastest
 
   /// s, the longest duration.
   double horizon() const;

@@ -29,9 +29,9 @@ struct AgitationTable {
 
 /// [race]: rulesets of a target by successive halving.
 struct RaceTable {
-  std::string target;   ///< file
-  int rulesets = 16;    ///< that begin, at most
-  int evaluations = 12; ///< of each in the first round, doubled from round to round
+  std::string target;    ///< file
+  int rulesets = 16;     ///< that begin, at most
+  int evaluations = 12;  ///< of each in the first round, doubled from round to round
   SourcePlace place;
 };
 

@@ -36,7 +36,7 @@ struct StudyFile {
   std::uint64_t seed = 1;
   int replicates = 1;  ///< with a stopping rule its `max`
   bool until_settled = false;
-  int samples = 0;     ///< of the latin hypercube; 0: no axis is latin
+  int samples = 0;  ///< of the latin hypercube; 0: no axis is latin
   std::optional<StoppingRule> stop;
   std::vector<StudyAxis> axes;
 };

@@ -124,7 +124,7 @@ class Job {
     for_each_world(static_cast<int>(runs.size()), options_->threads, [&](int i) {
       const RunPlace& run = runs[static_cast<std::size_t>(i)];
       auto world = run_world(*study_, run.setting, run.replicate, options_->stop,
-                           [&](double seconds) { meter_.simulated(seconds); });
+                             [&](double seconds) { meter_.simulated(seconds); });
       if (!world) return;
       writer_.write(row_line(world->row, identity_));
       meter_.finished(*world);
