@@ -42,7 +42,8 @@ struct Moment {
   std::int64_t step = 0;  ///< steps of dt since the start
   std::int64_t gust = 0;  ///< 25 ms intervals since the start: a gust is held for one
   std::uint64_t seed = 0;
-  bool gusts = true;                 ///< false: the mean flow only
+  bool gusts = true;                 ///< false: nothing random, and the drag of the mean flow
+  bool expected = false;             ///< beside gusts = false: drag's mean over gusts instead
   const FlowField* field = nullptr;  ///< the flow now; null: the model's
   double gain = 1;                   ///< factor on its mean and deviation, beside K_v
   /// m/s, [bodies] what terms that stir add to the water's velocity at each body; empty: nothing.

@@ -123,6 +123,9 @@ struct Model {
   /// by Command::copies, rising. The last one of its kind that is reached holds; before the first
   /// one, what `commands` said.
   std::vector<Command> feedback;
+  /// Nothing random: random forces are left out, and drag on modules is its mean over gusts (with
+  /// moment-matched gusts). Such a world tells where bodies are expected to go.
+  bool expected = false;
   int bodies() const { return module.count + ball.count; }
 };
 

@@ -152,10 +152,10 @@ void drag(const DragSettings& settings, const std::uint32_t counter[4], const st
   const Floats d;
   const Lookup field(*settings.field);
   alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
-  if (!settings.gusty) std::fill(z, z + 2 * kBulkBodies, 0.0f);
+  const bool drawn = settings.gusty && !settings.expected;
+  if (!drawn) std::fill(z, z + 4 * kBulkBodies, 0.0f);
   for (int i = 0; i < kBulkBodies; i += static_cast<int>(hn::Lanes(d))) {
-    if (settings.gusty)
-      normals_of(counter, key, static_cast<std::uint32_t>(i), numbers(settings), z + i);
+    if (drawn) normals_of(counter, key, static_cast<std::uint32_t>(i), numbers(settings), z + i);
     const Modules m{hn::Load(d, block.x + i),    hn::Load(d, block.y + i),
                     hn::Load(d, block.c + i),    hn::Load(d, block.s + i),
                     hn::Load(d, block.vx + i),   hn::Load(d, block.vy + i),
@@ -185,8 +185,9 @@ HWY_EXPORT(drag);
 
 DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
     : field(&field_now(model, now)),
-      gusts(model.flow.gusts),
-      gusty(now.gusts),
+      gusts(now.expected ? Gusts::moment_matched : model.flow.gusts),
+      gusty(now.gusts || now.expected),
+      expected(now.expected),
       at(model.flow.at),
       segments(segments_),
       half(static_cast<float>(0.5 * model.module.side)),

@@ -16,7 +16,8 @@ struct DragSettings {
 
   const FlowField* field;
   Gusts gusts;
-  bool gusty;  ///< false: the mean flow only
+  bool gusty;     ///< false: the mean flow only
+  bool expected;  ///< gusty, but the mean over gusts instead of a draw
   FlowAt at;
   int segments;
   float half;  ///< m, half the side

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "control/controller.hpp"
+#include "forces/force_sum.hpp"
 #include "physics/assembly.hpp"
 #include "physics/motion.hpp"
 
@@ -18,8 +19,7 @@ struct World::Impl {
   Motion motion;
   Controller controller;
   std::vector<Wrench> wrenches;
-  std::vector<const ActiveForce*> stirring, transforming;
-  std::vector<double> stirred_x, stirred_y;  // m/s, [bodies] added to the water's velocity
+  ForceSum forces;
   std::vector<Event> events;
   Kinematics kinematics;
   Decay decay;
@@ -29,7 +29,7 @@ struct World::Impl {
   Tallies tallies;
 
   Impl(const Model& m, State s)
-      : model(&m), state(std::move(s)), motion(m), controller(m), wrenches(m.bodies()) {
+      : model(&m), state(std::move(s)), motion(m), controller(m), wrenches(m.bodies()), forces(m) {
     assemblies.resize(m);
     derive(m, state, assemblies);
     events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
@@ -38,10 +38,7 @@ struct World::Impl {
     for (const ActiveForce& force : m.forces) {
       const Decay d = force.term->decay(force.p, m.dt);
       decay.linear *= d.linear, decay.angular *= d.angular;
-      if (force.term->stirs()) stirring.push_back(&force);
-      if (force.term->transforms()) transforming.push_back(&force);
     }
-    if (!stirring.empty()) stirred_x.resize(wrenches.size()), stirred_y.resize(wrenches.size());
     linear_to_angular = decay.linear / decay.angular;
   }
 
@@ -52,41 +49,17 @@ struct World::Impl {
             .step = state.step,
             .gust = state.step / model->steps_per_tick,
             .seed = state.seed,
+            .gusts = !model->expected,
+            .expected = model->expected,
             .field = field};
   }
 
-  void add_forces();
-  void stir(Moment& moment);
   void kick();
   Wrench sum_of_members(int slot) const;
   void damp();
   bool healthy() const;
   void blame();
 };
-
-// Wrenches of all active terms, from the state at the start of the step.
-void World::Impl::add_forces() {
-  std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-  Moment moment = now();
-  stir(moment);
-  for (const ActiveForce& force : model->forces)
-    force.term->add(*model, kinematics, moment, force.p, wrenches);
-  for (const ActiveForce* force : transforming)
-    force->term->transform(*model, kinematics, moment, force->p, wrenches);
-}
-
-// What terms that change the water make of it at this moment.
-void World::Impl::stir(Moment& moment) {
-  if (stirring.empty()) return;
-  std::fill(stirred_x.begin(), stirred_x.end(), 0.0);
-  std::fill(stirred_y.begin(), stirred_y.end(), 0.0);
-  moment.ux = stirred_x, moment.uy = stirred_y;
-  Stirring water{1, stirred_x, stirred_y};
-  for (const ActiveForce* force : stirring) {
-    force->term->stir(*model, kinematics, moment, force->p, water);
-    moment.gain = water.gain;
-  }
-}
 
 // Members' wrenches become their assembly's change of twist.
 void World::Impl::kick() {
@@ -155,7 +128,7 @@ bool World::Impl::healthy() const {
 // The worst body and the term with the largest force on it, from the wrenches of this step.
 void World::Impl::blame() {
   Moment moment = now();
-  stir(moment);
+  forces.stir(kinematics, moment);
   const auto badness = [&](int slot) {
     const double size = std::fabs(state.vx[slot]) + std::fabs(state.vy[slot]) +
                         std::fabs(state.omega[slot]) * assemblies.reach[slot];
@@ -189,7 +162,7 @@ RunStatus World::step() {
   Impl& w = *impl_;
   if (w.status != RunStatus::ok) return w.status;
   w.events.clear();
-  w.add_forces();
+  w.forces(w.kinematics, w.now(), w.wrenches);
   if (w.state.step % w.model->steps_per_tick == 0)
     w.controller.tick(w.state, w.assemblies, w.motion, w.events, w.tallies);
   w.kick();

@@ -1,0 +1,38 @@
+#include "forces/force_sum.hpp"
+
+#include <algorithm>
+
+namespace lilytank {
+
+ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
+    : model_(&model), forces_(&forces) {
+  for (const ActiveForce& force : forces) {
+    if (force.term->stirs()) stirring_.push_back(&force);
+    if (force.term->transforms()) transforming_.push_back(&force);
+  }
+  if (stirring_.empty()) return;
+  stirred_x_.resize(static_cast<std::size_t>(model.bodies()));
+  stirred_y_.resize(stirred_x_.size());
+}
+
+void ForceSum::stir(const Kinematics& k, Moment& now) {
+  if (stirring_.empty()) return;
+  std::fill(stirred_x_.begin(), stirred_x_.end(), 0.0);
+  std::fill(stirred_y_.begin(), stirred_y_.end(), 0.0);
+  now.ux = stirred_x_, now.uy = stirred_y_;
+  Stirring water{1, stirred_x_, stirred_y_};
+  for (const ActiveForce* force : stirring_) {
+    force->term->stir(*model_, k, now, force->p, water);
+    now.gain = water.gain;
+  }
+}
+
+void ForceSum::operator()(const Kinematics& k, Moment now, std::span<Wrench> out) {
+  std::fill(out.begin(), out.end(), Wrench{});
+  stir(k, now);
+  for (const ActiveForce& force : *forces_) force.term->add(*model_, k, now, force.p, out);
+  for (const ActiveForce* force : transforming_)
+    force->term->transform(*model_, k, now, force->p, out);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,30 @@
+// The sum of all terms that are switched on: first what they do to the water, then their wrenches,
+// then what changes the sum.
+#pragma once
+#include <vector>
+
+#include "lilytank/force.hpp"
+#include "lilytank/model.hpp"
+
+namespace lilytank {
+
+/// Asks the terms of a list in the order of their stages. No allocation after it was made.
+class ForceSum {
+ public:
+  /// `model` must outlive it; `forces` are the model's, or others in their place.
+  explicit ForceSum(const Model& model) : ForceSum(model, model.forces) {}
+  ForceSum(const Model& model, const std::vector<ActiveForce>& forces);
+
+  /// `now` with what the terms make of the water at each body; it points into this object.
+  void stir(const Kinematics& k, Moment& now);
+  /// Sets `out` [bodies] to the sum of all wrenches.
+  void operator()(const Kinematics& k, Moment now, std::span<Wrench> out);
+
+ private:
+  const Model* model_;
+  const std::vector<ActiveForce>* forces_;
+  std::vector<const ActiveForce*> stirring_, transforming_;
+  std::vector<double> stirred_x_, stirred_y_;  // m/s, [bodies] added to the water's velocity
+};
+
+}  // namespace lilytank
