@@ -5,6 +5,7 @@
 
 #include "lilytank/analysis.hpp"
 #include "lilytank/calibration.hpp"
+#include "lilytank/diagnosis.hpp"
 #include "lilytank/flow_report.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/search.hpp"
@@ -165,6 +166,13 @@ Plot search_plot(const std::vector<IterationRecord>& history, const std::string&
 /// files' names. Throws InputError if they cannot be written.
 std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
                                           const std::string& dir);
+
+/// Plots of a diagnosis in a directory, each as .png and .svg: "maps" of what the baseline leaves,
+/// "ranking" of effects, "laws" of the findings, "fit" before and after; and report.html, one file
+/// with all of them and `text`. Returns the files' names. Throws InputError if they cannot be
+/// written.
+std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const std::string& text,
+                                        const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

@@ -52,14 +52,6 @@ CalibrationResult begun(const CalibrationSetup& setup) {
   return out;
 }
 
-// The extracted flow without its mean error, as a grid that a run reads.
-std::string corrected_csv(const CalibrationSetup& setup, const FlowField& best) {
-  if (!setup.flow) return "";
-  FlowEstimate estimate = *setup.flow;
-  for (std::size_t i = 0; i < estimate.cell.size(); ++i) estimate.cell[i].flow = best.samples()[i];
-  return flow_csv(estimate);
-}
-
 }  // namespace
 
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
@@ -69,7 +61,7 @@ std::optional<CalibrationResult> calibrate(const Experiment& experiment,
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();
-  out.flow_csv = corrected_csv(setup, *maps.best());
+  out.flow_csv = setup.corrected_csv(*maps.best());
   const std::vector<double> searched = stages.search(out);
   for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];
   const std::vector<double> told = setup.numbers(setup.training);

@@ -181,6 +181,13 @@ std::vector<SummaryEntry> CalibrationSetup::entries() const {
   return out;
 }
 
+std::string CalibrationSetup::corrected_csv(const FlowField& best) const {
+  if (!flow) return "";
+  FlowEstimate estimate = *flow;
+  for (std::size_t i = 0; i < estimate.cell.size(); ++i) estimate.cell[i].flow = best.samples()[i];
+  return flow_csv(estimate);
+}
+
 CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& options) {
   CalibrationSetup setup;
   setup.options = options, setup.name = experiment.name, setup.body = options.body;

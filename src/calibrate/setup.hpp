@@ -34,6 +34,9 @@ struct CalibrationSetup {
   /// What the objective compares, of recordings of the experiment's whole length.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;
   std::vector<SummaryEntry> entries() const;
+  /// The extracted flow without its mean error, as a grid that a run reads; empty where the
+  /// scenario's flow is used.
+  std::string corrected_csv(const FlowField& best) const;
 };
 
 /// Reads nothing further than the experiment; extracts the flow. Throws InputError.

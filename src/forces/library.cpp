@@ -8,7 +8,7 @@ namespace lilytank {
 
 std::span<const ForceTerm* const> force_library() {
   // The order of addition is part of every result: new terms go to the end.
-  static const std::array<const ForceTerm*, 29> terms{&face_drag(),
+  static const std::array<const ForceTerm*, 30> terms{&face_drag(),
                                                       &ball_drag(),
                                                       &stochastic_force(),
                                                       &damping(),
@@ -36,7 +36,8 @@ std::span<const ForceTerm* const> force_library() {
                                                       &heavy_tailed_kicks(),
                                                       &added_mass(),
                                                       &heterogeneous_module(),
-                                                      &mass_offset()};
+                                                      &mass_offset(),
+                                                      &empirical_force()};
   return terms;
 }
 

@@ -33,5 +33,6 @@ const ForceTerm& heavy_tailed_kicks();
 const ForceTerm& added_mass();
 const ForceTerm& heterogeneous_module();
 const ForceTerm& mass_offset();
+const ForceTerm& empirical_force();
 
 }  // namespace lilytank

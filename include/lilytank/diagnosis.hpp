@@ -1,0 +1,114 @@
+// What physics a model leaves out: where simulation and recordings differ, which effect it is, the
+// effect's size, and how much of the difference it removes. docs/diagnosis.md.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lilytank/experiment.hpp"
+
+namespace lilytank {
+
+struct DiagnosisOptions {
+  int hold_out = 1;            ///< recordings kept for showing, where none says held_out: the last
+  double minutes = 10;         ///< that it may take on two cores: scales the simulations
+  double false_alarms = 0.02;  ///< share of experiments with nothing missing that may be called so
+  std::uint64_t seed = 1;
+  std::string out;     ///< directory; empty: nothing is kept
+  bool force = false;  ///< replace another diagnosis's files
+  int threads = 0;
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(double done, const std::string& stage)> progress;
+};
+
+enum class Verdict : std::uint8_t {
+  complete,     ///< nothing is missing that these data could show
+  missing,      ///< findings say what
+  measurement,  ///< the recordings are at fault; no force is looked for
+  undecided,    ///< something differs, and these data cannot say what
+};
+std::string name_of(Verdict verdict);
+
+/// A number of an effect with its 95 % interval.
+struct FoundParameter {
+  std::string name, path;
+  double value = 0, low = 0, high = 0;
+  std::string unit;
+};
+
+/// Values of a curve: an empirical force law, or a map of what is left.
+struct FoundCurve {
+  std::string variable, direction, unit, value_unit;
+  std::vector<double> at, value, deviation;  ///< deviation: of nothing there
+  double z = 0;                              ///< of the curve as a whole
+};
+
+struct DiagnosisFinding {
+  std::string effect;  ///< of the catalogue, or "unnamed"
+  std::vector<std::string> alternatives;
+  double confidence = 0;  ///< 1 - probability of such a fit with nothing there
+  double z = 0;
+  std::string variable;         ///< position, radius, pair, slip, heading, spin, time, module, lag
+  double from = 0, to = 0;      ///< where it acts
+  std::string unit, text;       ///< of the variable; in words
+  std::string equation, split;  ///< the experiment that would split a group; "" if there is none
+  std::vector<FoundParameter> parameters;
+  FoundCurve curve;                              ///< the region's map; of unnamed effects their law
+  double gain = 0, gain_low = 0, gain_high = 0;  ///< nat on held-out recordings, one step ahead
+};
+
+/// The smallest size of an effect that would have been seen; infinite: it cannot be seen.
+struct Detectable {
+  std::string effect, path;
+  double smallest = 0;
+  std::string unit;
+};
+
+/// How far a group of numbers is off, in mean squares of its deviations, before and after.
+struct GroupFit {
+  std::string group;
+  double before = 0, after = 0;  ///< 1: as far as chance
+  double removed() const;        ///< share of what is beyond chance
+};
+
+/// One of the five before and after the effects were added.
+struct MovedParameter {
+  std::string path, unit;
+  double baseline = 0, deviation = 0, with_effects = 0, low = 0, high = 0;
+};
+
+struct Diagnosis {
+  std::string name;
+  Verdict verdict = Verdict::undecided;
+  std::vector<DiagnosisFinding> findings;
+  std::vector<Detectable> detectable;
+  std::vector<MovedParameter> parameters;
+  std::vector<GroupFit> training, held_out;
+  double msd_before = 0, msd_after = 0, msd_floor = 0;  ///< m^2, Eq. 9 of held-out recordings
+  double msd_removed = 0, msd_low = 0, msd_high = 0;
+  std::vector<FoundCurve> maps;  ///< every shape's curve of what the baseline leaves
+  /// Every effect alone: name, z.
+  std::vector<std::pair<std::string, double>> ranking;
+  double effect_threshold = 0, shape_threshold = 0, false_alarms = 0;
+  double strongest_left = 0;  ///< z of what is left after the findings
+  std::vector<std::string> checks, warnings;
+  int recordings = 0, modules = 0, simulations = 0;
+  double seconds = 0;
+  std::string overlay;  ///< missing.toml
+  std::string flow_csv;
+};
+
+/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. Nothing if
+/// it was stopped. Throws InputError.
+std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisOptions& options);
+
+/// The report as text; diagnosis.json (schema diagnosis/1); the files of a directory: the two,
+/// missing.toml, flow.csv, report.html, maps.csv, ranking.csv. Returns the files' names.
+std::string diagnosis_text(const Diagnosis& diagnosis);
+std::string diagnosis_json(const Diagnosis& diagnosis);
+std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const std::string& dir);
+
+}  // namespace lilytank

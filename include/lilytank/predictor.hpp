@@ -1,0 +1,59 @@
+// The baseline model as a predictor: where it expects every module one frame later, and how far off
+// that was.
+//
+// A filter carries each module's place, velocity, heading and spin. From frame to frame all modules
+// of a recording are moved by the simulator itself, with every random force at its expectation
+// (Model::expected), so that contacts push in a prediction as they do in a simulation; what the
+// camera then saw corrects the filter [Kalman 1960]. Innovations, the differences of the two, know
+// nothing of the future: whatever is correlated with them was left out of the model.
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lilytank/model.hpp"
+#include "lilytank/recording.hpp"
+#include "lilytank/smoothing.hpp"
+
+namespace lilytank {
+
+struct PredictorOptions {
+  int substeps = 4;  ///< steps of the simulator from frame to frame
+  /// Tracking noise and random forces, of positions and headings: what the gains are made of.
+  MotionModel position, heading;
+  double start = 1;     ///< s at the begin of a track that are not told: the filter settles
+  double forget = 0.5;  ///< s unseen after which a module is no longer carried along
+};
+
+/// What the filter needs to know of recordings: their noise by fit_position and fit_heading, and
+/// jolts with which the model's innovations have the variance that the filter says.
+PredictorOptions predictor_options(const Model& model, const std::vector<Recording>& recordings);
+
+/// What the filter knows at one frame, from this frame and earlier ones only, and what the next
+/// frame then showed. Arrays have a value for each module that is carried along.
+struct PredictedFrame {
+  int recording = 0, frame = 0;  ///< the frame that was predicted from
+  double time = 0;               ///< s, of it
+  double interval = 0;           ///< s to the next frame
+  const Model* model = nullptr;  ///< of these modules
+  Kinematics now;                ///< filtered, at `frame`
+  std::span<const int> module;   ///< number of the identity, the same over all recordings
+  /// Next frame: place (m) and heading (rad) measured minus predicted; NaN where not seen.
+  std::span<const double> dx, dy, dtheta;
+  std::span<const double> sd_x, sd_theta;  ///< their deviations by the filter
+  /// Change of velocity by contacts in the prediction, m/s; its size.
+  std::span<const double> contact;
+  std::span<const double> gain_x, gain_v;  ///< of positions: shares of an innovation that correct
+  std::span<const double> gain_theta, gain_omega;  ///< x (1), v (1/s); likewise of headings
+  std::span<const std::uint8_t> told;              ///< 1: the filter has settled
+};
+
+/// Runs the filter through recordings of modules and calls `visit` frame by frame. `model` is the
+/// baseline; its number of modules and latches do not count. Recordings without headings are
+/// refused, as the faces' drag needs them. Throws InputError.
+void predict(const Model& model, const std::vector<Recording>& recordings,
+             const PredictorOptions& options,
+             const std::function<void(const PredictedFrame&)>& visit);
+
+}  // namespace lilytank

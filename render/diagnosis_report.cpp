@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+double scale_of(const FoundCurve& c) {
+  return c.value_unit == "N m" ? 1e6 : 1e3;
+}
+std::string unit_of(const FoundCurve& c) {
+  return c.value_unit == "N m" ? "torque (\u00b5N m)" : "force (mN)";
+}
+
+// One curve with the band in which nothing would lie.
+Plot curve_plot(const FoundCurve& c, bool small) {
+  Plot plot;
+  char z[24];
+  std::snprintf(z, sizeof z, ", z %.1f", c.z);
+  plot.title = c.direction + z;
+  plot.x_label = c.variable + " (" + c.unit + ")", plot.y_label = unit_of(c);
+  plot.zero_line = true;
+  if (small) plot.width = 460, plot.height = 330;
+  const double scale = scale_of(c);
+  Curve nothing{"nothing there, 95 %", c.at, {}, {}, {}}, found{"found", c.at, {}, {}, {}};
+  for (std::size_t k = 0; k < c.at.size(); ++k) {
+    const double band = 1.96 * c.deviation[k] * scale;
+    nothing.y.push_back(0), nothing.low.push_back(-band), nothing.high.push_back(band);
+    found.y.push_back(c.value[k] * scale);
+  }
+  found.markers = true;
+  plot.curves = {found, nothing};
+  return plot;
+}
+
+PlotPage maps_page(const Diagnosis& d) {
+  PlotPage page;
+  page.columns = 4;
+  std::vector<FoundCurve> maps = d.maps;
+  std::stable_sort(maps.begin(), maps.end(),
+                   [](const FoundCurve& a, const FoundCurve& b) { return a.z > b.z; });
+  for (const FoundCurve& c : maps) {
+    if (page.plots.size() < 12) page.plots.push_back(curve_plot(c, true));
+  }
+  return page;
+}
+
+PlotPage laws_page(const Diagnosis& d) {
+  PlotPage page;
+  page.columns = 2;
+  for (const DiagnosisFinding& f : d.findings) {
+    if (f.curve.at.empty()) continue;
+    Plot plot = curve_plot(f.curve, false);
+    plot.title = f.effect + ": " + plot.title;
+    page.plots.push_back(std::move(plot));
+  }
+  return page;
+}
+
+// Mean squares of deviations of each group, on the x axis by number.
+Plot fit_plot(const Diagnosis& d) {
+  Plot plot;
+  plot.title = "Recordings that had no part in it: distance from simulations";
+  plot.x_label = "group of numbers, as in the table", plot.y_label = "mean square deviation";
+  plot.log_y = true;
+  Curve before{"baseline", {}, {}, {}, {}}, after{"with what was found", {}, {}, {}, {}};
+  Curve chance{"chance", {1, static_cast<double>(d.held_out.size())}, {1, 1}, {}, {}};
+  for (std::size_t k = 0; k < d.held_out.size(); ++k) {
+    const auto x = static_cast<double>(k + 1);
+    before.x.push_back(x), after.x.push_back(x);
+    before.y.push_back(std::max(1e-2, d.held_out[k].before));
+    after.y.push_back(std::max(1e-2, d.held_out[k].after));
+  }
+  before.markers = after.markers = true;
+  plot.curves = {before, after, chance};
+  return plot;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+// A picture as text inside the page; ids of one picture must not be those of another.
+std::string embedded(const std::string& file, const std::string& prefix) {
+  std::ifstream in(file);
+  std::stringstream all;
+  all << in.rdbuf();
+  std::string svg = all.str();
+  const auto begin = svg.find("<svg");
+  if (begin == std::string::npos) return "";
+  svg.erase(0, begin);
+  for (const std::string mark : {"id=\"", "href=\"#", "url(#"}) {
+    for (std::size_t at = svg.find(mark); at != std::string::npos;
+         at = svg.find(mark, at + mark.size() + prefix.size())) {
+      svg.insert(at + mark.size(), prefix);
+    }
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_diagnosis(const Diagnosis& d, const std::string& text,
+                                        const std::string& dir) {
+  struct Figure {
+    std::string name, caption;
+    PlotPage page;
+  };
+  std::vector<Figure> figures;
+  if (const PlotPage page = laws_page(d); !page.plots.empty()) {
+    figures.push_back({"laws",
+                       "Where each finding acts: what the baseline leaves unexplained (dots), and "
+                       "how far it would be off by chance (band).",
+                       page});
+  }
+  if (!d.held_out.empty()) {
+    figures.push_back({"fit",
+                       "Before and after, on recordings that were not used. Groups: " +
+                           [&] {
+                             std::string list;
+                             for (std::size_t k = 0; k < d.held_out.size(); ++k) {
+                               list += (k > 0 ? ", " : "") + std::to_string(k + 1) + " " +
+                                       d.held_out[k].group;
+                             }
+                             return list;
+                           }() +
+                           ".",
+                       {{fit_plot(d)}, 1}});
+  }
+  if (!d.maps.empty()) {
+    figures.push_back({"maps",
+                       "Maps of the one-step innovations, strongest first: force that the baseline "
+                       "lacks, and the band of nothing.",
+                       maps_page(d)});
+  }
+  std::vector<std::string> names;
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Diagnosis of " +
+      escaped(d.name) +
+      "</title>\n<style>body{font-family:sans-serif;max-width:70em;margin:2em auto;padding:0 1em;"
+      "color:#222}pre{background:#f6f6f4;padding:1em;overflow-x:auto}figure{margin:2em 0}"
+      "svg{max-width:100%;height:auto}figcaption{color:#555}</style></head>\n<body>\n<h1>Diagnosis "
+      "of " +
+      escaped(d.name) + "</h1>\n";
+  for (const Figure& f : figures) {
+    for (const char* ending : {".png", ".svg"}) {
+      draw_plots(f.page, (fs::path(dir) / (f.name + ending)).string());
+      names.push_back(f.name + ending);
+    }
+    html += "<figure>" + embedded((fs::path(dir) / (f.name + ".svg")).string(), f.name + "-") +
+            "<figcaption>" + escaped(f.caption) + "</figcaption></figure>\n";
+  }
+  html += "<pre>" + escaped(text) + "</pre>\n</body></html>\n";
+  const std::string file = (fs::path(dir) / "report.html").string();
+  std::ofstream out(file + ".part");
+  out << html;
+  out.close();
+  if (!out) throw InputError("cannot write " + file);
+  fs::rename(file + ".part", file);
+  names.push_back("report.html");
+  return names;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,66 @@
+// lilytank diagnose: what physics a model leaves out.
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "lilytank/diagnosis.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
+
+namespace lilytank::cli {
+
+int diagnose_verb(const Arguments& arguments) {
+  VerbOptions options("diagnose", "EXPERIMENT.toml...",
+                      "Says where an experiment's recordings and the model differ, which effect is "
+                      "missing, how large it is, and how much of the difference it removes.");
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("out", "directory of the results (default: out/diagnose-<name>)", text(), "DIR")(
+      "seed", "of everything that is drawn (1)", text(), "N")(
+      "budget", "minutes that it may take on two cores (10)", text(), "MINUTES")(
+      "hold-out", "recordings kept for showing, if none is marked held_out (1)", text(), "N")(
+      "set", "a value over the experiment's, as run.dt='5 ms'",
+      cxxopts::value<std::vector<std::string>>(),
+      "PATH=VALUE")("threads", "worlds at a time (default: one a core)", text(), "N")(
+      "force", "replace another diagnosis's files")("quiet", "no progress");
+  if (!options.parse(arguments)) return Exit::done;
+  if (options.positional().empty()) {
+    options.refuse("of what? write lilytank diagnose EXPERIMENT.toml");
+  }
+  // Recordings have no steps: those of the simulations must be short enough not to show.
+  std::vector<std::string> sets{"run.dt='5 ms'"};
+  for (const std::string& one : options.list("set")) sets.push_back(one);
+  const Experiment experiment = load_experiment(options.positional(), sets);
+  DiagnosisOptions job;
+  job.minutes = options.number("budget", job.minutes, 1, 1e4, "");
+  job.hold_out = static_cast<int>(options.whole("hold-out", job.hold_out, 0, 1000));
+  job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
+  job.force = options.has("force");
+  job.out = options.text("out",
+                         (std::filesystem::path("out") / ("diagnose-" + experiment.name)).string());
+  if (job.out.empty()) options.refuse("--out is empty");
+  job.stop = &stop_signal();
+  Progress progress(options.has("quiet"));
+  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  const auto found = diagnose(experiment, job);
+  progress.clear();
+  if (!found) {
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  write_diagnosis(*found, job.out);
+#ifdef LILYTANK_HAS_RENDER
+  draw_diagnosis(*found, diagnosis_text(*found), job.out);
+#else
+  std::cerr
+      << "no report.html: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  std::cout << diagnosis_text(*found) << std::flush;
+  std::cerr << "results in " << job.out << "\n";
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,199 @@
+#include "diagnose/atlas.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/slack.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr std::uint64_t kNullSeed = 1, kEffectSeed = 100, kFieldSeed = 7;
+constexpr double kFar = 1.6;  // farthest points, over the root of their dimension
+constexpr double kBend = 1;   // one over the square of a second order that is expected
+
+Vector to_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// Amplitudes between 0.4 and 1.2 of an effect's size, of both signs where it may have both, and of
+// several at once so that none is always there.
+Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  Matrix out(count, m);
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index c = 0; c < m; ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
+      out(i, c) = (0.4 + 0.8 * u) * (negative ? -1 : 1);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
+             const Matrix& spread, const AtlasOptions& options)
+    : stages_(stages),
+      maps_(maps),
+      plan_(std::move(plan)),
+      options_(options),
+      centre_(centre),
+      spread_(spread) {
+  const CalibrationSetup& setup = stages.setup();
+  const Matrix points = scattered(options.nulls, derived_seed(options.seed, kNullSeed));
+  const auto nulls =
+      simulate("nulls", setup.emulator(setup.shapes), points, Matrix(options.nulls, 0), nullptr,
+               derived_seed(options.seed, kNullSeed));
+  std::vector<Eigen::Index> good;
+  for (std::size_t i = 0; i < nulls.size(); ++i) {
+    if (nulls[i].summary.size() > 0) good.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (2 * good.size() < nulls.size()) {
+    throw InputError("more than half of the simulated experiments diverged");
+  }
+  Design summaries, numbers;
+  const auto n = static_cast<Eigen::Index>(good.size());
+  summaries.points.resize(n, points.cols());
+  summaries.numbers.resize(n, nulls[static_cast<std::size_t>(good[0])].summary.size());
+  numbers.numbers.resize(n, nulls[static_cast<std::size_t>(good[0])].scores.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& from = nulls[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
+    summaries.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
+    summaries.numbers.row(i) = from.summary, numbers.numbers.row(i) = from.scores;
+  }
+  numbers.points = summaries.points;
+  parameters_ = std::make_unique<LocalModel>(summaries);
+  scores_ = std::make_unique<LocalModel>(numbers);
+  named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
+  deviation_ = Vector::Ones(numbers.numbers.cols());
+  null_residuals_.resize(n, numbers.numbers.cols());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    null_residuals_.row(i) = residual({summaries.numbers.row(i), numbers.numbers.row(i)});
+  }
+  const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
+  deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1))
+                   .cwiseSqrt()
+                   .cwiseMax(1e-9)
+                   .transpose();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());
+  }
+  std::uint64_t number = kEffectSeed;
+  for (std::size_t e = 0; e < plan_.effects.size(); ++e) {
+    fingerprints_.push_back(fingerprint(plan_.effects[e], "effect " + std::to_string(e),
+                                        derived_seed(options.seed, number++)));
+  }
+}
+
+Matrix Atlas::scattered(int count, std::uint64_t seed) const {
+  const Eigen::Index p = centre_.size();
+  const FitBounds bounds = stages_.bounds();
+  Matrix points(count, p);
+  for (int i = 0; i < count; ++i) {
+    Vector z(p);
+    for (Eigen::Index k = 0; k < p; ++k) {
+      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 3})[0];
+    }
+    const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
+    if (far > 1) z /= far;
+    const Vector at = centre_ + (i % 2 == 0 ? 1 : -1) * (spread_ * z);
+    points.row(i) = at.cwiseMax(bounds.low).cwiseMin(bounds.high);
+  }
+  return points;
+}
+
+Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
+  return {to_vector(stages_.setup().numbers(recordings)),
+          to_vector(score(plan_, recordings, details))};
+}
+
+std::vector<Vectors> Atlas::simulate(const std::string& stage, const Emulator& emulator,
+                                     const Matrix& points, const Matrix& amplitudes,
+                                     const Effect* effect, std::uint64_t seed) {
+  const auto summary = static_cast<Eigen::Index>(stages_.setup().entries().size());
+  const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+    std::vector<double> values = stages_.from_scale(points.row(i));
+    for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      values.push_back(effect->absent(stages_.setup().model, k) +
+                       amplitudes(i, c) * effect->sizes[k]);
+    }
+    const auto field = loosened(*maps_.draw(derived_seed(seed, kFieldSeed), i), seed, i);
+    const auto made =
+        emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+    if (!made) return std::vector<double>{};
+    const Vectors both = vectors(*made);
+    std::vector<double> row(both.summary.begin(), both.summary.end());
+    row.insert(row.end(), both.scores.begin(), both.scores.end());
+    return row;
+  });
+  std::vector<Vectors> out;
+  for (const std::vector<double>& row : rows) {
+    if (row.empty()) {
+      out.emplace_back();
+      continue;
+    }
+    const Vector all = to_vector(row);
+    out.push_back({all.head(summary), all.tail(all.size() - summary)});
+  }
+  return out;
+}
+
+LocalFit Atlas::calibrated(const Vector& summary) const {
+  FitBounds free;
+  free.reach = 6;
+  return parameters_->fit(summary, free);
+}
+
+Vector Atlas::residual(const Vectors& vectors) const {
+  const LocalFit fit = calibrated(vectors.summary);
+  return (vectors.scores - scores_->mean(fit.point)).cwiseQuotient(deviation_);
+}
+
+Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
+  const CalibrationSetup& setup = stages_.setup();
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  const int count = options_.experiments * static_cast<int>(m);
+  std::vector<double> absent;
+  for (std::size_t c = 0; c < effect.paths.size(); ++c) {
+    absent.push_back(effect.absent(setup.model, c));
+  }
+  std::vector<std::string> paths = setup.paths();
+  paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
+  const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes);
+  const Matrix points = scattered(count, seed), amplitudes = amplitudes_of(effect, count, seed);
+  const auto made = simulate(stage, emulator, points, amplitudes, &effect, seed);
+  std::vector<Vector> residuals;
+  std::vector<Eigen::Index> good;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (made[i].summary.size() == 0) continue;
+    residuals.push_back(residual(made[i])), good.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::Index numbers = deviation_.size();
+  Fingerprint out{Matrix::Zero(numbers, m), Matrix::Zero(numbers, m)};
+  if (static_cast<Eigen::Index>(good.size()) <= 2 * m) return out;
+  Matrix x(static_cast<Eigen::Index>(good.size()), 2 * m);
+  Matrix y(x.rows(), numbers);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    const auto a = amplitudes.row(good[static_cast<std::size_t>(i)]);
+    x.row(i) << a, a.array().square().matrix();
+    y.row(i) = residuals[static_cast<std::size_t>(i)];
+  }
+  // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
+  // residuals are.
+  Matrix normal = x.transpose() * x;
+  for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
+  const Matrix solved = normal.ldlt().solve(x.transpose() * y);
+  out.first = solved.topRows(m).transpose(), out.second = solved.bottomRows(m).transpose();
+  return out;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,82 @@
+// What experiments in a tank look like if the baseline is all there is, and if an effect is there
+// too: learned from simulations, once for a tank, and then asked for any number of experiments.
+//
+// The vector of an experiment is its motion summary, from which parameters are calibrated, and its
+// scores (scores.hpp). Simulations at scattered parameters, each in another flow that the balls
+// allow, give its mean as a function of the parameters; calibrating every one of them as if it were
+// data gives residuals, and these the covariance that remains after calibration: what calibration
+// can absorb is gone from it. Experiments with an effect, calibrated without it, give the effect's
+// fingerprint in residuals. [Gallant and Tauchen 1996; Allen and Tett 1999]
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/stages.hpp"
+#include "diagnose/scores.hpp"
+#include "lilytank/local_model.hpp"
+
+namespace lilytank {
+
+struct AtlasOptions {
+  int nulls = 300;       ///< experiments simulated without any effect
+  int experiments = 14;  ///< with an effect, for each of its amplitudes
+  std::uint64_t seed = 1;
+};
+
+/// Residuals' answer to an effect's amplitudes, in units of its sizes: first and second order.
+struct Fingerprint {
+  Eigen::MatrixXd first, second;  ///< [number, amplitude]
+  Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const {
+    return first * amplitudes + second * amplitudes.array().square().matrix();
+  }
+};
+
+/// An experiment's vector, its two parts.
+struct Vectors {
+  Eigen::VectorXd summary, scores;
+};
+
+class Atlas {
+ public:
+  /// Simulates what is not kept yet. Throws Stopped, InputError.
+  Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Eigen::VectorXd& centre,
+        const Eigen::MatrixXd& spread, const AtlasOptions& options);
+
+  const ScorePlan& plan() const { return plan_; }
+  Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
+  /// Parameters (fitted scale) that explain a summary best.
+  LocalFit calibrated(const Eigen::VectorXd& summary) const;
+  /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
+  /// numbers, shapes' knots at the end.
+  Eigen::VectorXd residual(const Vectors& vectors) const;
+  /// Of every null, a row each.
+  const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
+  int experiments() const { return options_.experiments; }
+  Eigen::Index named_numbers() const { return named_; }  ///< those before the shapes
+  const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
+  /// The fingerprint of an effect that is not in the plan's list.
+  Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
+  const LocalModel& parameters() const { return *parameters_; }
+  const Eigen::VectorXd& deviations() const { return deviation_; }
+
+ private:
+  std::vector<Vectors> simulate(const std::string& stage, const Emulator& emulator,
+                                const Eigen::MatrixXd& points, const Eigen::MatrixXd& amplitudes,
+                                const Effect* effect, std::uint64_t seed);
+  Eigen::MatrixXd scattered(int count, std::uint64_t seed) const;
+  Stages& stages_;
+  const FlowMaps& maps_;
+  ScorePlan plan_;
+  AtlasOptions options_;
+  Eigen::VectorXd centre_;
+  Eigen::MatrixXd spread_;
+  std::unique_ptr<LocalModel> parameters_, scores_;
+  Eigen::VectorXd deviation_;
+  Eigen::MatrixXd null_residuals_;
+  Eigen::Index named_ = 0;
+  std::vector<Fingerprint> fingerprints_;
+};
+
+}  // namespace lilytank

@@ -1,0 +1,252 @@
+#include "diagnose/effects.hpp"
+
+#include <algorithm>
+
+#include "lilytank/model_parameter.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string force(const std::string& term, const std::string& parameter) {
+  return "forces." + term + "." + parameter;
+}
+
+Effect one(const std::string& name, const std::string& parameter, double size,
+           const std::string& unit, const std::string& variable) {
+  Effect e;
+  e.name = name, e.paths = {force(name, parameter)}, e.sizes = {size}, e.units = {unit};
+  e.variable = variable;
+  return e;
+}
+
+constexpr const char* kLogLatches = "latches off, or their times logged";
+constexpr const char* kLonely = "a recording of one module alone";
+constexpr const char* kOtherBody = "a recording of bodies of another shape or mass";
+constexpr const char* kTurned = "a recording with the camera turned by half a turn";
+constexpr const char* kPumps = "a recording at another pump power";
+
+void add_pairs(std::vector<Effect>& all) {
+  for (const double range : {0.004, 0.012, 0.03}) {
+    for (const char* name : {"pair_attraction", "pair_repulsion"}) {
+      Effect e = one(name, "strength", range < 0.01 ? 6e-3 : 4e-3, "N", "pair");
+      e.shape = {{force(name, "range"), range}};
+      e.refine = {{force(name, "range"), "m", range / 2.5, range * 2.5, true, false}};
+      e.group = "short pair forces", e.split = kLogLatches;
+      e.scored = name[5] == 'a';  // the other one's force is this one's, turned round
+      all.push_back(e);
+    }
+  }
+  Effect magnet = one("magnetic_dipole", "strength", 0.012, "N", "pair");
+  magnet.group = "pair forces", magnet.split = kLonely;
+  all.push_back(magnet);
+  magnet.shape = {{force("magnetic_dipole", "angle"), kPi / 2}};
+  all.push_back(magnet);
+  Effect stick = one("latch_stick", "strength", 0.02, "N", "pair");
+  stick.group = "short pair forces", stick.split = kLogLatches;
+  all.push_back(stick);
+  Effect film = one("lubrication", "coefficient", 0.15, "N s/m", "pair");
+  film.group = "pair forces", film.split = kLonely;
+  all.push_back(film);
+  Effect lee = one("wake_shielding", "share", 0.4, "1", "pair");
+  lee.group = "pair forces", lee.split = kLonely;
+  all.push_back(lee);
+}
+
+void add_walls(std::vector<Effect>& all) {
+  for (const double range : {0.005, 0.02}) {
+    Effect e = one("wall_force", "strength", range < 0.01 ? 0.01 : 5e-3, "N", "radius");
+    e.shape = {{force("wall_force", "range"), range}};
+    e.refine = {{force("wall_force", "range"), "m", range / 2.5, range * 2.5, true, false}};
+    e.two_sided = true, e.group = "flow map", e.split = kOtherBody;
+    all.push_back(e);
+  }
+  Effect layer = one("wall_layer", "share", 0.6, "1", "radius");
+  layer.shape = {{force("wall_layer", "thickness"), 0.02}};
+  layer.group = "flow map", layer.split = kOtherBody;
+  all.push_back(layer);
+}
+
+void add_water(std::vector<Effect>& all, const Model& model) {
+  Effect mass = one("added_mass", "coefficient", 0.5, "1", "slip");
+  mass.group = "mass and drag", mass.split = kOtherBody;
+  all.push_back(mass);
+  Effect magnus = one("magnus_lift", "coefficient", 0.3, "1", "spin");
+  magnus.two_sided = true;
+  all.push_back(magnus);
+  Effect viscous = one("viscous_drag", "coefficient", 0.03, "N s/m", "slip");
+  viscous.two_sided = true, viscous.group = "drag laws", viscous.split = kPumps;
+  all.push_back(viscous);
+  Effect turning = one("rotational_drag", "coefficient", 5e-6, "N m s", "spin");
+  turning.two_sided = true;
+  all.push_back(turning);
+  Effect coriolis = one("coriolis", "rate", 0.4, "1/s", "slip");
+  coriolis.two_sided = true, coriolis.group = "flow map", coriolis.split = kTurned;
+  all.push_back(coriolis);
+  Effect push = one("body_force", "force_x", 1.5e-3, "N", "position");
+  push.paths.push_back(force("body_force", "force_y"));
+  push.sizes.push_back(1.5e-3), push.units.push_back("N");
+  push.two_sided = true, push.group = "flow map", push.split = kTurned;
+  all.push_back(push);
+  Effect drift = one("flow_drift", "rate", 5e-4, "1/s", "time");
+  drift.two_sided = true;
+  all.push_back(drift);
+  const double out = 0.45 * model.tank.radius;
+  for (int k = 0; k < 6; ++k) {
+    Effect stream = one("local_flow", "speed_x", 0.06, "m/s", "position");
+    stream.paths.push_back(force("local_flow", "speed_y"));
+    stream.sizes.push_back(0.06), stream.units.push_back("m/s");
+    const Rot at = rotation(k * kPi / 3);
+    stream.shape = {{force("local_flow", "x"), out * at.c},
+                    {force("local_flow", "y"), out * at.s},
+                    {force("local_flow", "width"), 0.06}};
+    stream.two_sided = true, stream.group = "flow map", stream.split = kOtherBody;
+    all.push_back(stream);
+  }
+}
+
+void add_modules(std::vector<Effect>& all) {
+  Effect push = one("self_propulsion", "force_x", 1e-3, "N", "heading");
+  push.paths.push_back(force("self_propulsion", "force_y"));
+  push.sizes.push_back(1e-3), push.units.push_back("N");
+  push.two_sided = true;
+  all.push_back(push);
+  Effect torque = one("spin_torque", "torque", 1.2e-5, "N m", "spin");
+  torque.two_sided = true;
+  all.push_back(torque);
+  Effect offset = one("mass_offset", "forward", 1e-3, "m", "heading");
+  offset.paths.push_back(force("mass_offset", "left"));
+  offset.sizes.push_back(1e-3), offset.units.push_back("m");
+  offset.two_sided = true;
+  all.push_back(offset);
+  Effect heavy = one("heterogeneous_module", "extra", 0.4, "1", "module");
+  heavy.scored = false;
+  all.push_back(heavy);
+}
+
+// Effects without a mean force: they change how innovations scatter.
+void add_noise(std::vector<Effect>& all) {
+  Effect pumps = one("flow_pulsation", "share", 0.15, "1", "time");
+  pumps.scored = false;
+  all.push_back(pumps);
+  for (const double time : {0.25, 1.0}) {
+    for (const double length : {0.03, 0.08}) {
+      Effect eddies = one("correlated_gusts", "deviation", 0.06, "m/s", "lag");
+      eddies.shape = {{force("correlated_gusts", "time"), time},
+                      {force("correlated_gusts", "length"), length}};
+      eddies.refine = {
+          {force("correlated_gusts", "time"), "s", time / 3, time * 3, true, false},
+          {force("correlated_gusts", "length"), "m", length / 3, length * 3, true, false}};
+      eddies.scored = false;
+      all.push_back(eddies);
+    }
+  }
+  for (const double frequency : {0.3, 0.8}) {
+    Effect vortices = one("vortex_shedding", "coefficient", 0.8, "1", "lag");
+    vortices.shape = {{force("vortex_shedding", "frequency"), frequency}};
+    vortices.scored = false;
+    all.push_back(vortices);
+  }
+  for (const char* by : {"by_radius", "by_slip"}) {
+    const bool radius = by[3] == 'r';
+    Effect e = one("state_dependent_noise", by, radius ? 0.012 : 0.06, radius ? "N" : "N s/m",
+                   radius ? "radius" : "slip");
+    e.scored = false;
+    all.push_back(e);
+  }
+  Effect kicks = one("heavy_tailed_kicks", "impulse", 1.5e-3, "N s", "lag");
+  kicks.scored = false;
+  all.push_back(kicks);
+}
+
+}  // namespace
+
+double Effect::absent(const Model& model, std::size_t component) const {
+  return name == "contact_law" ? parameter_value(model, paths[component]) : 0;
+}
+
+std::vector<Effect> effect_catalogue(const Model& model) {
+  std::vector<Effect> all;
+  add_pairs(all), add_walls(all), add_water(all, model), add_modules(all), add_noise(all);
+  Effect contact;
+  contact.name = "contact_law", contact.paths = {"contact.friction", "contact.restitution"};
+  contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
+  contact.two_sided = true, contact.variable = "pair", contact.scored = false;
+  contact.group = "short pair forces", contact.split = kLogLatches;
+  all.push_back(contact);
+  return all;
+}
+
+Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes) {
+  std::vector<double> values = amplitudes;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ModelParameter of = model_parameter(effect.paths[i]);
+    values[i] = std::clamp(values[i], of.low, of.high);
+  }
+  Model out = with_parameters(model, effect.paths, values);
+  for (const auto& [path, value] : effect.shape) {
+    const auto dot = path.rfind('.');
+    const std::string term = path.substr(7, dot - 7), parameter = path.substr(dot + 1);
+    for (ActiveForce& active : out.forces) {
+      if (active.term->name() != term) continue;
+      const auto parameters = active.term->parameters();
+      for (std::size_t k = 0; k < parameters.size(); ++k) {
+        if (parameters[k].name == parameter) active.p[k] = value;
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<Shape> shape_catalogue(const Model& model, double seconds) {
+  const double R = model.tank.radius, force_size = 2e-3, torque_size = 2e-5;
+  std::vector<Shape> all;
+  const auto add = [&](Along along, Toward toward, double low, double high, const char* variable,
+                       const char* direction, const char* unit) {
+    const double size = toward == Toward::torque ? torque_size : force_size;
+    all.push_back({{along, toward, low, high}, variable, direction, unit, size});
+  };
+  const double inner = 0.15 * R, outer = R - model.module.side;
+  add(Along::radius, Toward::out, inner, outer, "radius", "outwards", "m");
+  add(Along::radius, Toward::around, inner, outer, "radius", "around the centre", "m");
+  add(Along::radius, Toward::torque, inner, outer, "radius", "as a torque", "m");
+  add(Along::heading, Toward::torque, -kPi, kPi, "heading", "as a torque", "rad");
+  add(Along::heading, Toward::x, -kPi, kPi, "heading", "along x", "rad");
+  add(Along::heading, Toward::y, -kPi, kPi, "heading", "along y", "rad");
+  add(Along::spin, Toward::torque, -4, 4, "spin", "as a torque", "rad/s");
+  add(Along::spin, Toward::across_slip, -4, 4, "spin", "across the slip", "rad/s");
+  add(Along::slip, Toward::slip, 0, 0.3, "slip", "along the slip", "m/s");
+  add(Along::slip, Toward::across_slip, 0, 0.3, "slip", "across the slip", "m/s");
+  add(Along::slip, Toward::torque, 0, 0.3, "slip", "as a torque", "m/s");
+  add(Along::time, Toward::x, 0, seconds, "time", "along x", "s");
+  add(Along::time, Toward::y, 0, seconds, "time", "along y", "s");
+  add(Along::time, Toward::slip, 0, seconds, "time", "along the slip", "s");
+  add(Along::time, Toward::torque, 0, seconds, "time", "as a torque", "s");
+  add(Along::gap, Toward::out, 0, 0.06, "pair", "apart", "m");
+  add(Along::gap, Toward::around, 0, 0.06, "pair", "around each other", "m");
+  add(Along::gap, Toward::torque, 0, 0.06, "pair", "as a torque", "m");
+  const double wide = 0.7 * R;
+  add(Along::x, Toward::x, -wide, wide, "position", "along x", "m");
+  add(Along::x, Toward::y, -wide, wide, "position", "along y", "m");
+  add(Along::y, Toward::x, -wide, wide, "position", "along x", "m");
+  add(Along::y, Toward::y, -wide, wide, "position", "along y", "m");
+  add(Along::x, Toward::torque, -wide, wide, "position", "as a torque", "m");
+  add(Along::y, Toward::torque, -wide, wide, "position", "as a torque", "m");
+  return all;
+}
+
+Effect effect_of(const Shape& shape) {
+  Effect e;
+  e.name = "empirical_force", e.variable = shape.variable, e.two_sided = true;
+  const std::string unit = shape.curve.toward == Toward::torque ? "N m" : "N";
+  for (int k = 1; k <= kKnots; ++k) {
+    e.paths.push_back(force(e.name, "v" + std::to_string(k)));
+    e.sizes.push_back(shape.size), e.units.push_back(unit);
+  }
+  e.shape = {{force(e.name, "variable"), static_cast<int>(shape.curve.along)},
+             {force(e.name, "direction"), static_cast<int>(shape.curve.toward)},
+             {force(e.name, "low"), shape.curve.low},
+             {force(e.name, "high"), shape.curve.high}};
+  return e;
+}
+
+}  // namespace lilytank

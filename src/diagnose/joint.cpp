@@ -1,0 +1,198 @@
+#include "diagnose/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/slack.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kMostRounds = 3;
+constexpr double kSettled = 1.2;   // deviations of the design
+constexpr double kStudent = 2.05;  // two-sided 95 % of some tens of degrees of freedom
+constexpr std::uint64_t kMix = 7;
+
+// Summary and named scores, the scores by their deviations.
+Vector joined(const Vectors& v, const Atlas& atlas) {
+  const Eigen::Index named = atlas.named_numbers();
+  Vector out(v.summary.size() + named);
+  out << v.summary, v.scores.head(named).cwiseQuotient(atlas.deviations().head(named));
+  return out;
+}
+
+class Joint {
+ public:
+  Joint(Stages& stages, const FlowMaps& maps, const Atlas& atlas, JointFit& fit)
+      : stages_(stages),
+        maps_(maps),
+        atlas_(atlas),
+        fit_(fit),
+        emulator_(fit.model, paths(fit), stages.setup().shapes) {}
+
+  std::vector<Vector> simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
+    const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+      const auto field = loosened(*maps_.draw(derived_seed(seed, kMix), i), seed, i);
+      const auto made = emulator_.record(
+          values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+      if (!made) return std::vector<double>{};
+      const Vector all = joined(atlas_.vectors(*made), atlas_);
+      return std::vector<double>(all.begin(), all.end());
+    });
+    std::vector<Vector> out;
+    for (const auto& row : rows) {
+      out.push_back(Eigen::Map<const Vector>(row.data(), static_cast<Eigen::Index>(row.size())));
+    }
+    return out;
+  }
+  std::vector<double> values(const Vector& point) const {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < fit_.parameters.size(); ++i) {
+      const FitParameter& p = fit_.parameters[i];
+      out.push_back(std::clamp(p.from_scale(point(static_cast<Eigen::Index>(i))), p.low, p.high));
+    }
+    return out;
+  }
+
+ private:
+  static std::vector<std::string> paths(const JointFit& fit) {
+    std::vector<std::string> out;
+    for (const FitParameter& p : fit.parameters) out.push_back(p.path);
+    return out;
+  }
+  Stages& stages_;
+  const FlowMaps& maps_;
+  const Atlas& atlas_;
+  JointFit& fit_;
+  Emulator emulator_;
+};
+
+Matrix scattered(const Vector& centre, const Matrix& spread, int count, const FitBounds& bounds,
+                 std::uint64_t seed) {
+  Matrix points(count, centre.size());
+  for (int i = 0; i < count; ++i) {
+    Vector z(centre.size());
+    for (Eigen::Index k = 0; k < z.size(); ++k) {
+      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 4})[0];
+    }
+    const double far = z.norm() / (1.6 * std::sqrt(static_cast<double>(z.size())));
+    if (far > 1) z /= far;
+    points.row(i) =
+        (centre + (i % 2 == 0 ? 1 : -1) * (spread * z)).cwiseMax(bounds.low).cwiseMin(bounds.high);
+  }
+  return points;
+}
+
+Design design_of(const Matrix& points, const std::vector<Vector>& rows) {
+  std::vector<Eigen::Index> good;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].size() > 0) good.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (2 * good.size() < rows.size()) throw InputError("most worlds with the effect diverge");
+  Design out;
+  const auto n = static_cast<Eigen::Index>(good.size());
+  out.points.resize(n, points.cols());
+  out.numbers.resize(n, rows[static_cast<std::size_t>(good[0])].size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    out.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
+    out.numbers.row(i) = rows[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
+  }
+  return out;
+}
+
+// The list of what is fitted, and the centre and spread of the first design.
+void begin(const Stages& stages, const std::vector<Effect>& effects,
+           const std::vector<Vector>& amplitudes, const Vector& baseline, const Matrix& spread,
+           JointFit& fit, Vector& centre, Matrix& width) {
+  const CalibrationSetup& setup = stages.setup();
+  fit.parameters = setup.parameters, fit.model = setup.model;
+  std::vector<double> at(baseline.begin(), baseline.end()), wide;
+  for (Eigen::Index k = 0; k < spread.rows(); ++k) wide.push_back(spread(k, k));
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const Effect& effect = effects[e];
+    std::vector<double> sizes;
+    for (std::size_t c = 0; c < effect.paths.size(); ++c) {
+      const ModelParameter of = model_parameter(effect.paths[c]);
+      const double a = amplitudes[e](static_cast<Eigen::Index>(c)), size = effect.sizes[c];
+      const double absent = effect.absent(setup.model, c);
+      const double value = std::clamp(absent + a * size, of.low, of.high);
+      fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
+      at.push_back(value), wide.push_back(size * std::max(0.15, 0.25 * std::fabs(a)));
+      sizes.push_back(value);
+    }
+    fit.model = with_effect(fit.model, effect, sizes);
+    for (const FitParameter& p : effect.refine) {
+      fit.parameters.push_back(p);
+      at.push_back(p.to_scale(parameter_value(fit.model, p.path))), wide.push_back(0.25);
+    }
+  }
+  centre = Eigen::Map<const Vector>(at.data(), static_cast<Eigen::Index>(at.size()));
+  width =
+      Eigen::Map<const Vector>(wide.data(), static_cast<Eigen::Index>(wide.size())).asDiagonal();
+}
+
+}  // namespace
+
+JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
+                     const std::vector<Effect>& effects, const std::vector<Vector>& amplitudes,
+                     const Vectors& observed, const Matrix& spread, int round, int replicates,
+                     std::uint64_t seed) {
+  JointFit fit;
+  Vector centre;
+  Matrix width;
+  begin(stages, effects, amplitudes, atlas.calibrated(observed.summary).point, spread, fit, centre,
+        width);
+  FitBounds bounds;
+  bounds.low.resize(centre.size()), bounds.high.resize(centre.size());
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& p = fit.parameters[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
+  }
+  Joint joint(stages, maps, atlas, fit);
+  const Vector data = joined(observed, atlas);
+  std::optional<LocalModel> model;
+  LocalFit answer;
+  for (int k = 1; k <= kMostRounds && !fit.settled; ++k) {
+    const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
+    const Matrix points = scattered(centre, width, round, bounds, own);
+    model.emplace(design_of(points, joint.simulate("joint " + std::to_string(k), points, own)));
+    FitBounds near = bounds;
+    near.reach = 2.5;
+    answer = model->fit(data, near);
+    const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(answer.point - centre);
+    fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled * 1.5;
+    if (!fit.settled) centre = answer.point;
+  }
+  fit.misfit = answer.misfit;
+  const Matrix points = answer.point.transpose().replicate(replicates, 1);
+  const auto rows = joint.simulate("joint replicates", points, derived_seed(seed, 99));
+  std::vector<Vector> estimates;
+  FitBounds free;
+  free.reach = 5;
+  for (const Vector& row : rows) {
+    if (row.size() > 0) estimates.push_back(model->fit(row, free).point);
+  }
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    double mean = 0, square = 0;
+    for (const Vector& e : estimates) mean += e(k) / static_cast<double>(estimates.size());
+    for (const Vector& e : estimates) square += (e(k) - mean) * (e(k) - mean);
+    const double deviation =
+        std::sqrt(square / std::max<double>(1, static_cast<double>(estimates.size()) - 1));
+    const FitParameter& p = fit.parameters[i];
+    const double middle = answer.point(k) - (mean - answer.point(k));
+    const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
+    fit.value.push_back(within(middle));
+    fit.low.push_back(within(middle - kStudent * deviation));
+    fit.high.push_back(within(middle + kStudent * deviation));
+  }
+  return fit;
+}
+
+}  // namespace lilytank

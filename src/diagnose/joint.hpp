@@ -1,0 +1,29 @@
+// Baseline and effects fitted together, as calibration does with the baseline alone.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/atlas.hpp"
+
+namespace lilytank {
+
+/// A model with effects: the baseline's parameters and nuisances first, then amplitudes and what is
+/// refined of each effect.
+struct JointFit {
+  std::vector<FitParameter> parameters;
+  Model model;                           ///< with every effect switched on, at its held numbers
+  std::vector<double> value, low, high;  ///< 95 % intervals
+  bool settled = false;
+  double misfit = 0;
+  std::vector<double> values() const { return value; }
+};
+
+/// `amplitudes`: the naming's, in units of each effect's sizes. `round`: simulations of a round;
+/// `replicates`: for the intervals.
+JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
+                     const std::vector<Effect>& effects,
+                     const std::vector<Eigen::VectorXd>& amplitudes, const Vectors& observed,
+                     const Eigen::MatrixXd& spread, int round, int replicates, std::uint64_t seed);
+
+}  // namespace lilytank

@@ -1,0 +1,283 @@
+#include "diagnose/naming.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kFolds = 5;
+constexpr int kMostEffects = 3;
+constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
+constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
+                                   // are known to some per cent only
+constexpr double kMostSize = 6;    // sizes beyond which a fingerprint is no guide
+constexpr double kEulerGamma = 0.57721566490153286;
+
+// The covariance's inverse root, correlations shrunk towards none [Schaefer and Strimmer 2005].
+Matrix whitener_of(const Matrix& rows) {
+  const auto n = static_cast<double>(rows.rows());
+  const Matrix off = rows.rowwise() - rows.colwise().mean();
+  const Vector deviation = (off.colwise().squaredNorm() / n).cwiseSqrt().cwiseMax(1e-9).transpose();
+  const Matrix z = off * deviation.cwiseInverse().asDiagonal();
+  Matrix r = z.transpose() * z / n;
+  const Matrix squares = z.array().square().matrix();
+  const Matrix fourth = squares.transpose() * squares / n;
+  double variance = 0, size = 0;
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      variance += std::max(0.0, fourth(i, j) - r(i, j) * r(i, j)) / n, size += r(i, j) * r(i, j);
+    }
+  }
+  r *= 1 - (size > 0 ? std::clamp(variance / size, 0.02, 1.0) : 1.0);
+  r.diagonal().setOnes();
+  Matrix out = Matrix(r.llt().matrixL())
+                   .triangularView<Eigen::Lower>()
+                   .solve(Matrix::Identity(r.rows(), r.cols()));
+  return out * deviation.cwiseInverse().asDiagonal();
+}
+
+// The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
+// their mean and deviation.
+double extreme(const std::vector<double>& values, double probability) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, square = 0;
+  for (const double v : values) mean += v / n;
+  for (const double v : values) square += (v - mean) * (v - mean) / (n - 1);
+  const double scale = std::sqrt(6 * square) / kPi;
+  return mean + scale * (-std::log(-std::log(1 - probability)) - kEulerGamma);
+}
+
+}  // namespace
+
+Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
+  const Matrix& nulls = atlas.null_residuals();
+  centre_ = nulls.colwise().mean().transpose();
+  whitener_ = whitener_of(nulls.leftCols(atlas.named_numbers()));
+  const auto n = static_cast<double>(nulls.rows());
+  for (std::size_t s = 0; s < atlas.plan().shapes.size(); ++s) {
+    const Eigen::Index first = atlas.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
+    const Matrix block =
+        nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
+    Matrix covariance = block.transpose() * block / (n - 1);
+    covariance.diagonal().array() += 1e-3;
+    inverse_.push_back(covariance.inverse());
+    shape_scale_.push_back(1);
+  }
+  for (std::size_t e = 0; e < atlas.plan().effects.size(); ++e) {
+    known_.push_back(
+        known(atlas.fingerprints()[e], static_cast<int>(e), -1, atlas.plan().effects[e].two_sided));
+  }
+  calibrate(false_alarms);
+}
+
+Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape,
+                            bool two_sided) const {
+  Known out;
+  out.effect = effect, out.shape = shape, out.two_sided = two_sided;
+  // A residual has deviation one, amplitudes a mean square of some 0.7.
+  const double error = 1 / std::sqrt(0.7 * std::max(1, atlas_.experiments()));
+  const auto kept = [&](const Matrix& of, double e) {
+    return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
+  };
+  const Matrix first = kept(fingerprint.first, error), second = kept(fingerprint.second, error);
+  const Eigen::Index named = atlas_.named_numbers(), rest = first.rows() - named;
+  out.first = whitener_ * first.topRows(named), out.second = whitener_ * second.topRows(named);
+  out.shapes_first = first.bottomRows(rest), out.shapes_second = second.bottomRows(rest);
+  return out;
+}
+
+// Wilson and Hilferty's normal number of a chi-squared one; of one degree of freedom its root.
+double Naming::z_of(double gain, double scale, Eigen::Index freedom) const {
+  const double g = std::max(0.0, gain) / std::max(scale, 1e-9);
+  if (freedom == 1) return std::sqrt(g);
+  const double m = static_cast<double>(freedom), part = 2 / (9 * m);
+  return (std::cbrt(g / m) - (1 - part)) / std::sqrt(part);
+}
+
+// Gauss and Newton on the amplitudes; those that cannot be negative stop at nothing.
+EffectFit Naming::fit(const Known& of, const Vector& whitened) const {
+  const Eigen::Index m = of.first.cols();
+  EffectFit out;
+  out.effect = of.effect, out.shape = of.shape, out.amplitudes = Vector::Zero(m);
+  const auto left = [&](const Vector& a) {
+    return Vector(whitened - of.first * a - of.second * a.array().square().matrix());
+  };
+  double best = whitened.squaredNorm();
+  const double before = best;
+  for (const double sign : {1.0, -1.0}) {
+    if (sign < 0 && !of.two_sided) break;
+    Vector a = Vector::Constant(m, m == 1 ? 0.3 * sign : 0.0);
+    for (int step = 0; step < 12; ++step) {
+      const Matrix slope = of.first + 2 * of.second * a.asDiagonal();
+      Matrix normal = slope.transpose() * slope;
+      normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
+      a += normal.ldlt().solve(slope.transpose() * left(a));
+      a = a.cwiseMax(of.two_sided ? -kMostSize : 0.0).cwiseMin(kMostSize);
+    }
+    const double distance = left(a).squaredNorm();
+    if (distance < best) best = distance, out.amplitudes = a;
+    if (m > 1) break;
+  }
+  out.gain = before - best;
+  out.z = z_of(out.gain, of.scale, m);
+  return out;
+}
+
+EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
+  const auto s = static_cast<std::size_t>(shape);
+  EffectFit out;
+  out.shape = shape, out.amplitudes = knots;
+  out.gain = knots.dot(inverse_[s] * knots);
+  out.z = z_of(out.gain, shape_scale_[s], kKnots);
+  return out;
+}
+
+// Scales and thresholds by nulls that had no part in the covariance they are judged by.
+void Naming::calibrate(double false_alarms) {
+  const Matrix& nulls = atlas_.null_residuals();
+  const Eigen::Index named = atlas_.named_numbers(), n = nulls.rows();
+  const Matrix whitener = whitener_;
+  const std::vector<Matrix> inverse = inverse_;
+  std::vector<std::vector<EffectFit>> effects(static_cast<std::size_t>(n)),
+      shapes(static_cast<std::size_t>(n));
+  for (int fold = 0; fold < kFolds; ++fold) {
+    Matrix others(n - (n - fold + kFolds - 1) / kFolds, nulls.cols());
+    Eigen::Index at = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (i % kFolds != fold) others.row(at++) = nulls.row(i);
+    }
+    const Matrix fold_whitener = whitener_of(others.leftCols(named));
+    const Matrix change = fold_whitener * whitener.inverse();
+    std::vector<Known> known = known_;
+    for (Known& k : known) k.first = change * k.first, k.second = change * k.second, k.scale = 1;
+    for (Eigen::Index i = fold; i < n; i += kFolds) {
+      const Vector off = nulls.row(i).transpose() - centre_;
+      const Vector whitened = fold_whitener * off.head(named);
+      auto& mine = effects[static_cast<std::size_t>(i)];
+      for (const Known& k : known) mine.push_back(fit(k, whitened));
+      for (std::size_t s = 0; s < inverse.size(); ++s) {
+        shapes[static_cast<std::size_t>(i)].push_back(
+            fit_shape(static_cast<int>(s),
+                      off.segment(named + static_cast<Eigen::Index>(s) * kKnots, kKnots)));
+      }
+    }
+  }
+  const auto all = static_cast<double>(n);
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    double mean = 0;
+    for (const auto& of : effects) mean += of[k].gain / all;
+    const auto m = static_cast<double>(known_[k].first.cols());
+    // Of what cannot be negative half of the nulls gain nothing.
+    known_[k].scale = std::max(0.5, mean / (known_[k].two_sided ? m : 0.5 * m));
+  }
+  for (std::size_t s = 0; s < shape_scale_.size(); ++s) {
+    double mean = 0;
+    for (const auto& of : shapes) mean += of[s].gain / all;
+    shape_scale_[s] = std::max(0.5, mean / kKnots);
+  }
+  std::vector<double> largest_effect, largest_shape;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    double e = 0, s = 0;
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+      e = std::max(e, z_of(effects[i][k].gain, known_[k].scale, known_[k].first.cols()));
+    }
+    for (std::size_t k = 0; k < shape_scale_.size(); ++k) {
+      s = std::max(s, z_of(shapes[i][k].gain, shape_scale_[k], kKnots));
+    }
+    largest_effect.push_back(e), largest_shape.push_back(s);
+  }
+  effect_threshold_ = extreme(largest_effect, 0.6 * false_alarms);
+  shape_threshold_ = extreme(largest_shape, 0.4 * false_alarms);
+}
+
+std::vector<EffectFit> Naming::effects(const Vector& residual) const {
+  const Vector whitened = whitener_ * (residual - centre_).head(atlas_.named_numbers());
+  std::vector<EffectFit> out;
+  for (const Known& k : known_) out.push_back(fit(k, whitened));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
+  return out;
+}
+
+std::vector<EffectFit> Naming::shapes(const Vector& residual) const {
+  std::vector<EffectFit> out;
+  for (std::size_t s = 0; s < inverse_.size(); ++s) {
+    const Eigen::Index first = atlas_.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
+    out.push_back(fit_shape(static_cast<int>(s), (residual - centre_).segment(first, kKnots)));
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
+  return out;
+}
+
+void Naming::add_shape(int shape, const Fingerprint& fingerprint) {
+  known_.push_back(known(fingerprint, -1, shape, true));
+}
+
+std::size_t Naming::best(const Vector& whitened, EffectFit& out) const {
+  std::size_t index = known_.size();
+  out = EffectFit{};
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    const EffectFit one = fit(known_[k], whitened);
+    if (one.z > out.z) out = one, index = k;
+  }
+  return index;
+}
+
+Explanation Naming::explain(const Vector& residual) const {
+  const Eigen::Index named = atlas_.named_numbers();
+  Explanation out;
+  Vector off = residual - centre_;
+  Vector whitened = whitener_ * off.head(named), knots = off.tail(off.size() - named);
+  out.distance = whitened.squaredNorm();
+  double explained = 0;
+  for (int round = 0; round <= kMostEffects; ++round) {
+    const std::size_t k = best(whitened, out.left_effect);
+    Vector whole = Vector::Zero(off.size());
+    whole.tail(knots.size()) = knots;
+    out.left_shape = EffectFit{};
+    for (std::size_t s = 0; s < inverse_.size(); ++s) {
+      const EffectFit one = fit_shape(static_cast<int>(s),
+                                      knots.segment(static_cast<Eigen::Index>(s) * kKnots, kKnots));
+      if (one.z > out.left_shape.z) out.left_shape = one;
+    }
+    if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
+    const double floor = kInexact * explained;
+    const bool clear = out.left_effect.z > std::max(effect_threshold_, floor);
+    if (!clear || round == kMostEffects) break;
+    const Known& of = known_[k];
+    const Vector& a = out.left_effect.amplitudes;
+    const Vector square = a.array().square();
+    whitened -= of.first * a + of.second * square;
+    knots -= of.shapes_first * a + of.shapes_second * square;
+    explained = std::max(explained, out.left_effect.z);
+    out.found.push_back(out.left_effect);
+  }
+  out.distance_left = whitened.squaredNorm();
+  return out;
+}
+
+double Naming::smallest_seen(int effect) const {
+  for (const Known& k : known_) {
+    if (k.effect != effect) continue;
+    double seen = 0;
+    for (Eigen::Index c = 0; c < k.first.cols(); ++c) {
+      for (const double sign : {1.0, -1.0}) {
+        if (sign < 0 && !k.two_sided) continue;
+        const double z = (sign * k.first.col(c) + k.second.col(c)).norm() / std::sqrt(k.scale);
+        seen = std::max(seen, z);
+      }
+    }
+    return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,71 @@
+// Which effects explain an experiment's residuals: generalised least squares on fingerprints, with
+// every threshold taken from simulated experiments in which nothing is missing.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "diagnose/atlas.hpp"
+
+namespace lilytank {
+
+/// An effect, or a shape without a name, and how well it explains residuals.
+struct EffectFit {
+  int effect = -1;             ///< index into the plan's effects; -1: a shape
+  int shape = -1;              ///< index into the plan's shapes
+  Eigen::VectorXd amplitudes;  ///< in units of the effect's sizes
+  double gain = 0;             ///< fall of the squared distance
+  double z = 0;                ///< deviations of a normal number with the same probability
+};
+
+/// What was found, in the order in which it was.
+struct Explanation {
+  std::vector<EffectFit> found;
+  /// The strongest effect and shape in what is left, against what is expected of nothing.
+  EffectFit left_effect, left_shape;
+  double distance = 0, distance_left = 0;  ///< squared, of the named numbers
+  double strongest = 0;                    ///< z of the strongest candidate before anything
+};
+
+class Naming {
+ public:
+  /// `false_alarms`: share of experiments with nothing missing that may be called otherwise.
+  Naming(const Atlas& atlas, double false_alarms);
+
+  /// Every effect alone, strongest first.
+  std::vector<EffectFit> effects(const Eigen::VectorXd& residual) const;
+  std::vector<EffectFit> shapes(const Eigen::VectorXd& residual) const;
+  /// Adds the fingerprint of a shape, so that it competes with the named effects.
+  void add_shape(int shape, const Fingerprint& fingerprint);
+  /// Forward selection of effects, and of shapes that were added, until nothing is left.
+  Explanation explain(const Eigen::VectorXd& residual) const;
+  double effect_threshold() const { return effect_threshold_; }
+  double shape_threshold() const { return shape_threshold_; }
+  /// Amplitude of an effect's component at which it would be seen with probability one half, in
+  /// units of its size; infinite if its fingerprint shows nothing.
+  double smallest_seen(int effect) const;
+
+ private:
+  struct Known {
+    int effect = -1, shape = -1;
+    bool two_sided = false;
+    Eigen::MatrixXd first, second;                ///< whitened, named numbers
+    Eigen::MatrixXd shapes_first, shapes_second;  ///< of the shapes' knots
+    double scale = 1;                             ///< mean gain of nulls by its degrees of freedom
+  };
+  Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;
+  EffectFit fit(const Known& of, const Eigen::VectorXd& whitened) const;
+  EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
+  double z_of(double gain, double scale, Eigen::Index freedom) const;
+  void calibrate(double false_alarms);
+  std::size_t best(const Eigen::VectorXd& whitened, EffectFit& out) const;
+
+  const Atlas& atlas_;
+  Eigen::VectorXd centre_;                ///< mean of the nulls' residuals
+  Eigen::MatrixXd whitener_;              ///< of the named numbers
+  std::vector<Eigen::MatrixXd> inverse_;  ///< of each shape's knots' covariance
+  std::vector<double> shape_scale_;
+  std::vector<Known> known_;
+  double effect_threshold_ = 0, shape_threshold_ = 0;
+};
+
+}  // namespace lilytank

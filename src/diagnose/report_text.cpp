@@ -1,0 +1,107 @@
+// The report of a diagnosis as text.
+#include <cmath>
+#include <cstdio>
+
+#include "analysis/text_table.hpp"
+#include "lilytank/diagnosis.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string headline(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::complete:
+      return "nothing is missing that these data could show";
+    case Verdict::measurement:
+      return "the recordings are at fault; no force was looked for";
+    case Verdict::undecided:
+      return "something differs, and these data cannot say what";
+    default:
+      return d.findings.size() == 1 ? "one effect is missing"
+                                    : std::to_string(d.findings.size()) + " effects are missing";
+  }
+}
+
+void tell(const DiagnosisFinding& f, std::string& out) {
+  out += "\n" + f.effect + "  (z " + digits(f.z) + ", depends on " + f.variable + ")\n";
+  if (!f.equation.empty()) out += "  " + f.equation + "\n";
+  if (!f.text.empty()) out += "  " + f.text + "\n";
+  for (const FoundParameter& p : f.parameters) {
+    out += "  " + p.name + " = " + digits(p.value);
+    if (p.low < p.high) out += "  [" + digits(p.low) + ", " + digits(p.high) + "]";
+    out += (p.unit.empty() || p.unit == "1" ? "" : " " + p.unit) + "\n";
+  }
+  if (!f.alternatives.empty()) {
+    out += "  these data cannot tell it from:";
+    for (const std::string& name : f.alternatives) out += " " + name;
+    out += "; what would: " + (f.split.empty() ? "a longer recording" : f.split) + "\n";
+  }
+}
+
+void tell_fit(const Diagnosis& d, std::string& out) {
+  out +=
+      "\nRecordings that had no part in this, against simulations before and after: mean square "
+      "of deviations, 1 is chance\n";
+  TextTable table({"numbers", "before", "after", "share removed"});
+  for (const GroupFit& g : d.held_out) {
+    table.add({g.group, digits(g.before), digits(g.after),
+               g.before > 2 ? digits(100 * g.removed()) + " %" : "-"});
+  }
+  out += table.text();
+  out += "  Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) + " after, floor " +
+         digits(d.msd_floor) + " m^2; share removed " + digits(100 * d.msd_removed) + " % [" +
+         digits(100 * d.msd_low) + ", " + digits(100 * d.msd_high) + "]\n";
+  const DiagnosisFinding& f = d.findings.front();
+  out += "  one step ahead: gain of " + digits(f.gain) + " nat [" + digits(f.gain_low) + ", " +
+         digits(f.gain_high) + "]\n";
+}
+
+}  // namespace
+
+std::string diagnosis_text(const Diagnosis& d) {
+  std::string out =
+      "diagnosis of " + d.name + ": " + name_of(d.verdict) + ", " + headline(d) + "\n";
+  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) +
+         " Lilies, " + digits(d.seconds) + " s in all; " + std::to_string(d.simulations) +
+         " simulated experiments\n";
+  for (const DiagnosisFinding& f : d.findings) tell(f, out);
+  if (!d.held_out.empty() && !d.findings.empty()) tell_fit(d, out);
+  if (!d.parameters.empty()) {
+    out += "\nThe baseline's parameters, alone and beside what was found\n";
+    TextTable table({"parameter", "unit", "alone", "beside it", "95 % from", "to"});
+    for (const MovedParameter& p : d.parameters) {
+      table.add({p.path, p.unit == "1" ? "" : p.unit, digits(p.baseline), digits(p.with_effects),
+                 d.findings.empty() ? "-" : digits(p.low),
+                 d.findings.empty() ? "-" : digits(p.high)});
+    }
+    out += table.text();
+  }
+  if (!d.ranking.empty()) {
+    out += "\nStrongest effects, each alone (z; " + digits(100 * d.false_alarms) +
+           " % of complete experiments exceed " + digits(d.effect_threshold) + ", curves " +
+           digits(d.shape_threshold) + "); left after the findings: " + digits(d.strongest_left) +
+           "\n";
+    TextTable table({"effect", "z"});
+    for (std::size_t i = 0; i < d.ranking.size() && i < 8; ++i) {
+      table.add({d.ranking[i].first, digits(d.ranking[i].second)});
+    }
+    out += table.text();
+    out += "\nSmallest effects that would have been seen\n";
+    TextTable least({"effect", "smallest", "unit"});
+    for (const Detectable& one : d.detectable) {
+      const bool seen = std::isfinite(one.smallest);
+      least.add({one.effect, seen ? digits(one.smallest) : "never", seen ? one.unit : ""});
+    }
+    out += least.text();
+  }
+  for (const std::string& w : d.warnings) out += "warning: " + w + "\n";
+  return out;
+}
+
+}  // namespace lilytank

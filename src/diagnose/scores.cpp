@@ -1,0 +1,340 @@
+#include "diagnose/scores.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/scatter.hpp"
+#include "diagnose/sensitivity.hpp"
+#include "forces/force_sum.hpp"
+#include "forces/pairs.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kContact = 0.03;  // m/s: a prediction that was pushed by a contact
+constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
+constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
+constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
+
+std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
+  std::vector<std::unique_ptr<ScatterPart>> parts;
+  parts.push_back(memory_part(plan)), parts.push_back(variance_part(plan));
+  parts.push_back(neighbour_part(plan)), parts.push_back(module_part(plan));
+  parts.push_back(spectrum_part(plan)), parts.push_back(contact_part(plan));
+  return parts;
+}
+
+// One component of an effect as a force. Terms that only add are asked alone; what terms do to the
+// water goes through the drag's derivative; what they make of the sum is compared with the sum.
+struct Feature {
+  enum class Kind { adds, stirs, transforms } kind = Kind::adds;
+  std::vector<ActiveForce> forces;
+  std::unique_ptr<ForceSum> sum;
+};
+
+constexpr double kProbe = 0.02;  // m/s, and share of the gain: steps of the drag's derivatives
+
+// Everything that is pushed in one frame.
+class Features {
+ public:
+  Features(const ScorePlan& plan, const Model& model) : model_(model) {
+    for (const Effect& effect : plan.effects) {
+      for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) add(effect, c);
+    }
+    // The list has its place now.
+    for (Feature& one : features_) one.sum = std::make_unique<ForceSum>(model_, one.forces);
+    const auto n = static_cast<std::size_t>(model.module.count);
+    base_ = std::make_unique<ForceSum>(model_);
+    for (const ActiveForce& force : model_.forces) {
+      if (force.term->name() == "face_drag") drag_only_.push_back(force);
+    }
+    drag_sum_ = std::make_unique<ForceSum>(model_, drag_only_);
+    for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_gain_}) of->resize(n);
+    for (auto* of : {&ux_, &uy_, &probe_, &none_}) of->resize(n);
+    std::fill(probe_.begin(), probe_.end(), kProbe);
+    wrenches_.assign(features_.size(), std::vector<Wrench>(n));
+  }
+
+  void find(const Kinematics& k, const Moment& now) {
+    (*base_)(k, now, baseline_), (*drag_sum_)(k, now, drag_);
+    derive(k, now);
+    for (std::size_t f = 0; f < features_.size(); ++f) {
+      Feature& feature = features_[f];
+      std::vector<Wrench>& out = wrenches_[f];
+      if (feature.kind == Feature::Kind::stirs) {
+        stir(*feature.forces.front().term, feature.forces.front().p, k, now, out);
+        continue;
+      }
+      (*feature.sum)(k, now, out);
+      if (feature.kind == Feature::Kind::adds) continue;
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].fx -= baseline_[i].fx, out[i].fy -= baseline_[i].fy;
+        out[i].torque -= baseline_[i].torque;
+      }
+    }
+  }
+  std::size_t size() const { return features_.size(); }
+  const Wrench& at(std::size_t feature, std::size_t i) const { return wrenches_[feature][i]; }
+  const Wrench& drag(std::size_t i) const { return drag_[i]; }
+
+ private:
+  void add(const Effect& effect, std::size_t component) {
+    std::vector<double> amplitudes(effect.paths.size(), 0.0);
+    amplitudes[component] = effect.sizes[component];
+    Feature feature;
+    feature.forces = with_effect(model_, effect, amplitudes).forces;
+    const std::string term = effect.paths[0].substr(7, effect.paths[0].rfind('.') - 7);
+    for (const ActiveForce& force : feature.forces) {
+      if (force.term->name() != term) continue;
+      if (force.term->transforms()) feature.kind = Feature::Kind::transforms;
+      if (force.term->stirs()) feature.kind = Feature::Kind::stirs;
+    }
+    if (feature.kind != Feature::Kind::transforms) {
+      std::erase_if(feature.forces,
+                    [&](const ActiveForce& force) { return force.term->name() != term; });
+    }
+    features_.push_back(std::move(feature));
+  }
+
+  // The drag's change by water that moves along x, along y, and by the gain of the whole flow.
+  void derive(const Kinematics& k, const Moment& now) {
+    const auto probe = [&](std::span<const double> ux, std::span<const double> uy, double gain,
+                           std::vector<Wrench>& out) {
+      Moment other = now;
+      other.ux = ux, other.uy = uy, other.gain = gain;
+      (*drag_sum_)(k, other, out);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].fx = (out[i].fx - drag_[i].fx) / kProbe;
+        out[i].fy = (out[i].fy - drag_[i].fy) / kProbe;
+        out[i].torque = (out[i].torque - drag_[i].torque) / kProbe;
+      }
+    };
+    probe(probe_, none_, 1, by_x_), probe(none_, probe_, 1, by_y_);
+    probe(none_, none_, 1 + kProbe, by_gain_);
+  }
+
+  void stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
+            const Moment& now, std::vector<Wrench>& out) {
+    std::fill(ux_.begin(), ux_.end(), 0.0), std::fill(uy_.begin(), uy_.end(), 0.0);
+    Stirring water{1, ux_, uy_};
+    term.stir(model_, k, now, p, water);
+    const double gain = water.gain - 1;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].fx = by_x_[i].fx * ux_[i] + by_y_[i].fx * uy_[i] + by_gain_[i].fx * gain;
+      out[i].fy = by_x_[i].fy * ux_[i] + by_y_[i].fy * uy_[i] + by_gain_[i].fy * gain;
+      out[i].torque =
+          by_x_[i].torque * ux_[i] + by_y_[i].torque * uy_[i] + by_gain_[i].torque * gain;
+    }
+  }
+
+  const Model& model_;
+  std::vector<Feature> features_;
+  std::vector<ActiveForce> drag_only_;
+  std::unique_ptr<ForceSum> base_, drag_sum_;
+  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_gain_;
+  std::vector<double> ux_, uy_, probe_, none_;
+  std::vector<std::vector<Wrench>> wrenches_;
+};
+
+// Adds a shape's two knots to the pushes of module i.
+void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, double value,
+                const Model& model, double sign, Pushes& pushes) {
+  const KnotShare at = place_on(shape.curve, value);
+  const auto add = [&](int knot, double share) {
+    const std::size_t f = first + static_cast<std::size_t>(knot);
+    const double size = sign * share * shape.size;
+    pushes.x[f] += static_cast<float>(size * unit.fx / model.module.mass);
+    pushes.y[f] += static_cast<float>(size * unit.fy / model.module.mass);
+    pushes.turn[f] += static_cast<float>(size * unit.torque / model.module.inertia());
+  };
+  add(at.first, 1 - at.share), add(at.second, at.share);
+}
+
+class Scorer {
+ public:
+  explicit Scorer(const ScorePlan& plan)
+      : plan_(plan),
+        modules_(static_cast<std::size_t>(plan.modules)),
+        parts_(parts_of(plan)),
+        scored_(count_scored(plan)),
+        total_(scored_ + plan.shapes.size() * kKnots),
+        sensitivities_(total_, modules_),
+        pushes_(modules_, Pushes(total_)),
+        last_(modules_, -9) {}
+
+  void add(const PredictedFrame& frame) {
+    const auto n = static_cast<std::size_t>(frame.now.size());
+    if (frame.model != model_) {
+      model_ = frame.model;
+      features_ = std::make_unique<Features>(plan_, *model_);
+    }
+    const Moment now{.time = frame.time, .gusts = false, .expected = true};
+    features_->find(frame.now, now);
+    for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
+    push_pairs(frame);
+    seen_.resize(n);
+    find_touching(frame);
+    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, now, i);
+    for (const auto& part : parts_) part->add(frame, seen_);
+  }
+
+  std::vector<double> tell(ScoreDetails* details) const {
+    std::vector<double> values;
+    for (std::size_t f = 0; f < scored_; ++f) values.push_back(sensitivities_.estimate(f));
+    for (const auto& part : parts_) part->tell(values, details);
+    for (std::size_t f = scored_; f < total_; ++f) values.push_back(sensitivities_.estimate(f));
+    for (double& value : values) {
+      if (!std::isfinite(value)) value = 0;
+    }
+    if (details != nullptr) {
+      details->information.clear();
+      for (std::size_t f = scored_; f < total_; ++f) {
+        if ((f - scored_) % kKnots == 0) details->information.emplace_back();
+        details->information.back().push_back(sensitivities_.information(f));
+      }
+    }
+    return values;
+  }
+
+ private:
+  static std::size_t count_scored(const ScorePlan& plan) {
+    std::size_t n = 0;
+    for (const Effect& e : plan.effects) n += e.scored ? e.paths.size() : 0;
+    return n;
+  }
+
+  void push(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+    Pushes& to = pushes_[i];
+    to.clear();
+    const Model& model = *model_;
+    const double mass = model.module.mass, inertia = model.module.inertia();
+    for (std::size_t f = 0; f < features_->size(); ++f) {
+      const Wrench& w = features_->at(f, i);
+      to.x[f] = static_cast<float>(w.fx / mass), to.y[f] = static_cast<float>(w.fy / mass);
+      to.turn[f] = static_cast<float>(w.torque / inertia);
+    }
+    const int body = static_cast<int>(i);
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      const Shape& shape = plan_.shapes[s];
+      if (shape.curve.along == Along::gap) continue;
+      push_knots(shape, scored_ + s * kKnots,
+                 unit_toward(shape.curve.toward, model, frame.now, now, body),
+                 value_along(shape.curve.along, model, frame.now, now, body), model, 1, to);
+    }
+  }
+
+  void push_pairs(const PredictedFrame& frame) {
+    const Model& model = *model_;
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      const Shape& shape = plan_.shapes[s];
+      if (shape.curve.along != Along::gap) continue;
+      const std::size_t first = scored_ + s * kKnots;
+      for_near_pairs(frame.now, shape.curve.high + model.module.side, [&](const NearPair& pair) {
+        const double gap = pair.r - model.module.side;
+        Wrench unit{0, 0, 1};
+        double other = 1;
+        if (shape.curve.toward == Toward::out) {
+          unit = {pair.dx / pair.r, pair.dy / pair.r, 0}, other = -1;
+        } else if (shape.curve.toward == Toward::around) {
+          unit = {-pair.dy / pair.r, pair.dx / pair.r, 0}, other = -1;
+        }
+        push_knots(shape, first, unit, gap, model, other,
+                   pushes_[static_cast<std::size_t>(pair.i)]);
+        push_knots(shape, first, unit, gap, model, 1, pushes_[static_cast<std::size_t>(pair.j)]);
+      });
+    }
+  }
+
+  // Modules that touch another, or may before the next frame: what contacts do to them depends on
+  // more than forces. Known from the past, so leaving them out favours no kind of meeting.
+  void find_touching(const PredictedFrame& frame) {
+    const Kinematics& k = frame.now;
+    touching_.assign(static_cast<std::size_t>(k.size()), 0);
+    const double side = model_->module.side;
+    for_near_pairs(k, 1.6 * side, [&](const NearPair& pair) {
+      const SquareGap at = square_gap(k, pair, side);
+      const double closing =
+          (k.vx[pair.i] - k.vx[pair.j]) * at.nx + (k.vy[pair.i] - k.vy[pair.j]) * at.ny;
+      const double turning = 0.7 * side * (std::fabs(k.omega[pair.i]) + std::fabs(k.omega[pair.j]));
+      const double way = 1.5 * frame.interval * (std::max(0.0, closing) + turning);
+      if (at.gap > kTouch + way) return;
+      touching_[static_cast<std::size_t>(pair.i)] = touching_[static_cast<std::size_t>(pair.j)] = 1;
+    });
+  }
+
+  Seen pass(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+    Seen out;
+    out.module = static_cast<std::size_t>(frame.module[i]), out.index = i;
+    const Vec2 slip = slip_of(*model_, frame.now, now, static_cast<int>(i));
+    out.slip_x = slip.x(), out.slip_y = slip.y();
+    const Wrench& drag = features_->drag(i);
+    out.drag_x = drag.fx / model_->module.mass, out.drag_y = drag.fy / model_->module.mass;
+    const bool visible = !std::isnan(frame.dx[i]);
+    if (visible) {
+      out.zx = frame.dx[i] / frame.sd_x[i], out.zy = frame.dy[i] / frame.sd_x[i];
+      out.zt = frame.dtheta[i] / frame.sd_theta[i];
+    }
+    const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
+    const bool held = frame.contact[i] > kContact || touching_[i] != 0;
+    out.usable = visible && frame.told[i] != 0 && !held && !lost;
+    if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
+    last_[out.module] = frame.frame;
+    if (!held && !lost) {
+      PredictedFrame shown = frame;
+      sensitivities_.pass(out.module, pushes_[i], shown, i, kLoss, out.usable);
+    }
+    return out;
+  }
+
+  const ScorePlan& plan_;
+  std::size_t modules_;
+  std::vector<std::unique_ptr<ScatterPart>> parts_;
+  std::size_t scored_, total_;
+  Sensitivities sensitivities_;
+  std::vector<Pushes> pushes_;
+  std::vector<int> last_;
+  std::vector<std::uint8_t> touching_;
+  const Model* model_ = nullptr;
+  std::unique_ptr<Features> features_;
+  std::vector<Seen> seen_;
+};
+
+}  // namespace
+
+std::vector<ScoreEntry> ScorePlan::entries() const {
+  std::vector<ScoreEntry> out;
+  for (const Effect& effect : effects) {
+    for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) {
+      std::string name = effect.name;
+      for (const auto& [path, value] : effect.shape) {
+        name += " " + path.substr(path.rfind('.') + 1) + " " + std::to_string(value);
+      }
+      if (effect.paths.size() > 1)
+        name += " " + effect.paths[c].substr(effect.paths[c].rfind('.') + 1);
+      out.push_back({"score", name});
+    }
+  }
+  for (const auto& part : parts_of(*this)) {
+    for (ScoreEntry& entry : part->entries()) out.push_back(std::move(entry));
+  }
+  for (const Shape& shape : shapes) {
+    for (int k = 1; k <= kKnots; ++k) {
+      out.push_back({"shape", shape.variable + " " + shape.direction + " " + std::to_string(k)});
+    }
+  }
+  return out;
+}
+
+std::size_t ScorePlan::first_of_shape(std::size_t index) const {
+  return entries().size() - (shapes.size() - index) * kKnots;
+}
+
+std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                          ScoreDetails* details) {
+  Scorer scorer(plan);
+  predict(plan.model, recordings, plan.predictor,
+          [&](const PredictedFrame& frame) { scorer.add(frame); });
+  return scorer.tell(details);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,198 @@
+#include "diagnose/show.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "diagnose/slack.hpp"
+#include "lilytank/predictor.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kBlock = 10;  // s
+constexpr double kFar = 6;     // deviations at which an innovation stops to count more
+constexpr double kContact = 0.03;
+
+struct Moments {
+  double count = 0, sum = 0, square = 0;
+  void add(double v) { count += 1, sum += v, square += v * v; }
+  double mean() const { return count > 0 ? sum / count : 0; }
+  double variance() const {
+    return count > 1 ? std::max(0.0, (square - sum * sum / count) / (count - 1)) : 0;
+  }
+};
+
+// Mean squared deviation of observed numbers from simulated ones, of every group.
+std::map<std::string, double> misfit_by_group(const std::vector<SummaryEntry>& entries,
+                                              const std::vector<double>& observed,
+                                              const std::vector<std::vector<double>>& simulated,
+                                              const std::vector<std::vector<double>>& scatter) {
+  std::map<std::string, Moments> groups;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    Moments of, width;
+    for (const auto& row : simulated) of.add(row[k]);
+    for (const auto& row : scatter) width.add(row[k]);
+    const double variance = width.variance() * (1 + 1 / std::max(1.0, of.count));
+    if (!(variance > 0)) continue;
+    const double off = observed[k] - of.mean();
+    groups[entries[k].group].add(off * off / variance);
+  }
+  std::map<std::string, double> out;
+  for (const auto& [group, m] : groups) out[group] = m.mean();
+  return out;
+}
+
+std::vector<double> mean_curve(const std::vector<std::vector<double>>& curves,
+                               const std::vector<std::size_t>& which) {
+  std::vector<double> out(curves.front().size(), 0.0);
+  for (const std::size_t i : which) {
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] += curves[i][k] / static_cast<double>(which.size());
+    }
+  }
+  return out;
+}
+
+// Innovations of one model, by recording, module and frame.
+using Key = std::pair<std::pair<int, int>, int>;
+std::map<Key, std::array<double, 3>> innovations(const Model& model,
+                                                 const std::vector<Recording>& recordings,
+                                                 const PredictorOptions& predictor) {
+  std::map<Key, std::array<double, 3>> out;
+  predict(model, recordings, predictor, [&](const PredictedFrame& f) {
+    for (std::size_t i = 0; i < f.dx.size(); ++i) {
+      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContact) continue;
+      out[{{f.recording, f.module[i]}, f.frame}] = {f.dx[i] / f.sd_x[i], f.dy[i] / f.sd_x[i],
+                                                    f.dtheta[i] / f.sd_theta[i]};
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<Recording>> repeat(Stages& stages, const FlowMaps& maps,
+                                           const Emulator& emulator,
+                                           const std::vector<double>& values, int count,
+                                           const std::string& stage, std::uint64_t seed) {
+  std::vector<std::optional<std::vector<Recording>>> made(static_cast<std::size_t>(count));
+  stages.rows(stage, count, [&](int i) {
+    const auto field = loosened(*maps.draw(derived_seed(seed, 7), i), seed, i);
+    auto one =
+        emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+    if (one) made[static_cast<std::size_t>(i)] = std::move(*one);
+    return std::vector<double>{1};
+  });
+  std::vector<std::vector<Recording>> out;
+  for (int i = 0; i < count; ++i) {
+    auto& one = made[static_cast<std::size_t>(i)];
+    if (!one) {  // kept from before a stop: recordings themselves are not kept
+      const auto field = loosened(*maps.draw(derived_seed(seed, 7), i), seed, i);
+      one = emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+    }
+    if (one) out.push_back(std::move(*one));
+  }
+  if (2 * out.size() < made.size()) throw InputError("most worlds at the estimate diverge");
+  return out;
+}
+
+std::vector<GroupFit> group_fits(const CalibrationSetup& setup, const ScorePlan& plan,
+                                 const std::vector<Recording>& recordings,
+                                 const std::vector<std::vector<Recording>>& before,
+                                 const std::vector<std::vector<Recording>>& after) {
+  std::vector<SummaryEntry> entries = setup.entries();
+  ScorePlan scatter_only = plan;
+  scatter_only.effects.clear(), scatter_only.shapes.clear();
+  for (const ScoreEntry& e : scatter_only.entries()) entries.push_back({e.group, e.name});
+  const auto numbers = [&](const std::vector<Recording>& of) {
+    std::vector<double> out = setup.numbers(of);
+    const std::vector<double> more = score(scatter_only, of);
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  };
+  std::vector<std::vector<double>> b, a;
+  for (const auto& one : before) b.push_back(numbers(one));
+  for (const auto& one : after) a.push_back(numbers(one));
+  const std::vector<double> observed = numbers(recordings);
+  const auto was = misfit_by_group(entries, observed, b, a);
+  const auto is = misfit_by_group(entries, observed, a, a);
+  std::vector<GroupFit> out;
+  for (const auto& [group, value] : was) {
+    const auto found = is.find(group);
+    out.push_back({group, value, found == is.end() ? 0 : found->second});
+  }
+  return out;
+}
+
+void msd_share(const std::vector<Recording>& recordings,
+               const std::vector<std::vector<Recording>>& before,
+               const std::vector<std::vector<Recording>>& after, double longest, Diagnosis& out) {
+  Eq9 rule;
+  rule.seconds = longest;
+  const std::vector<double> data = eq9_curve(recordings, rule);
+  std::vector<std::vector<double>> b, a;
+  for (const auto& one : before) b.push_back(eq9_curve(one, rule));
+  for (const auto& one : after) a.push_back(eq9_curve(one, rule));
+  std::vector<std::size_t> all_b(b.size()), all_a(a.size());
+  for (std::size_t i = 0; i < b.size(); ++i) all_b[i] = i;
+  for (std::size_t i = 0; i < a.size(); ++i) all_a[i] = i;
+  const std::vector<double> middle = mean_curve(a, all_a);
+  Moments floor;
+  for (const auto& curve : a) floor.add(eq9(curve, middle));
+  out.msd_before = eq9(data, mean_curve(b, all_b)), out.msd_after = eq9(data, middle);
+  out.msd_floor = floor.mean();
+  const auto share = [&](double was, double is) {
+    const double excess = was - out.msd_floor;
+    if (excess <= 0) return 0.0;
+    return std::clamp(1 - std::max(0.0, is - out.msd_floor) / excess, -1.0, 1.0);
+  };
+  out.msd_removed = share(out.msd_before, out.msd_after);
+  std::vector<double> shares;
+  for (int k = 0; k < 200; ++k) {
+    const auto pick = [&](std::size_t n, std::uint32_t salt) {
+      std::vector<std::size_t> which(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double u = uniform({1, Stream::calibrate, k, static_cast<std::uint32_t>(i), salt});
+        which[i] = std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)));
+      }
+      return which;
+    };
+    shares.push_back(share(eq9(data, mean_curve(b, pick(b.size(), 11))),
+                           eq9(data, mean_curve(a, pick(a.size(), 12)))));
+  }
+  std::sort(shares.begin(), shares.end());
+  out.msd_low = shares[5], out.msd_high = shares[194];
+}
+
+StepGain step_gain(const Model& before, const Model& after, const PredictorOptions& predictor,
+                   const std::vector<Recording>& recordings) {
+  const auto b = innovations(before, recordings, predictor);
+  const auto a = innovations(after, recordings, predictor);
+  std::array<Moments, 3> width;
+  for (const auto& [key, z] : a) {
+    for (std::size_t k = 0; k < 3; ++k) width[k].add(std::clamp(z[k], -kFar, kFar));
+  }
+  std::map<std::pair<int, int>, double> blocks;
+  for (const auto& [key, z] : b) {
+    const auto other = a.find(key);
+    if (other == a.end()) continue;
+    double gain = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double v = std::max(width[k].variance(), 1e-9);
+      const double was = std::clamp(z[k], -kFar, kFar);
+      const double is = std::clamp(other->second[k], -kFar, kFar);
+      gain += 0.5 * (was * was - is * is) / v;
+    }
+    const double rate = recordings[static_cast<std::size_t>(key.first.first)].rate;
+    blocks[{key.first.first, static_cast<int>(key.second / (kBlock * rate))}] += gain;
+  }
+  Moments of;
+  for (const auto& [block, gain] : blocks) of.add(gain);
+  const double width_of = 1.96 * std::sqrt(of.variance() * of.count);
+  return {of.sum, of.sum - width_of, of.sum + width_of};
+}
+
+}  // namespace lilytank

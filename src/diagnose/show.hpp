@@ -1,0 +1,38 @@
+// What the findings change: recordings that had no part in them, against simulations without and
+// with the effects.
+#pragma once
+#include <vector>
+
+#include "diagnose/atlas.hpp"
+#include "diagnose/joint.hpp"
+#include "lilytank/diagnosis.hpp"
+
+namespace lilytank {
+
+/// Simulates the shapes of recordings at values of an emulator's parameters, `count` times.
+std::vector<std::vector<Recording>> repeat(Stages& stages, const FlowMaps& maps,
+                                           const Emulator& emulator,
+                                           const std::vector<double>& values, int count,
+                                           const std::string& stage, std::uint64_t seed);
+
+/// Groups of the motion summary and contacts: mean squared deviation of the recordings' numbers
+/// from those of simulations before and after.
+std::vector<GroupFit> group_fits(const CalibrationSetup& setup, const ScorePlan& plan,
+                                 const std::vector<Recording>& recordings,
+                                 const std::vector<std::vector<Recording>>& before,
+                                 const std::vector<std::vector<Recording>>& after);
+
+/// Eq. 9 of the recordings before and after, its floor, and the share removed with its interval.
+void msd_share(const std::vector<Recording>& recordings,
+               const std::vector<std::vector<Recording>>& before,
+               const std::vector<std::vector<Recording>>& after, double longest, Diagnosis& out);
+
+/// Gain in log-likelihood, one step ahead, of one model over another: nat, and its 95 % interval
+/// by blocks of ten seconds.
+struct StepGain {
+  double gain = 0, low = 0, high = 0;
+};
+StepGain step_gain(const Model& before, const Model& after, const PredictorOptions& predictor,
+                   const std::vector<Recording>& recordings);
+
+}  // namespace lilytank

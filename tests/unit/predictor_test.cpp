@@ -1,0 +1,202 @@
+// The baseline as a predictor, and what its innovations say of forces that it lacks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnose/scores.hpp"
+#include "diagnose/slack.hpp"
+#include "lilytank/camera.hpp"
+#include "lilytank/emulator.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/predictor.hpp"
+#include "lilytank/world.hpp"
+#include "support/moving_bodies.hpp"
+#include "support/worlds.hpp"
+
+namespace lilytank {
+namespace {
+
+using test::MovingBodies;
+
+// Modules far from each other in the built-in tank, without latches.
+Model drifting(int modules) {
+  Model model = standard_model();
+  model.module.count = modules;
+  model.control.latches = false;
+  model.steps_per_tick = 5, model.dt = kTick / 5;
+  return model;
+}
+
+std::vector<Recording> filmed(const Model& model, double seconds, std::uint64_t seed) {
+  RecordingShape shape;
+  shape.name = "simulated", shape.bodies = model.module.count;
+  shape.frames = static_cast<int>(30 * seconds) + 1;
+  const Emulator emulator(model, {}, {shape}, {});
+  return *emulator.record({}, seed);
+}
+
+ScorePlan plan_for(const Model& model, const std::vector<Recording>& recordings) {
+  ScorePlan plan;
+  plan.model = model;
+  plan.predictor = predictor_options(model, recordings);
+  plan.effects = effect_catalogue(model);
+  plan.shapes = shape_catalogue(model, 60);
+  plan.modules = model.module.count;
+  return plan;
+}
+
+std::size_t entry_named(const ScorePlan& plan, const std::string& name) {
+  const std::vector<ScoreEntry> entries = plan.entries();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].name == name) return i;
+  }
+  ADD_FAILURE() << "no score is named " << name;
+  return 0;
+}
+
+TEST(ExpectedTank, KnowsNoChance) {
+  Model model = drifting(6);
+  model.expected = true;
+  State start = initial_state(model, 1);
+  World one(model, start);
+  start.seed = 99;
+  World other(model, start);
+  for (int step = 0; step < 400; ++step) one.step(), other.step();
+  EXPECT_EQ(one.state().x, other.state().x);
+  EXPECT_EQ(one.state().omega, other.state().omega);
+}
+
+// The expected drag is the mean of drags with gusts: 4000 draws, five standard errors.
+TEST(ExpectedTank, DragIsTheMeanOverGusts) {
+  const Model model = drifting(1);
+  MovingBodies body(1, 0, 1, 0);
+  body.x = {0.1}, body.y = {0.02}, body.c = {0.8}, body.s = {0.6};
+  body.vx = {0.05}, body.vy = {-0.02}, body.omega = {0.5};
+  const ActiveForce* drag = nullptr;
+  for (const ActiveForce& f : model.forces) {
+    if (f.term->name() == "face_drag") drag = &f;
+  }
+  ASSERT_NE(drag, nullptr);
+  std::vector<Wrench> expected(1);
+  const Moment calm{.gusts = false, .expected = true};
+  drag->term->add(model, body.view(), calm, drag->p, expected);
+  const int draws = 4000;
+  double sum[3] = {0, 0, 0}, square[3] = {0, 0, 0};
+  for (int k = 0; k < draws; ++k) {
+    std::vector<Wrench> w(1);
+    const Moment now{.step = k * 5, .gust = k, .seed = 7};
+    drag->term->add(model, body.view(), now, drag->p, w);
+    const double v[3] = {w[0].fx, w[0].fy, w[0].torque};
+    for (int c = 0; c < 3; ++c) sum[c] += v[c], square[c] += v[c] * v[c];
+  }
+  const double want[3] = {expected[0].fx, expected[0].fy, expected[0].torque};
+  for (int c = 0; c < 3; ++c) {
+    const double mean = sum[c] / draws;
+    const double error = std::sqrt((square[c] / draws - mean * mean) / draws);
+    EXPECT_NEAR(mean, want[c], 5 * error) << "component " << c;
+  }
+}
+
+// With the right model the innovations have no mean and, by gains from the data, variance one.
+TEST(Predictor, InnovationsOfTheRightModelAreNoise) {
+  const Model model = drifting(8);
+  const auto recordings = filmed(model, 60, 3);
+  double sum = 0, square = 0, count = 0;
+  predict(model, recordings, predictor_options(model, recordings), [&](const PredictedFrame& f) {
+    for (std::size_t i = 0; i < f.dx.size(); ++i) {
+      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > 0.03) continue;
+      for (const double z : {f.dx[i] / f.sd_x[i], f.dy[i] / f.sd_x[i]}) {
+        sum += z, square += z * z, count += 1;
+      }
+    }
+  });
+  ASSERT_GT(count, 20000);
+  // Neighbouring innovations are nearly independent.
+  EXPECT_NEAR(sum / count, 0, 5 / std::sqrt(count));
+  EXPECT_NEAR(square / count, 1, 0.15);
+}
+
+TEST(Predictor, RefusesTracksWithoutHeadings) {
+  const Model model = drifting(2);
+  auto recordings = filmed(model, 2, 1);
+  for (Track& t : recordings[0].tracks) t.theta.clear();
+  EXPECT_THROW(predict(model, recordings, {}, [](const PredictedFrame&) {}), InputError);
+}
+
+// A push that the model lacks shows in its own score, at its size; without it the score is small.
+// The push is 4 mN where the score's unit is 1.5 mN.
+TEST(Scores, SeeAPlantedPush) {
+  const Model model = drifting(8);
+  const std::vector<std::string> path{"forces.body_force.force_x"};
+  const std::vector<double> value{4e-3};
+  const auto without = filmed(model, 60, 5);
+  const auto with = filmed(with_parameters(model, path, value), 60, 5);
+  const ScorePlan plan = plan_for(model, without);
+  const std::size_t at = entry_named(plan, "body_force force_x");
+  const double nothing = score(plan, without)[at], pushed = score(plan, with)[at];
+  EXPECT_LT(std::fabs(nothing), 1.0);
+  EXPECT_NEAR(pushed - nothing, 4.0 / 1.5, 1.2);
+}
+
+// Same recordings, same bits.
+TEST(Scores, AreRepeatable) {
+  const Model model = drifting(5);
+  const auto recordings = filmed(model, 20, 2);
+  const ScorePlan plan = plan_for(model, recordings);
+  EXPECT_EQ(score(plan, recordings), score(plan, recordings));
+  EXPECT_EQ(score(plan, recordings).size(), plan.entries().size());
+}
+
+TEST(EmpiricalForce, FollowsItsCurve) {
+  const Model model = drifting(1);
+  MovingBodies body(1, 0, 1, 0);
+  body.x = {0.05}, body.y = {0}, body.c = {1}, body.s = {0};
+  body.vx = {0}, body.vy = {0}, body.omega = {0};
+  // Radius from 0 to 0.1 m: 0.05 m lies in the middle of the third and fourth values.
+  ActiveForce f = with_defaults(*find_force("empirical_force"));
+  f.p = {0, 2, 0, 0.1, 0, 0, 1e-3, 3e-3, 0, 0};
+  std::vector<Wrench> w(1);
+  f.term->add(model, body.view(), {}, f.p, w);
+  EXPECT_NEAR(w[0].fx, 2e-3, 1e-12);
+  EXPECT_NEAR(w[0].fy, 0, 1e-12);
+  // A torque over the heading closes on itself: half way from the last value to the first.
+  f.p = {1, 8, -kPi, kPi, 2e-5, 0, 0, 0, 0, 4e-5};
+  const Rot r = rotation(kPi - kPi / 6);
+  body.c = {r.c}, body.s = {r.s};
+  w.assign(1, Wrench{});
+  f.term->add(model, body.view(), {}, f.p, w);
+  EXPECT_NEAR(w[0].torque, 3e-5, 1e-12);
+}
+
+TEST(EmpiricalForce, PairsPushEachOtherEqually) {
+  const Model model = drifting(2);
+  MovingBodies two(2, 0, 1, 0);
+  two.x = {0, 0.06}, two.y = {0, 0}, two.c = {1, 1}, two.s = {0, 0}, two.omega = {0, 0};
+  ActiveForce f = with_defaults(*find_force("empirical_force"));
+  f.p = {7, 2, 0, 0.05, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+  std::vector<Wrench> w(2);
+  f.term->add(model, two.view(), {}, f.p, w);
+  EXPECT_NEAR(w[0].fx, -1e-3, 1e-12);  // apart
+  EXPECT_NEAR(w[1].fx, 1e-3, 1e-12);
+}
+
+TEST(FlowSlack, IsASmallSmoothErrorThatTheSeedFixes) {
+  const Model model = drifting(1);
+  const FlowField& field = *model.field;
+  const auto a = loosened(field, 4, 0), again = loosened(field, 4, 0),
+             other = loosened(field, 4, 1);
+  double size = 0, error = 0;
+  for (std::size_t i = 0; i < field.samples().size(); ++i) {
+    const FlowSample &was = field.samples()[i], &is = a->samples()[i];
+    EXPECT_EQ(is.mu_x, again->samples()[i].mu_x);
+    size += was.mu_x * was.mu_x + was.mu_y * was.mu_y;
+    error +=
+        (is.mu_x - was.mu_x) * (is.mu_x - was.mu_x) + (is.mu_y - was.mu_y) * (is.mu_y - was.mu_y);
+  }
+  EXPECT_GT(std::sqrt(error / size), 0.01);
+  EXPECT_LT(std::sqrt(error / size), 0.08);
+  EXPECT_NE(a->samples()[1200].mu_x, other->samples()[1200].mu_x);
+}
+
+}  // namespace
+}  // namespace lilytank
