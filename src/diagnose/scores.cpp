@@ -1,6 +1,7 @@
 #include "diagnose/scores.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnose/scatter.hpp"
@@ -11,10 +12,11 @@
 namespace lilytank {
 namespace {
 
-constexpr double kContact = 0.03;  // m/s: a prediction that was pushed by a contact
-constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
-constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
-constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
+constexpr double kContact = 0.03;                 // m/s: a prediction that was pushed by a contact
+constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
+constexpr double kTouch = 1e-3;                   // m: nearer ones may touch before the next frame
+constexpr double kLost = 10;   // deviations: no innovation but a fault of the tracker
+constexpr double kLoss = 1.5;  // 1/s, share of a velocity that drag takes at usual slips
 
 std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
   std::vector<std::unique_ptr<ScatterPart>> parts;
@@ -65,8 +67,13 @@ class Features {
         stir(*feature.forces.front().term, feature.forces.front().p, k, now, out);
         continue;
       }
-      (*feature.sum)(k, now, out);
-      if (feature.kind == Feature::Kind::adds) continue;
+      if (feature.kind == Feature::Kind::adds) {
+        (*feature.sum)(k, now, out);
+        continue;
+      }
+      const ActiveForce& term = feature.forces.front();
+      std::copy(baseline_.begin(), baseline_.end(), out.begin());
+      term.term->transform(model_, k, now, term.p, out);
       for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].fx -= baseline_[i].fx, out[i].fy -= baseline_[i].fy;
         out[i].torque -= baseline_[i].torque;
@@ -89,10 +96,8 @@ class Features {
       if (force.term->transforms()) feature.kind = Feature::Kind::transforms;
       if (force.term->stirs()) feature.kind = Feature::Kind::stirs;
     }
-    if (feature.kind != Feature::Kind::transforms) {
-      std::erase_if(feature.forces,
-                    [&](const ActiveForce& force) { return force.term->name() != term; });
-    }
+    std::erase_if(feature.forces,
+                  [&](const ActiveForce& force) { return force.term->name() != term; });
     features_.push_back(std::move(feature));
   }
 
@@ -214,12 +219,20 @@ class Scorer {
       to.turn[f] = static_cast<float>(w.torque / inertia);
     }
     const int body = static_cast<int>(i);
+    std::array<double, kAlongs> value{};
+    std::array<Wrench, kTowards> unit{};
+    for (std::size_t v = 0; v < kAlongs; ++v) {
+      value[v] = value_along(static_cast<Along>(v), model, frame.now, now, body);
+    }
+    for (std::size_t u = 0; u < kTowards; ++u) {
+      unit[u] = unit_toward(static_cast<Toward>(u), model, frame.now, now, body);
+    }
     for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
-      const Shape& shape = plan_.shapes[s];
-      if (shape.curve.along == Along::gap) continue;
-      push_knots(shape, scored_ + s * kKnots,
-                 unit_toward(shape.curve.toward, model, frame.now, now, body),
-                 value_along(shape.curve.along, model, frame.now, now, body), model, 1, to);
+      const ForceCurve& curve = plan_.shapes[s].curve;
+      if (curve.along == Along::gap) continue;
+      push_knots(plan_.shapes[s], scored_ + s * kKnots,
+                 unit[static_cast<std::size_t>(curve.toward)],
+                 value[static_cast<std::size_t>(curve.along)], model, 1, to);
     }
   }
 

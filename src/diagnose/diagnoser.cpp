@@ -1,0 +1,193 @@
+#include "diagnose/diagnoser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+#include "lilytank/state.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
+
+CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
+                                  const DiagnosisBudget& budget) {
+  CalibrationOptions c;
+  c.parameters = standard_parameters(BodyKind::lily);
+  const bool told = std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
+                                [](const Recording& r) { return r.held_out; });
+  const auto lilies = std::count_if(experiment.recordings.begin(), experiment.recordings.end(),
+                                    [](const Recording& r) { return r.body == BodyKind::lily; });
+  c.hold_out = told || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
+  c.search_budget = budget.search, c.flow_draws = budget.flow_draws;
+  c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
+  c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
+  return c;
+}
+
+void take_directory(const CalibrationSetup& setup, const DiagnosisOptions& o) {
+  if (o.out.empty()) return;
+  const fs::path mark = fs::path(o.out) / "work" / "identity";
+  const std::string identity =
+      "lilytank diagnosis 1 " + hex(setup.identity) + " " + shortest(o.minutes) + "\n";
+  std::error_code problem;
+  if (fs::exists(mark, problem) && read_whole(mark.string()) != identity) {
+    if (!o.force) {
+      throw InputError(o.out +
+                       " holds another diagnosis (other data or options): choose another --out, or "
+                       "replace it with --force");
+    }
+    fs::remove_all(fs::path(o.out) / "work", problem);
+  }
+  fs::create_directories(mark.parent_path(), problem);
+  if (problem) throw InputError(system_problem("cannot make", o.out, problem.value()));
+  write_atomically(mark.string(), identity);
+}
+
+}  // namespace
+
+DiagnosisBudget::DiagnosisBudget(double minutes) {
+  const double s = std::clamp(minutes / 10, 0.3, 4.0);
+  const auto scaled = [&](int n, int least) {
+    return std::max(least, static_cast<int>(std::lround(n * s)));
+  };
+  search = scaled(500, 200), flow_draws = scaled(16, 12), centre = scaled(100, 80);
+  nulls = scaled(280, 160), experiments = scaled(9, 6), round = scaled(130, 110);
+  replicates = scaled(80, 40), comparisons = scaled(24, 12);
+}
+
+Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& options)
+    : options_(options),
+      budget_(options.minutes),
+      setup_(set_up(experiment, calibration_of(experiment, options, budget_))),
+      stages_(begin(setup_, options)) {}
+
+void Diagnoser::prepare() {
+  maps_.emplace(stages_.flow_maps());
+  CalibrationResult searched;
+  const Vector first = stages_.to_scale(stages_.search(searched));
+  const FitBounds bounds = stages_.bounds();
+  const auto [centre, deviation] = centre_of(first, *maps_, bounds);
+  spread_ = (4 * deviation).cwiseMax(kLeastSpread * (bounds.high - bounds.low)).asDiagonal();
+  atlas_ = std::make_unique<Atlas>(
+      stages_, *maps_, plan(centre), centre, spread_,
+      AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
+  naming_ = std::make_unique<Naming>(*atlas_, options_.false_alarms);
+}
+
+Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
+  Judged j;
+  j.observed = atlas_->vectors(recordings, &j.details);
+  const Vector residual = atlas_->residual(j.observed);
+  Naming naming = *naming_;
+  j.explanation = explained(naming, residual);
+  tell_ranking(naming, residual, j.explanation, out);
+  tell_detectable(naming, out);
+  tell_findings(naming, residual, j.explanation, out);
+  return j;
+}
+
+void Diagnoser::run(Diagnosis& out) {
+  prepare();
+  out.flow_csv = setup_.corrected_csv(*maps_->best());
+  const Judged judged = judge(setup_.training, out);
+  model_and_show(judged, out);
+  out.simulations = stages_.simulations() + budget_.nulls;
+}
+
+Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
+  take_directory(setup, options);
+  return Stages(setup);
+}
+
+// The parameters of the baseline that whole experiments say, and their errors.
+std::pair<Vector, Vector> Diagnoser::centre_of(const Vector& first, const FlowMaps& maps,
+                                               const FitBounds& bounds) {
+  const Vector wide = kFirstSpread * (bounds.high - bounds.low);
+  Matrix points(budget_.centre, first.size());
+  const std::uint64_t seed = derived_seed(options_.seed, 30);
+  for (int i = 0; i < budget_.centre; ++i) {
+    for (Eigen::Index k = 0; k < first.size(); ++k) {
+      const double u = uniform({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 5});
+      points(i, k) = first(k) + (i % 2 == 0 ? 1 : -1) * 1.7 * (2 * u - 1) * wide(k);
+    }
+    points.row(i) =
+        points.row(i).transpose().cwiseMax(bounds.low).cwiseMin(bounds.high).transpose();
+  }
+  const auto rows = stages_.simulate("centre", points, seed, maps);
+  Design design;
+  std::vector<int> good;
+  for (int i = 0; i < budget_.centre; ++i) {
+    if (!rows[static_cast<std::size_t>(i)].empty()) good.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(good.size());
+  if (2 * n < budget_.centre) throw InputError("most worlds about the search's answer diverge");
+  design.points.resize(n, first.size());
+  design.numbers.resize(n, static_cast<Eigen::Index>(setup_.entries().size()));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& row = rows[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
+    design.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
+    design.numbers.row(i) = Eigen::Map<const Vector>(row.data(), design.numbers.cols());
+  }
+  const LocalModel model(design);
+  const std::vector<double> numbers = setup_.numbers(setup_.training);
+  FitBounds near = bounds;
+  near.reach = 2.5;
+  const LocalFit fit = model.fit(
+      Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())), near);
+  return {fit.point, model.parameter_covariance(fit.point).diagonal().cwiseSqrt()};
+}
+
+ScorePlan Diagnoser::plan(const Vector& centre) const {
+  ScorePlan p;
+  const std::vector<double> values = stages_.from_scale(centre);
+  const std::vector<std::string> paths = setup_.paths();
+  const auto told = static_cast<std::ptrdiff_t>(setup_.told());
+  p.model =
+      with_parameters(setup_.model, std::vector<std::string>(paths.begin(), paths.begin() + told),
+                      std::vector<double>(values.begin(), values.begin() + told));
+  p.predictor = predictor_options(p.model, setup_.training);
+  p.effects = effect_catalogue(setup_.model);
+  double longest = 0;
+  int modules = 0;
+  for (const Recording& r : setup_.training) {
+    longest = std::max(longest, r.frames / r.rate);
+    modules = std::max(modules, static_cast<int>(r.tracks.size()));
+  }
+  p.shapes = shape_catalogue(setup_.model, longest);
+  p.rate = setup_.training.front().rate, p.modules = std::max(modules, setup_.shapes[0].bodies);
+  return p;
+}
+
+// Named effects first; a shape competes with them where they leave something.
+Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
+  Explanation e = naming.explain(residual);
+  const std::vector<EffectFit> shapes = naming.shapes(residual);
+  std::vector<int> asked;
+  if (shapes[0].z > naming.shape_threshold() && (e.found.empty() || shapes[0].z > e.found[0].z)) {
+    asked.push_back(shapes[0].shape);
+  }
+  double largest = 0;
+  for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
+  if (e.left_shape.z > std::max(naming.shape_threshold(), 0.15 * largest)) {
+    if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
+  }
+  for (const int s : asked) {
+    naming.add_shape(
+        s, atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
+                               "shape " + std::to_string(s),
+                               derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s))));
+  }
+  return asked.empty() ? e : naming.explain(residual);
+}
+
+}  // namespace lilytank

@@ -1,0 +1,77 @@
+// A diagnosis step by step: what `diagnose` does with one experiment, and `prove` with many of one
+// tank.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnose/joint.hpp"
+#include "diagnose/naming.hpp"
+#include "lilytank/diagnosis.hpp"
+
+namespace lilytank {
+
+/// Simulations of each kind; ten minutes on two cores by default.
+struct DiagnosisBudget {
+  int search, flow_draws, centre, nulls, experiments, round, replicates, comparisons;
+  explicit DiagnosisBudget(double minutes);
+};
+
+/// What recordings said, before anything is fitted to it.
+struct Judged {
+  Vectors observed;
+  ScoreDetails details;
+  Explanation explanation;
+};
+
+class Diagnoser {
+ public:
+  Diagnoser(const Experiment& experiment, const DiagnosisOptions& options);
+
+  /// Flow, baseline, nulls and fingerprints; kept in the directory. Throws Stopped, InputError.
+  void prepare();
+  /// Which effects recordings of the same kind as the experiment's ask for: verdict, findings,
+  /// maps, ranking, smallest sizes.
+  Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);
+  /// Fits what was found and shows it on the held-out recordings.
+  void model_and_show(const Judged& judged, Diagnosis& out);
+  /// All of it.
+  void run(Diagnosis& out);
+
+  const Atlas& atlas() const { return *atlas_; }
+  const Naming& naming() const { return *naming_; }
+  const CalibrationSetup& setup() const { return setup_; }
+  Stages& stages() { return stages_; }
+
+ private:
+  static Stages begin(CalibrationSetup& setup, const DiagnosisOptions& options);
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> centre_of(const Eigen::VectorXd& first,
+                                                        const FlowMaps& maps,
+                                                        const FitBounds& bounds);
+  ScorePlan plan(const Eigen::VectorXd& centre) const;
+  Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
+  void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
+                    Diagnosis& out) const;
+  FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
+  void tell_detectable(const Naming& naming, Diagnosis& out) const;
+  const FoundCurve* map_of(const std::string& variable, const Diagnosis& out) const;
+  void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
+  void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
+                     Diagnosis& out) const;
+  void tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
+                       Diagnosis& out) const;
+  void show(const JointFit& fit, const std::vector<double>& before, Diagnosis& out);
+
+  DiagnosisOptions options_;
+  DiagnosisBudget budget_;
+  CalibrationSetup setup_;
+  Stages stages_;
+  std::optional<FlowMaps> maps_;
+  Eigen::MatrixXd spread_;
+  std::unique_ptr<Atlas> atlas_;
+  std::unique_ptr<Naming> naming_;
+};
+
+}  // namespace lilytank

@@ -1,0 +1,133 @@
+// What a diagnosis tells: findings, maps, ranking, smallest sizes.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "diagnose/diagnoser.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double kSame = 4;  // gains that differ by less do not tell effects apart
+
+}  // namespace
+
+void Diagnoser::tell_ranking(const Naming& naming, const Vector& residual, const Explanation& e,
+                             Diagnosis& out) const {
+  for (const EffectFit& f : naming.effects(residual)) {
+    const auto k = static_cast<std::size_t>(f.effect);
+    if (f.effect >= 0) out.ranking.emplace_back(atlas_->plan().effects[k].name, f.z);
+  }
+  out.effect_threshold = naming.effect_threshold();
+  out.shape_threshold = naming.shape_threshold(), out.false_alarms = options_.false_alarms;
+  out.strongest_left = std::max(e.left_effect.z, e.left_shape.z);
+  std::vector<double> z(atlas_->plan().shapes.size(), 0.0);
+  for (const EffectFit& f : naming.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
+  for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(residual, s, z[s]));
+}
+
+FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) const {
+  const Shape& shape = atlas_->plan().shapes[s];
+  FoundCurve c;
+  c.variable = shape.variable, c.direction = shape.direction, c.unit = shape.unit;
+  if (shape.curve.along == Along::x || shape.curve.along == Along::y) {
+    c.variable += shape.curve.along == Along::x ? " x" : " y";
+  }
+  c.value_unit = shape.curve.toward == Toward::torque ? "N m" : "N", c.z = z;
+  const bool closed = shape.curve.along == Along::heading;
+  for (int k = 0; k < kKnots; ++k) {
+    const Eigen::Index at = atlas_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
+    const double step = (shape.curve.high - shape.curve.low) / (closed ? kKnots : kKnots - 1);
+    c.at.push_back(shape.curve.low + k * step);
+    c.value.push_back(residual(at) * atlas_->deviations()(at) * shape.size);
+    c.deviation.push_back(atlas_->deviations()(at) * shape.size);
+  }
+  return c;
+}
+
+void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
+  for (std::size_t e = 0; e < atlas_->plan().effects.size(); ++e) {
+    const Effect& effect = atlas_->plan().effects[e];
+    const double least = naming.smallest_seen(static_cast<int>(e)) * effect.sizes[0];
+    const auto same = std::find_if(
+        out.detectable.begin(), out.detectable.end(),
+        [&](const Detectable& d) { return d.effect == effect.name && d.path == effect.paths[0]; });
+    if (same == out.detectable.end()) {
+      out.detectable.push_back({effect.name, effect.paths[0], least, effect.units[0]});
+    } else {
+      same->smallest = std::min(same->smallest, least);
+    }
+  }
+}
+
+// The map in which a finding shows most.
+const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
+  const FoundCurve* best = nullptr;
+  for (const FoundCurve& c : out.maps) {
+    if (c.variable.rfind(variable, 0) != 0) continue;
+    if (best == nullptr || c.z > best->z) best = &c;
+  }
+  return best;
+}
+
+void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
+  f.curve = curve, f.unit = curve.unit;
+  std::size_t peak = 0;
+  const auto strength = [&](std::size_t k) {
+    return std::fabs(curve.value[k]) / std::max(curve.deviation[k], 1e-300);
+  };
+  for (std::size_t k = 0; k < curve.at.size(); ++k) {
+    if (strength(k) > strength(peak)) peak = k;
+  }
+  std::size_t first = peak, last = peak;
+  while (first > 0 && strength(first - 1) > 2) --first;
+  while (last + 1 < curve.at.size() && strength(last + 1) > 2) ++last;
+  const double half = 0.5 * (curve.at[1] - curve.at[0]);
+  f.from = curve.at[first] - (first == 0 ? 0 : half);
+  f.to = curve.at[last] + (last + 1 == curve.at.size() ? 0 : half);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "strongest %s at %s %.3g %s, where the baseline is off by %.2g +- %.2g %s",
+                curve.direction.c_str(), curve.variable.c_str(), curve.at[peak], curve.unit.c_str(),
+                curve.value[peak], curve.deviation[peak], curve.value_unit.c_str());
+  f.text = text;
+}
+
+void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, const Explanation& e,
+                              Diagnosis& out) const {
+  const std::vector<EffectFit> ranked = naming.effects(residual);
+  for (std::size_t i = 0; i < e.found.size(); ++i) {
+    const EffectFit& fit = e.found[i];
+    DiagnosisFinding f;
+    f.z = fit.z, f.confidence = std::erf(fit.z / std::sqrt(2.0));
+    if (fit.effect >= 0) {
+      const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
+      f.effect = effect.name, f.variable = effect.variable;
+      const ForceTerm* term = find_force(effect.name);
+      if (term != nullptr) f.equation = std::string(term->equation());
+      for (const EffectFit& other : ranked) {
+        if (other.effect < 0 || i > 0) continue;
+        const std::string& name =
+            atlas_->plan().effects[static_cast<std::size_t>(other.effect)].name;
+        if (name == effect.name || fit.gain - other.gain >= kSame) continue;
+        if (std::find(f.alternatives.begin(), f.alternatives.end(), name) == f.alternatives.end())
+          f.alternatives.push_back(name);
+      }
+      if (!f.alternatives.empty()) f.split = effect.split;
+      if (const FoundCurve* map = map_of(f.variable, out)) tell_where(*map, f);
+    } else {
+      const auto s = static_cast<std::size_t>(fit.shape);
+      f.effect = "unnamed", f.variable = atlas_->plan().shapes[s].variable;
+      f.equation = "F = f(" + f.variable + ") " + atlas_->plan().shapes[s].direction +
+                   ", the curve that is drawn";
+      tell_where(out.maps[s], f);
+    }
+    out.findings.push_back(std::move(f));
+  }
+  out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
+  if (e.found.empty() && e.strongest > naming.shape_threshold()) out.verdict = Verdict::undecided;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,132 @@
+// What was found, fitted together with the baseline and shown on held-out recordings.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/diagnoser.hpp"
+#include "diagnose/show.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+}  // namespace
+
+void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
+  const Explanation& e = judged.explanation;
+  const Vectors& observed = judged.observed;
+  const ScoreDetails& details = judged.details;
+  const LocalFit baseline = atlas_->calibrated(observed.summary);
+  const std::vector<double> before = stages_.from_scale(baseline.point);
+  const Matrix covariance = atlas_->parameters().parameter_covariance(baseline.point);
+  for (std::size_t i = 0; i < setup_.told(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
+                              std::sqrt(covariance(k, k)), before[i], before[i], before[i]});
+  }
+  out.overlay = "# What was found of " + setup_.name + ".\n";
+  if (e.found.empty()) return;
+  std::vector<Effect> effects;
+  std::vector<Vector> amplitudes;
+  for (const EffectFit& f : e.found) {
+    effects.push_back(f.effect >= 0
+                          ? atlas_->plan().effects[static_cast<std::size_t>(f.effect)]
+                          : effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]));
+    amplitudes.push_back(f.amplitudes);
+    if (effects.back().name == "flow_pulsation") {
+      effects.back().shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
+    }
+    if (effects.back().name == "heterogeneous_module") {
+      effects.back().shape = {
+          {"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
+    }
+  }
+  const JointFit fit =
+      fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_, budget_.round,
+                  budget_.replicates, derived_seed(options_.seed, 700));
+  tell_parameters(fit, effects, out);
+  show(fit, before, out);
+}
+
+void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
+                                Diagnosis& out) const {
+  for (std::size_t i = 0; i < out.parameters.size(); ++i) {
+    out.parameters[i].with_effects = fit.value[i];
+    out.parameters[i].low = fit.low[i], out.parameters[i].high = fit.high[i];
+  }
+  std::size_t at = setup_.parameters.size();
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const std::size_t count = effects[e].paths.size() + effects[e].refine.size();
+    for (std::size_t k = 0; k < count; ++k, ++at) {
+      const FitParameter& p = fit.parameters[at];
+      out.findings[e].parameters.push_back({p.path.substr(p.path.rfind('.') + 1), p.path,
+                                            fit.value[at], fit.low[at], fit.high[at], p.unit});
+    }
+    for (const auto& [path, value] : effects[e].shape) {
+      const bool refined = std::any_of(effects[e].refine.begin(), effects[e].refine.end(),
+                                       [&p = path](const FitParameter& r) { return r.path == p; });
+      if (refined || effects[e].name == "empirical_force") continue;
+      const ModelParameter of{path, "", 0, 0, ""};
+      out.findings[e].parameters.push_back(
+          {of.path.substr(of.path.rfind('.') + 1), path, value, value, value, ""});
+    }
+    if (effects[e].name == "empirical_force") {
+      for (int k = 0; k < kKnots; ++k) {
+        out.findings[e].curve.value[static_cast<std::size_t>(k)] =
+            out.findings[e].parameters[static_cast<std::size_t>(k)].value;
+      }
+    }
+  }
+  std::string text = "# Physics that the recordings of " + setup_.name +
+                     " ask for, found by lilytank diagnose: lay this over a scenario, as in\n"
+                     "#   lilytank run scenarios/tank_lilies.toml missing.toml\n";
+  text += "run.dt = " + shortest(setup_.model.dt) + "\n";
+  if (setup_.flow) text += "flow.file = \"flow.csv\"\n";
+  for (const MovedParameter& p : out.parameters) {
+    text += p.path + " = " + shortest(p.with_effects) + "\n";
+  }
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (effects[e].name == "empirical_force") {
+      for (const auto& [path, value] : effects[e].shape)
+        text += path + " = " + shortest(value) + "\n";
+    }
+    for (const FoundParameter& p : out.findings[e].parameters) {
+      text += p.path + " = " + shortest(p.value) + "  # " + shortest(p.low) + " .. " +
+              shortest(p.high) + "\n";
+    }
+  }
+  out.overlay = text;
+}
+
+void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, Diagnosis& out) {
+  const bool held = !setup_.held_out.empty();
+  const auto& recordings = held ? setup_.held_out : setup_.training;
+  const auto& shapes = held ? setup_.held_out_shapes : setup_.shapes;
+  std::vector<std::string> paths;
+  for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
+  const Emulator with(fit.model, paths, shapes);
+  const auto b = repeat(stages_, *maps_, setup_.emulator(shapes), before, budget_.comparisons,
+                        "before", derived_seed(options_.seed, 801));
+  const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons, "after",
+                        derived_seed(options_.seed, 802));
+  out.held_out = group_fits(setup_, atlas_->plan(), recordings, b, a);
+  msd_share(recordings, b, a, setup_.piece, out);
+  std::vector<std::string> told;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i] == kPositionNoise || paths[i] == kHeadingNoise) continue;
+    told.push_back(paths[i]), values.push_back(fit.value[i]);
+  }
+  const Model after = with_parameters(fit.model, told, values);
+  const StepGain gain =
+      step_gain(atlas_->plan().model, after, atlas_->plan().predictor, recordings);
+  for (DiagnosisFinding& f : out.findings) {
+    f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
+  }
+}
+
+}  // namespace lilytank
