@@ -46,8 +46,8 @@ inline const std::string kPositionNoise = "camera.position_noise";  ///< m
 inline const std::string kHeadingNoise = "camera.heading_noise";    ///< rad
 
 struct EmulatorOptions {
-  /// Draw the gusts' wrench on a module from its moments instead of point by point: the same
-  /// statistics at a third of the time.
+  /// Draw the gusts' wrench on a module from its moments instead of point by point: three times
+  /// faster, but the variance of some short displacements is 1 % off, which calibration can see.
   bool moment_matched = true;
   double settle = 20;            ///< s before the first frame, where bodies start at random
   double position_noise = 3e-4;  ///< m, unless it is a parameter

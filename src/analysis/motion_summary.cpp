@@ -34,12 +34,14 @@ void add_displacements(const Track& track, int origin_step, int lag_step,
   const auto n = static_cast<int>(track.x.size());
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const int lag = static_cast<int>(k + 1) * lag_step;
+    MeanSum sum = sums[k];  // a copy, as memory would be slower
     for (int i = 0; i + lag < n; i += origin_step) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + lag);
       const double dx = track.x[b] - track.x[a], dy = track.y[b] - track.y[a];
-      sums[k].add(dx * dx + dy * dy);
+      sum.add(dx * dx + dy * dy);
       if (!all_origins) break;
     }
+    sums[k] = sum;
   }
 }
 

@@ -28,11 +28,13 @@ class Displacement final : public SummaryPart {
   void add(const Track& track) override {
     const auto n = static_cast<int>(track.x.size());
     for (std::size_t k = 0; k < lags_.size(); ++k) {
+      MeanSum sum = sums_[k];  // a copy, as memory would be slower
       for (int i = 0; i + lags_[k] < n; i += stride_) {
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + lags_[k]);
         const double dx = track.x[b] - track.x[a], dy = track.y[b] - track.y[a];
-        sums_[k].add(dx * dx + dy * dy);
+        sum.add(dx * dx + dy * dy);
       }
+      sums_[k] = sum;
     }
   }
   void tell(std::vector<double>& values) const override {
@@ -181,10 +183,12 @@ class Kicks final : public SummaryPart {
   void add(const std::vector<double>& of) {
     for (std::size_t k = 0; k < kLags.size(); ++k) {
       const auto lag = static_cast<std::size_t>(kLags[k]);
+      MeanSum sum = sums_[k];  // a copy, as memory would be slower
       for (std::size_t i = lag; i + lag < of.size(); ++i) {
         const double d = of[i + lag] - 2 * of[i] + of[i - lag];
-        sums_[k].add(d * d);
+        sum.add(d * d);
       }
+      sums_[k] = sum;
     }
   }
   bool turning_;

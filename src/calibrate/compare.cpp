@@ -41,7 +41,7 @@ class Comparison {
              const std::vector<RecordingShape>& shapes, std::string name)
       : stages_(stages),
         setup_(stages.setup()),
-        emulator_(setup_.emulator(shapes)),
+        emulator_(setup_.emulator(shapes, Stages::Of::experiments)),
         pieces_(pieces_of(recordings, setup_.piece)),
         rule_{.seconds = setup_.piece},
         seed_(derived_seed(setup_.options.seed, kSplitSeed)) {
@@ -127,8 +127,8 @@ void compare_with_data(Stages& stages, CalibrationResult& out) {
     out.msd.push_back(
         Comparison(stages, setup.held_out, setup.held_out_shapes, "held out").fit(start, estimate));
   }
-  const auto made =
-      setup.emulator(setup.shapes).record(estimate, derived_seed(setup.options.seed, kCompareSeed));
+  const auto made = setup.emulator(setup.shapes, Stages::Of::experiments)
+                        .record(estimate, derived_seed(setup.options.seed, kCompareSeed));
   const double radius = setup.model.tank.radius;
   out.real_velocity = map_of(setup.training, radius);
   if (made) out.simulated_velocity = map_of(*made, radius);

@@ -18,6 +18,7 @@ constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard 
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
 constexpr double kReach = 2;               // deviations of the design that a round may go
+constexpr int kRoughRounds = 4;            // beyond these, whole experiments lead better
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -194,7 +195,7 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
   Way way(stages, maps, observed, from);
   // Pieces are cheap and their scatter is wide: they lead to where whole experiments begin.
   way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
-          setup.options.most_rounds});
+          std::min(setup.options.most_rounds, kRoughRounds)});
   way.narrow();
   way.go({"local model ", Stages::Of::experiments, setup.options.round, setup.options.last_round,
           setup.options.most_rounds});

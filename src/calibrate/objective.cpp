@@ -25,7 +25,8 @@ struct CalibrationSearch::Parts {
   std::vector<double> observed, deviation;
 
   explicit Parts(CalibrationSetup from)
-      : setup(std::move(from)), emulator(setup.emulator(setup.shapes)) {
+      : setup(std::move(from)),
+        emulator(setup.emulator(setup.shapes, CalibrationSetup::Of::pieces)) {
     for (const FitParameter& p : setup.parameters) {
       if (!p.nuisance) space.push_back({p.path, p.low, p.high, p.logarithmic});
     }

@@ -118,7 +118,7 @@ void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
 std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& setup) {
   const CalibrationOptions& o = setup.options;
   Fnv hash;
-  hash.add("calibration 1 " + std::to_string(experiment.base.identity));
+  hash.add("calibration 2 " + std::to_string(experiment.base.identity));
   for (const auto* of : {&setup.training, &setup.held_out, &setup.balls}) add_recordings(*of, hash);
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const FitParameter& p = setup.parameters[i];
@@ -155,8 +155,10 @@ std::size_t CalibrationSetup::told() const {
                                                 [](const FitParameter& p) { return !p.nuisance; }));
 }
 
-Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& of) const {
-  return Emulator(model, paths(), of);
+Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& shapes_of, Of of) const {
+  EmulatorOptions how;
+  how.moment_matched = of == Of::pieces;
+  return Emulator(model, paths(), shapes_of, how);
 }
 
 std::vector<double> CalibrationSetup::numbers(const std::vector<Recording>& recordings) const {

@@ -29,7 +29,10 @@ struct CalibrationSetup {
 
   std::vector<std::string> paths() const;
   std::size_t told() const;  ///< parameters without nuisances
-  Emulator emulator(const std::vector<RecordingShape>& of) const;
+  /// Of pieces, which must be fast, or of whole experiments, which must be right: their gusts are
+  /// drawn point by point.
+  enum class Of { experiments, pieces };
+  Emulator emulator(const std::vector<RecordingShape>& shapes_of, Of of) const;
 
   /// What the objective compares, of recordings of the experiment's whole length.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;

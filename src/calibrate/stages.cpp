@@ -45,7 +45,10 @@ std::int64_t budget_of(const CalibrationOptions& o) {
 
 }  // namespace
 
-Stages::Stages(CalibrationSetup& setup) : setup_(setup), best_(setup.emulator(setup.shapes)) {
+Stages::Stages(CalibrationSetup& setup)
+    : setup_(setup),
+      whole_(setup.emulator(setup.shapes, Of::experiments)),
+      piece_(setup.emulator(setup.shapes, Of::pieces)) {
   const CalibrationOptions& o = setup.options;
   double seconds = 0;
   for (const RecordingShape& shape : setup.shapes) seconds += shape.frames / shape.rate;
@@ -110,7 +113,8 @@ FlowMaps Stages::flow_maps() {
   }
   FlowMaps maps(*setup_.model.field, std::move(errors));
   setup_.model.field = maps.best();
-  best_ = setup_.emulator(setup_.shapes);
+  whole_ = setup_.emulator(setup_.shapes, Of::experiments);
+  piece_ = setup_.emulator(setup_.shapes, Of::pieces);
   return maps;
 }
 
@@ -158,13 +162,13 @@ std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
                                                   const Eigen::MatrixXd& points, std::uint64_t seed,
                                                   const FlowMaps& maps, Of of) {
   const auto piece = [&](int i) {
-    const auto made = best_.piece(from_scale(points.row(i)), seed, i, setup_.piece);
+    const auto made = piece_.piece(from_scale(points.row(i)), seed, i, setup_.piece);
     return made ? setup_.numbers({*made}) : std::vector<double>{};
   };
   const auto experiment = [&](int i) {
     const auto run = static_cast<std::uint64_t>(i);
     const auto field = maps.draw(derived_seed(seed, kFlowMix), i);
-    const auto made = best_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
+    const auto made = whole_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
     return made ? setup_.numbers(*made) : std::vector<double>{};
   };
   const auto count = static_cast<int>(points.rows());

@@ -24,7 +24,7 @@ class Stages {
   /// The search's answer, with nuisances at their start.
   std::vector<double> search(CalibrationResult& out);
 
-  enum class Of { experiments, pieces };
+  using Of = CalibrationSetup::Of;
   /// Numbers that the objective compares, of whole experiments simulated at points (a row each, on
   /// the fitted scale), each in another flow that the balls allow; or of single pieces in the best
   /// flow. Empty rows where worlds diverged.
@@ -49,7 +49,7 @@ class Stages {
   std::string file(const std::string& stage) const;
   void tell(double spent, const std::string& stage) const;
   CalibrationSetup& setup_;
-  Emulator best_;  ///< in the flow without its mean error
+  Emulator whole_, piece_;  ///< in the flow without its mean error
   int simulations_ = 0;
   double piece_cost_ = 0, search_cost_ = 0, expected_ = 0,
          spent_ = 0;  ///< in simulated experiments

@@ -6,6 +6,7 @@
 
 #include "lilytank/math.hpp"
 #include "lilytank/random.hpp"
+#include "math/bulk_random.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -13,7 +14,9 @@ namespace {
 
 constexpr double kTurn = 2 * kPi;
 /// What a draw of Stream::camera is for, in Draw::index.
-enum : std::uint32_t { kPlace = 0, kHeading = 1, kMissed = 2, kDropped = 3, kSwapped = 4 };
+enum : std::uint32_t { kNoise = 0, kMissed = 2, kDropped = 3, kSwapped = 4 };
+/// The noise of one body: numbers of a bulk draw.
+enum { kNoiseX = 0, kNoiseY = 1, kNoiseHeading = 2, kNoiseCount = 3 };
 
 /// The trajectory at any time.
 class Interpolator {
@@ -95,11 +98,20 @@ class Filming {
   void frame(int f) {
     scene_.go_to(out_.time(f) - camera_.latency);
     if (camera_.swaps > 0) exchange(f);
-    if (uniform(draw(f, 0, kDropped)) < camera_.dropped) return;
+    if (happens(camera_.dropped, draw(f, 0, kDropped))) return;
     for (int id = 0; id < count_; ++id) {
-      if (uniform(draw(f, id, kMissed)) < camera_.missed) continue;
+      if (id % kBulkBodies == 0) bulk_normals(draw(f, id, kNoise), kNoiseCount, noise_);
+      if (happens(camera_.missed, draw(f, id, kMissed))) continue;
       see(f, id);
     }
+  }
+
+  static bool happens(double chance, const Draw& draw) {
+    return chance > 0 && uniform(draw) < chance;
+  }
+
+  double noise(int id, int which) const {
+    return static_cast<double>(noise_[which * kBulkBodies + id % kBulkBodies]);
   }
 
   // Where a place in the tank is seen: through a camera that leans, then its lens.
@@ -114,13 +126,11 @@ class Filming {
     Track& track = out_.tracks[static_cast<std::size_t>(id)];
     const int body = first_ + shown_[static_cast<std::size_t>(id)];
     const auto i = static_cast<std::size_t>(f);
-    const auto noise = normal_pair(draw(f, id, kPlace));
     const Vec2 place = image_of({scene_.x(body), scene_.y(body)});
-    track.x[i] = place.x() + camera_.position_noise * noise[0];
-    track.y[i] = place.y() + camera_.position_noise * noise[1];
+    track.x[i] = place.x() + camera_.position_noise * noise(id, kNoiseX);
+    track.y[i] = place.y() + camera_.position_noise * noise(id, kNoiseY);
     if (!headings_) return;
-    const double seen =
-        scene_.theta(body) + camera_.heading_noise * normal_pair(draw(f, id, kHeading))[0];
+    const double seen = scene_.theta(body) + camera_.heading_noise * noise(id, kNoiseHeading);
     // Continued from the last one.
     std::size_t before = i;
     while (before > 0 && std::isnan(track.theta[before - 1])) --before;
@@ -164,6 +174,7 @@ class Filming {
   int first_ = 0, count_ = 0;
   bool headings_ = false;
   Rot tilt_, lean_;
+  alignas(64) float noise_[(kNoiseCount + 1) * kBulkBodies];  ///< of the bodies seen now
 };
 
 }  // namespace
