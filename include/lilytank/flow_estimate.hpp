@@ -51,7 +51,11 @@ struct FlowOptions {
   SmoothingOptions smoothing{SmoothingMethod::polynomial, 0.3, 3};  ///< of Eq. 3
   int least_samples = 20;      ///< frames; a cell with fewer is filled
   double significance = 0.05;  ///< of normality in a cell, and rate of false discoveries
+  int draws = 0;  ///< fields from the posterior, for whoever uses the flow (smooth only)
 };
+
+/// One field's difference from another, cell by cell, m/s.
+using FlowDifference = std::vector<FlowSample>;
 
 /// One cell of an estimate. Errors are standard errors.
 struct FlowCell {
@@ -78,6 +82,9 @@ struct FlowEstimate {
   double extent = 0;                 ///< m, the grid covers [-extent, extent]^2
   std::vector<FlowCell> cell;        ///< iy * cells + ix, as in FlowField
   std::optional<NoiseBudget> noise;  ///< smooth only
+  /// Draws from the posterior of mean and deviation together, less the estimate: fields that the
+  /// data and their smoothness allow as well. Zero outside the tank.
+  std::vector<FlowDifference> draws;
   double thinning = 0;    ///< s between samples of a track that count as independent (paper only)
   double smoothness = 0;  ///< effective number of free values of the mean field (smooth only)
   std::int64_t samples = 0, dropped = 0;  ///< used, and left out because of a contact or the wall

@@ -1,8 +1,10 @@
 // A flow found from balls, and the flows that the balls would allow as well.
 //
-// What is calibrated in an extracted flow inherits its errors. They are known from doing it again:
-// balls simulated in the extracted flow, recorded and extracted from anew, give fields whose
-// differences from the flow that was simulated are draws of the error.
+// What is calibrated in an extracted flow inherits its errors. Their mean is known from doing it
+// again: balls simulated in the extracted flow, recorded and extracted from anew, give fields that
+// differ from the flow that was simulated. Their scatter would be too small, as the extracted flow
+// is smoother than the water was: it comes from the posterior, which holds structure that the balls
+// do not resolve.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,9 +13,6 @@
 #include "lilytank/flow_estimate.hpp"
 
 namespace lilytank {
-
-/// One field's difference from the truth, cell by cell.
-using FlowDifference = std::vector<FlowSample>;
 
 /// Extracts the flow again from simulated balls in `estimate`'s field: draw number `run` of its
 /// error. `balls` give the shape of the recordings. Throws InputError if the estimate has no noise
@@ -26,19 +25,21 @@ class FlowMaps {
  public:
   /// A flow that is known, or taken to be.
   explicit FlowMaps(std::shared_ptr<const FlowField> field) : field_(std::move(field)) {}
-  /// A flow as it was extracted, with draws of the extraction's error; at least two.
-  FlowMaps(const FlowField& extracted, std::vector<FlowDifference> errors);
+  /// A flow as it was extracted, with draws of the extraction's error, whose mean is taken off, and
+  /// draws of what the data leave open; at least two of these.
+  FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
+           std::vector<FlowDifference> open);
 
   /// The extracted field less its mean error.
   const std::shared_ptr<const FlowField>& best() const { return field_; }
-  bool uncertain() const { return !errors_.empty(); }
-  /// A field that could be the true one: the best and a normal combination of the errors' scatter,
-  /// draw `run`.
+  bool uncertain() const { return !open_.empty(); }
+  /// A field that could be the true one: the best and a normal combination of what is open, draw
+  /// `run`.
   std::shared_ptr<const FlowField> draw(std::uint64_t seed, std::int64_t run) const;
 
  private:
   std::shared_ptr<const FlowField> field_;
-  std::vector<FlowDifference> errors_;  ///< about their mean
+  std::vector<FlowDifference> open_;  ///< about their mean
 };
 
 }  // namespace lilytank

@@ -72,29 +72,35 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
   return out;
 }
 
-FlowMaps::FlowMaps(const FlowField& extracted, std::vector<FlowDifference> errors)
-    : errors_(std::move(errors)) {
-  FlowDifference mean(extracted.samples().size());
-  const double share = 1 / static_cast<double>(errors_.size());
-  for (const FlowDifference& error : errors_) {
-    for (std::size_t i = 0; i < mean.size(); ++i) add(mean[i], error[i], share);
-  }
-  for (FlowDifference& error : errors_) {
-    for (std::size_t i = 0; i < mean.size(); ++i) add(error[i], mean[i], -1);
+FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
+                   std::vector<FlowDifference> open)
+    : open_(std::move(open)) {
+  const auto mean = [&](const std::vector<FlowDifference>& of) {
+    FlowDifference out(extracted.samples().size());
+    for (const FlowDifference& one : of) {
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        add(out[i], one[i], 1 / static_cast<double>(of.size()));
+      }
+    }
+    return out;
+  };
+  const FlowDifference middle = mean(open_), bias = mean(errors);
+  for (FlowDifference& one : open_) {
+    for (std::size_t i = 0; i < one.size(); ++i) add(one[i], middle[i], -1);
   }
   std::vector<FlowSample> samples = extracted.samples();
-  for (std::size_t i = 0; i < mean.size(); ++i) add(samples[i], mean[i], -1);
+  for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], bias[i], -1);
   field_ = like(extracted, std::move(samples));
 }
 
 std::shared_ptr<const FlowField> FlowMaps::draw(std::uint64_t seed, std::int64_t run) const {
   if (!uncertain()) return field_;
   std::vector<FlowSample> samples = field_->samples();
-  const double scale = 1 / std::sqrt(static_cast<double>(errors_.size() - 1));
-  for (std::size_t k = 0; k < errors_.size(); ++k) {
+  const double scale = 1 / std::sqrt(static_cast<double>(open_.size() - 1));
+  for (std::size_t k = 0; k < open_.size(); ++k) {
     const double z =
         normal_pair({seed, Stream::calibrate, run, static_cast<std::uint32_t>(k), 1})[0];
-    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], errors_[k][i], z * scale);
+    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], open_[k][i], z * scale);
   }
   return like(*field_, std::move(samples));
 }

@@ -16,9 +16,10 @@ constexpr double kFirstSpread = 0.04;  // deviation of the first design, as a sh
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
 constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
+constexpr double kFarOff = 2;     // ... beyond which the next design is stretched that way
+constexpr double kWidest = 2;     // most that it is stretched, in deviations of the first design
 constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
 constexpr double kReach = 2;               // deviations of the design that a round may go
-constexpr int kRoughRounds = 4;            // beyond these, whole experiments lead better
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
@@ -121,7 +122,7 @@ class Way {
     for (std::size_t i = setup.told(); i < setup.parameters.size(); ++i) {
       most_(static_cast<Eigen::Index>(i)) = kNoiseSpread;
     }
-    spread_ = most_.asDiagonal();
+    spread_ = own_ = most_.asDiagonal();
   }
 
   void go(const Phase& phase) {
@@ -143,8 +144,8 @@ class Way {
   /// covariance from slopes that are known too little is too small, and narrower points would know
   /// them even less.
   void narrow() {
-    spread_ *= std::min(1.0, kLastSpread / kRoughSpread * std::sqrt(stages_.piece_cost()));
-    fixed_ = true;
+    own_ *= std::min(1.0, kLastSpread / kRoughSpread * std::sqrt(stages_.piece_cost()));
+    spread_ = own_, stretched_ = false, fixed_ = true;
   }
 
   const std::vector<LocalRound>& taken() const { return taken_; }
@@ -158,19 +159,26 @@ class Way {
     near.reach = kReach;
     const LocalFit fit = model.fit(observed_, near);
     const Vector moved = spread_.triangularView<Eigen::Lower>().solve(fit.point - centre_);
-    const bool settled = close && !fit.at_reach && moved.norm() < kSettled;
+    const bool settled = close && !stretched_ && !fit.at_reach && moved.norm() < kSettled;
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_reach, stages_.from_scale(fit.point)});
     const Matrix covariance = model.parameter_covariance(fit.point);
     answer_.emplace(LocalAnswer{std::move(model), fit, static_cast<int>(taken_.size()), settled});
     // A centre that is good enough stays, so that all simulations about it count.
     if (settled) return taken_.back();
+    Vector step = fit.point - centre_;
+    step *= std::min(1.0, kWidest / step.cwiseAbs().cwiseQuotient(most_).maxCoeff());
     centre_ = fit.point;
     // Where the numbers are not explained yet, errors are larger than their covariance says.
     const auto freedom = static_cast<double>(observed_.size() - centre_.size());
     const double unexplained =
         kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
-    if (!fixed_ && !fit.at_reach) spread_ = spread_of(unexplained * covariance, most_);
+    if (!fixed_ && !fit.at_reach) own_ = spread_of(unexplained * covariance, most_);
+    // Parameters that hardly differ in what they do make a long and narrow valley: points that are
+    // scattered along the way taken so far lead through it in a few rounds.
+    stretched_ = fit.at_reach || moved.norm() > kFarOff;
+    spread_ = own_;
+    if (stretched_) spread_ = (own_ * own_.transpose() + step * step.transpose()).llt().matrixL();
     return taken_.back();
   }
 
@@ -179,9 +187,9 @@ class Way {
   const Vector& observed_;
   FitBounds bounds_;
   Vector centre_, most_;
-  Matrix spread_;
+  Matrix own_, spread_;  ///< of the points by themselves, and stretched along the way
   Misfit kind_ = Misfit::covariance;
-  bool fixed_ = false;
+  bool fixed_ = false, stretched_ = false;
   std::uint64_t seed_ = kRoundSeed;
   std::optional<LocalAnswer> answer_;
   std::vector<LocalRound> taken_;
@@ -195,7 +203,7 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
   Way way(stages, maps, observed, from);
   // Pieces are cheap and their scatter is wide: they lead to where whole experiments begin.
   way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
-          std::min(setup.options.most_rounds, kRoughRounds)});
+          setup.options.most_rounds});
   way.narrow();
   way.go({"local model ", Stages::Of::experiments, setup.options.round, setup.options.last_round,
           setup.options.most_rounds});

@@ -95,6 +95,18 @@ FlowCell cell_of(const SmoothSolver& solver, int node, const BallPhysics& ball) 
   return cell;
 }
 
+// Differences of deviations, as they cannot be negative, from what an estimate says of them.
+FlowDifference drawn(const SmoothSolver& solver, const FlowEstimate& estimate, int run) {
+  FlowDifference out(estimate.cell.size());
+  const SmoothSolver::Change change = solver.draw(run);
+  for (int n = 0; n < solver.nodes().size(); ++n) {
+    const auto i = static_cast<std::size_t>(solver.nodes().cell(n));
+    const double sigma = estimate.cell[i].flow.sigma_x * (std::exp(change.log_s2[n] / 2) - 1);
+    out[i] = {change.mean[2 * n], change.mean[2 * n + 1], sigma, sigma};
+  }
+  return out;
+}
+
 }  // namespace
 
 FlowEstimate estimate_smooth(std::span<const Recording> recordings, const BallPhysics& ball,
@@ -113,6 +125,7 @@ FlowEstimate estimate_smooth(std::span<const Recording> recordings, const BallPh
   out.smoothness = solver.free_values();
   fill_cells(out);
   out.noise = noise_budget(solver, recordings, ball, out);
+  for (int run = 0; run < options.draws; ++run) out.draws.push_back(drawn(solver, out, run));
   return out;
 }
 

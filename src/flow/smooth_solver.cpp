@@ -1,5 +1,6 @@
 #include "flow/smooth_solver.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +66,26 @@ double SmoothSolver::log_variance(int node) const {
 double SmoothSolver::log_variance(const Eigen::VectorXd& weight) const {
   const Eigen::VectorXd f = splines_.transpose() * weight;
   return f.dot(gusts_.covariance * f);
+}
+
+// The gusts' coefficients, the mean flow that goes with them, and what scatters about that: with
+// P A P^T = L D L^T of the precision A, P^T L^-T D^-1/2 z has its inverse as covariance.
+SmoothSolver::Change SmoothSolver::draw(int run) const {
+  const auto normals = [&](Eigen::Index n, std::uint32_t use) {
+    Eigen::VectorXd z(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      z[i] = normal_pair({0, Stream::bootstrap, run, static_cast<std::uint32_t>(i), use})[0];
+    }
+    return z;
+  };
+  const Eigen::Index gusts = gusts_.mean.size(), means = now_.mean.size();
+  Eigen::MatrixXd covariance = gusts_.covariance;
+  covariance.diagonal().array() += 1e-10 * covariance.trace() / static_cast<double>(gusts);
+  const Eigen::MatrixXd root = covariance.llt().matrixL();
+  const Eigen::VectorXd c = root * normals(gusts, 1);
+  const Eigen::VectorXd scaled = normals(means, 2).cwiseQuotient(factor_.vectorD().cwiseSqrt());
+  const Eigen::VectorXd ordered = factor_.matrixU().solve(scaled);
+  return {factor_.permutationPinv() * ordered - carried_ * c, splines_ * c};
 }
 
 void SmoothSolver::settle(int stride) {

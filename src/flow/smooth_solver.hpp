@@ -29,6 +29,11 @@ class SmoothSolver {
   /// Variance of a weighted sum of log s^2 over the nodes.
   double log_variance(const Eigen::VectorXd& weight) const;
   double log_variance(int node) const;
+  /// Changes of mean flow and log s^2 at the nodes, drawn from their posterior about `now()`.
+  struct Change {
+    Eigen::VectorXd mean, log_s2;
+  };
+  Change draw(int run) const;
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;

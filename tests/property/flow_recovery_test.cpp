@@ -51,6 +51,28 @@ TEST(flowRecovery, theSmoothEstimateIsCloserThanThePapers) {
   EXPECT_NEAR(n.gusts, 0.182, 4 * n.gusts_error);
 }
 
+// The mean flow is drawn with the variance that a cell's standard error says: of 200 draws a
+// variance is known to 10 %, its average over cells, few of which go together, to less.
+TEST(flowRecovery, drawsScatterLikeTheStandardErrors) {
+  test::FlowTank tank;
+  tank.duration = 40;
+  const FlowEstimate f = estimate_smooth(tank.record(), BallPhysics(), {.draws = 200});
+  ASSERT_EQ(f.draws.size(), 200u);
+  double drawn = 0, told = 0, gusts_drawn = 0, gusts_told = 0;
+  for (std::size_t i = 0; i < f.cell.size(); ++i) {
+    const FlowCell& cell = f.cell[i];
+    if (!cell.measured) continue;
+    told += cell.error.mu_x * cell.error.mu_x;
+    gusts_told += cell.error.sigma_x * cell.error.sigma_x;
+    for (const FlowDifference& d : f.draws) {
+      drawn += d[i].mu_x * d[i].mu_x / 200, gusts_drawn += d[i].sigma_x * d[i].sigma_x / 200;
+    }
+  }
+  EXPECT_NEAR(drawn / told, 1, 0.1);
+  // Draws of the deviation are by factors, the standard error is to first order.
+  EXPECT_NEAR(gusts_drawn / gusts_told, 1, 0.35);
+}
+
 TEST(flowRecovery, errorsFallWithMoreData) {
   test::FlowTank little, much;
   little.duration = 40, much.duration = 240;
