@@ -73,7 +73,7 @@ layer search search text
 layer analysis analysis text
 layer io io analysis text
 layer jobs jobs io analysis text
-layer recording recording io analysis text
+layer recording recording math io analysis text
 layer flow flow recording io analysis text
 layer synthesis synthesis io analysis text
 layer study study jobs io analysis text
