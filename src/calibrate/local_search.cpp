@@ -17,7 +17,7 @@ constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scal
 constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard errors
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr double kFarOff = 2;     // ... beyond which the next design is stretched that way
-constexpr double kWidest = 2;     // most that it is stretched, in deviations of the first design
+constexpr double kWidest = 2;     // most of both, in deviations of the first design
 constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
 constexpr double kReach = 2;               // deviations of the design that a round may go
 constexpr std::uint64_t kRoundSeed = 1000;
@@ -140,12 +140,12 @@ class Way {
     }
   }
 
-  /// Whole experiments scatter less than the pieces that led here. From here on the width stays: a
-  /// covariance from slopes that are known too little is too small, and narrower points would know
-  /// them even less.
+  /// Whole experiments scatter less than the pieces that led here. From here on points are never
+  /// narrower: a covariance from slopes that are known too little is too small, and narrower points
+  /// would know them even less. They are wider where the errors ask for it.
   void narrow() {
     own_ *= std::min(1.0, kLastSpread / kRoughSpread * std::sqrt(stages_.piece_cost()));
-    spread_ = own_, stretched_ = false, fixed_ = true;
+    spread_ = least_ = own_, stretched_ = false, fixed_ = true;
   }
 
   const std::vector<LocalRound>& taken() const { return taken_; }
@@ -174,6 +174,11 @@ class Way {
     const double unexplained =
         kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
     if (!fixed_ && !fit.at_reach) own_ = spread_of(unexplained * covariance, most_);
+    if (fixed_) {
+      const double wide = kLastSpread / kRoughSpread;
+      const Matrix asked = wide * spread_of(covariance, kWidest / wide * most_);
+      own_ = (least_ * least_.transpose() + asked * asked.transpose()).llt().matrixL();
+    }
     // Parameters that hardly differ in what they do make a long and narrow valley: points that are
     // scattered along the way taken so far lead through it in a few rounds.
     stretched_ = fit.at_reach || moved.norm() > kFarOff;
@@ -188,6 +193,7 @@ class Way {
   FitBounds bounds_;
   Vector centre_, most_;
   Matrix own_, spread_;  ///< of the points by themselves, and stretched along the way
+  Matrix least_;         ///< of the points of whole experiments
   Misfit kind_ = Misfit::covariance;
   bool fixed_ = false, stretched_ = false;
   std::uint64_t seed_ = kRoundSeed;
