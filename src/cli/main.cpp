@@ -22,6 +22,7 @@ const std::vector<Verb>& verbs() {
       {"flow", "find the water's velocity from the tracks of balls", flow_verb},
       {"calibrate", "find the model's parameters from recordings, with intervals", calibrate_verb},
       {"diagnose", "find what physics a model leaves out, from recordings", diagnose_verb},
+      {"prove", "diagnose sealed experiments blind, and tell how often that was right", prove_verb},
       {"synthesize", "make a ruleset from the drawing of a target", synthesize_verb},
       {"check", "prove what a ruleset can build, where it gets stuck, how fast it would be",
        check_verb},

@@ -30,6 +30,7 @@ int info_verb(const Arguments& arguments);
 int forces_verb(const Arguments& arguments);
 int calibrate_verb(const Arguments& arguments);
 int diagnose_verb(const Arguments& arguments);
+int prove_verb(const Arguments& arguments);
 int render_verb(const Arguments& arguments);
 int study_verb(const Arguments& arguments);
 int optimize_verb(const Arguments& arguments);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/slack.hpp"
+#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {
@@ -16,6 +17,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNullSeed = 1, kEffectSeed = 100, kFieldSeed = 7;
 constexpr double kFar = 1.6;  // farthest points, over the root of their dimension
+constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;   // one over the square of a second order that is expected
 
 Vector to_vector(const std::vector<double>& values) {
@@ -81,8 +83,12 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1))
                    .cwiseSqrt()
-                   .cwiseMax(1e-9)
                    .transpose();
+  // Numbers that hardly ever vary would make a wonder of whatever varies them.
+  for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
+    const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
+    if (deviation_(k) < kNeverVaries * std::max(size, 1e-3)) deviation_(k) = kNoWeight;
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());
   }
@@ -123,8 +129,10 @@ std::vector<Vectors> Atlas::simulate(const std::string& stage, const Emulator& e
     std::vector<double> values = stages_.from_scale(points.row(i));
     for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
       const auto k = static_cast<std::size_t>(c);
-      values.push_back(effect->absent(stages_.setup().model, k) +
-                       amplitudes(i, c) * effect->sizes[k]);
+      const ModelParameter of = model_parameter(effect->paths[k]);
+      values.push_back(
+          std::clamp(effect->absent(stages_.setup().model, k) + amplitudes(i, c) * effect->sizes[k],
+                     of.low, of.high));
     }
     const auto field = loosened(*maps_.draw(derived_seed(seed, kFieldSeed), i), seed, i);
     const auto made =

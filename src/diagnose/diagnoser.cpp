@@ -85,8 +85,12 @@ void Diagnoser::prepare() {
 }
 
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
-  Judged j;
-  j.observed = atlas_->vectors(recordings, &j.details);
+  Judged measured;
+  measured.observed = atlas_->vectors(recordings, &measured.details);
+  return judge(std::move(measured), out);
+}
+
+Judged Diagnoser::judge(Judged j, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
   Naming naming = *naming_;
   j.explanation = explained(naming, residual);

@@ -35,6 +35,8 @@ class Diagnoser {
   /// Which effects recordings of the same kind as the experiment's ask for: verdict, findings,
   /// maps, ranking, smallest sizes.
   Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);
+  /// The same of a vector that is known already.
+  Judged judge(Judged measured, Diagnosis& out);
   /// Fits what was found and shows it on the held-out recordings.
   void model_and_show(const Judged& judged, Diagnosis& out);
   /// All of it.

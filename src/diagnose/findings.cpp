@@ -107,11 +107,13 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
       f.effect = effect.name, f.variable = effect.variable;
       const ForceTerm* term = find_force(effect.name);
       if (term != nullptr) f.equation = std::string(term->equation());
+      const auto own = std::find_if(ranked.begin(), ranked.end(),
+                                    [&](const EffectFit& one) { return one.effect == fit.effect; });
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
         const std::string& name =
             atlas_->plan().effects[static_cast<std::size_t>(other.effect)].name;
-        if (name == effect.name || fit.gain - other.gain >= kSame) continue;
+        if (name == effect.name || own->gain - other.gain >= kSame) continue;
         if (std::find(f.alternatives.begin(), f.alternatives.end(), name) == f.alternatives.end())
           f.alternatives.push_back(name);
       }

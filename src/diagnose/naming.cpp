@@ -17,6 +17,7 @@ constexpr int kMostEffects = 3;
 constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
 constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
                                    // are known to some per cent only
+constexpr double kPrice = 4;       // of an amplitude, in squared distance
 constexpr double kMostSize = 6;    // sizes beyond which a fingerprint is no guide
 constexpr double kEulerGamma = 0.57721566490153286;
 
@@ -67,7 +68,9 @@ Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
         nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
     Matrix covariance = block.transpose() * block / (n - 1);
     covariance.diagonal().array() += 1e-3;
-    inverse_.push_back(covariance.inverse());
+    root_.push_back(Matrix(covariance.llt().matrixL())
+                        .triangularView<Eigen::Lower>()
+                        .solve(Matrix::Identity(kKnots, kKnots)));
     shape_scale_.push_back(1);
   }
   for (std::size_t e = 0; e < atlas.plan().effects.size(); ++e) {
@@ -87,9 +90,21 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
     return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
   };
   const Matrix first = kept(fingerprint.first, error), second = kept(fingerprint.second, error);
-  const Eigen::Index named = atlas_.named_numbers(), rest = first.rows() - named;
-  out.first = whitener_ * first.topRows(named), out.second = whitener_ * second.topRows(named);
-  out.shapes_first = first.bottomRows(rest), out.shapes_second = second.bottomRows(rest);
+  const Eigen::Index named = atlas_.named_numbers();
+  out.all_first = whitened(first), out.all_second = whitened(second);
+  out.first = out.all_first.topRows(named), out.second = out.all_second.topRows(named);
+  return out;
+}
+
+// Columns of residuals, the named numbers and every shape's knots each by their covariance.
+Matrix Naming::whitened(const Matrix& residuals) const {
+  const Eigen::Index named = atlas_.named_numbers();
+  Matrix out(residuals.rows(), residuals.cols());
+  out.topRows(named) = whitener_ * residuals.topRows(named);
+  for (std::size_t s = 0; s < root_.size(); ++s) {
+    const Eigen::Index first = named + static_cast<Eigen::Index>(s) * kKnots;
+    out.middleRows(first, kKnots) = root_[s] * residuals.middleRows(first, kKnots);
+  }
   return out;
 }
 
@@ -101,32 +116,48 @@ double Naming::z_of(double gain, double scale, Eigen::Index freedom) const {
   return (std::cbrt(g / m) - (1 - part)) / std::sqrt(part);
 }
 
+namespace {
+
 // Gauss and Newton on the amplitudes; those that cannot be negative stop at nothing.
-EffectFit Naming::fit(const Known& of, const Vector& whitened) const {
-  const Eigen::Index m = of.first.cols();
+EffectFit fitted(const Matrix& first, const Matrix& second, bool two_sided, const Vector& data) {
+  const Eigen::Index m = first.cols();
   EffectFit out;
-  out.effect = of.effect, out.shape = of.shape, out.amplitudes = Vector::Zero(m);
+  out.amplitudes = Vector::Zero(m);
   const auto left = [&](const Vector& a) {
-    return Vector(whitened - of.first * a - of.second * a.array().square().matrix());
+    return Vector(data - first * a - second * a.array().square().matrix());
   };
-  double best = whitened.squaredNorm();
-  const double before = best;
+  const double before = data.squaredNorm();
+  double best = before;
   for (const double sign : {1.0, -1.0}) {
-    if (sign < 0 && !of.two_sided) break;
+    if (sign < 0 && !two_sided) break;
     Vector a = Vector::Constant(m, m == 1 ? 0.3 * sign : 0.0);
     for (int step = 0; step < 12; ++step) {
-      const Matrix slope = of.first + 2 * of.second * a.asDiagonal();
+      const Matrix slope = first + 2 * second * a.asDiagonal();
       Matrix normal = slope.transpose() * slope;
       normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
       a += normal.ldlt().solve(slope.transpose() * left(a));
-      a = a.cwiseMax(of.two_sided ? -kMostSize : 0.0).cwiseMin(kMostSize);
+      a = a.cwiseMax(two_sided ? -kMostSize : 0.0).cwiseMin(kMostSize);
     }
     const double distance = left(a).squaredNorm();
     if (distance < best) best = distance, out.amplitudes = a;
     if (m > 1) break;
   }
   out.gain = before - best;
-  out.z = z_of(out.gain, of.scale, m);
+  return out;
+}
+
+}  // namespace
+
+EffectFit Naming::fit(const Known& of, const Vector& data) const {
+  EffectFit out = fitted(of.first, of.second, of.two_sided, data);
+  out.effect = of.effect, out.shape = of.shape;
+  out.z = z_of(out.gain, of.scale, of.first.cols());
+  return out;
+}
+
+EffectFit Naming::fit_all(const Known& of, const Vector& all) const {
+  EffectFit out = fitted(of.all_first, of.all_second, of.two_sided, all);
+  out.effect = of.effect, out.shape = of.shape;
   return out;
 }
 
@@ -134,7 +165,7 @@ EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
   const auto s = static_cast<std::size_t>(shape);
   EffectFit out;
   out.shape = shape, out.amplitudes = knots;
-  out.gain = knots.dot(inverse_[s] * knots);
+  out.gain = (root_[s] * knots).squaredNorm();
   out.z = z_of(out.gain, shape_scale_[s], kKnots);
   return out;
 }
@@ -144,7 +175,6 @@ void Naming::calibrate(double false_alarms) {
   const Matrix& nulls = atlas_.null_residuals();
   const Eigen::Index named = atlas_.named_numbers(), n = nulls.rows();
   const Matrix whitener = whitener_;
-  const std::vector<Matrix> inverse = inverse_;
   std::vector<std::vector<EffectFit>> effects(static_cast<std::size_t>(n)),
       shapes(static_cast<std::size_t>(n));
   for (int fold = 0; fold < kFolds; ++fold) {
@@ -162,7 +192,7 @@ void Naming::calibrate(double false_alarms) {
       const Vector whitened = fold_whitener * off.head(named);
       auto& mine = effects[static_cast<std::size_t>(i)];
       for (const Known& k : known) mine.push_back(fit(k, whitened));
-      for (std::size_t s = 0; s < inverse.size(); ++s) {
+      for (std::size_t s = 0; s < root_.size(); ++s) {
         shapes[static_cast<std::size_t>(i)].push_back(
             fit_shape(static_cast<int>(s),
                       off.segment(named + static_cast<Eigen::Index>(s) * kKnots, kKnots)));
@@ -208,7 +238,7 @@ std::vector<EffectFit> Naming::effects(const Vector& residual) const {
 
 std::vector<EffectFit> Naming::shapes(const Vector& residual) const {
   std::vector<EffectFit> out;
-  for (std::size_t s = 0; s < inverse_.size(); ++s) {
+  for (std::size_t s = 0; s < root_.size(); ++s) {
     const Eigen::Index first = atlas_.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
     out.push_back(fit_shape(static_cast<int>(s), (residual - centre_).segment(first, kKnots)));
   }
@@ -221,46 +251,59 @@ void Naming::add_shape(int shape, const Fingerprint& fingerprint) {
   known_.push_back(known(fingerprint, -1, shape, true));
 }
 
-std::size_t Naming::best(const Vector& whitened, EffectFit& out) const {
+EffectFit Naming::strongest_shape(const Vector& all) const {
+  EffectFit out;
+  for (std::size_t s = 0; s < root_.size(); ++s) {
+    const Eigen::Index first = atlas_.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
+    const double gain = all.segment(first, kKnots).squaredNorm();
+    const double z = z_of(gain, shape_scale_[s], kKnots);
+    if (z > out.z) out.shape = static_cast<int>(s), out.gain = gain, out.z = z;
+  }
+  return out;
+}
+
+// Of the candidates that are significant, the one that leaves least.
+std::size_t Naming::best(const Vector& all, double floor, EffectFit& out,
+                         EffectFit& strongest) const {
+  const Vector named = all.head(atlas_.named_numbers());
+  const EffectFit shape = strongest_shape(all);
   std::size_t index = known_.size();
-  out = EffectFit{};
+  double most = 0;
+  strongest = EffectFit{};
   for (std::size_t k = 0; k < known_.size(); ++k) {
-    const EffectFit one = fit(known_[k], whitened);
-    if (one.z > out.z) out = one, index = k;
+    const EffectFit one = fit(known_[k], named);
+    if (one.z > strongest.z) strongest = one;
+    // A curve speaks by its own knots as well.
+    const bool own =
+        one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
+    if (one.z <= std::max(effect_threshold_, floor) && !own) continue;
+    EffectFit whole = fit_all(known_[k], all);
+    const double gain = whole.gain - kPrice * static_cast<double>(whole.amplitudes.size());
+    if (gain <= most) continue;
+    whole.z = own ? std::max(one.z, shape.z) : one.z;
+    most = gain, index = k, out = whole;
   }
   return index;
 }
 
 Explanation Naming::explain(const Vector& residual) const {
-  const Eigen::Index named = atlas_.named_numbers();
   Explanation out;
-  Vector off = residual - centre_;
-  Vector whitened = whitener_ * off.head(named), knots = off.tail(off.size() - named);
-  out.distance = whitened.squaredNorm();
+  Vector all = whitened(residual - centre_);
+  out.distance = all.head(atlas_.named_numbers()).squaredNorm();
   double explained = 0;
-  for (int round = 0; round <= kMostEffects; ++round) {
-    const std::size_t k = best(whitened, out.left_effect);
-    Vector whole = Vector::Zero(off.size());
-    whole.tail(knots.size()) = knots;
-    out.left_shape = EffectFit{};
-    for (std::size_t s = 0; s < inverse_.size(); ++s) {
-      const EffectFit one = fit_shape(static_cast<int>(s),
-                                      knots.segment(static_cast<Eigen::Index>(s) * kKnots, kKnots));
-      if (one.z > out.left_shape.z) out.left_shape = one;
-    }
+  for (int round = 0;; ++round) {
+    EffectFit chosen;
+    const std::size_t k = best(all, kInexact * explained, chosen, out.left_effect);
+    out.left_shape = strongest_shape(all);
     if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
-    const double floor = kInexact * explained;
-    const bool clear = out.left_effect.z > std::max(effect_threshold_, floor);
-    if (!clear || round == kMostEffects) break;
+    if (k == known_.size() || round == kMostEffects) break;
     const Known& of = known_[k];
-    const Vector& a = out.left_effect.amplitudes;
-    const Vector square = a.array().square();
-    whitened -= of.first * a + of.second * square;
-    knots -= of.shapes_first * a + of.shapes_second * square;
-    explained = std::max(explained, out.left_effect.z);
-    out.found.push_back(out.left_effect);
+    all -= of.all_first * chosen.amplitudes +
+           of.all_second * chosen.amplitudes.array().square().matrix();
+    explained = std::max(explained, chosen.z);
+    out.found.push_back(chosen);
   }
-  out.distance_left = whitened.squaredNorm();
+  out.distance_left = all.head(atlas_.named_numbers()).squaredNorm();
   return out;
 }
 

@@ -48,21 +48,27 @@ class Naming {
   struct Known {
     int effect = -1, shape = -1;
     bool two_sided = false;
-    Eigen::MatrixXd first, second;                ///< whitened, named numbers
-    Eigen::MatrixXd shapes_first, shapes_second;  ///< of the shapes' knots
-    double scale = 1;                             ///< mean gain of nulls by its degrees of freedom
+    Eigen::MatrixXd first, second;  ///< whitened, named numbers
+    /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
+    /// probability, as shapes overlap, but for which of two candidates leaves less.
+    Eigen::MatrixXd all_first, all_second;
+    double scale = 1;  ///< mean gain of nulls by its degrees of freedom
   };
   Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;
   EffectFit fit(const Known& of, const Eigen::VectorXd& whitened) const;
+  EffectFit fit_all(const Known& of, const Eigen::VectorXd& all) const;
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
   void calibrate(double false_alarms);
-  std::size_t best(const Eigen::VectorXd& whitened, EffectFit& out) const;
+  std::size_t best(const Eigen::VectorXd& all, double floor, EffectFit& out,
+                   EffectFit& strongest) const;
+  EffectFit strongest_shape(const Eigen::VectorXd& all) const;
 
   const Atlas& atlas_;
-  Eigen::VectorXd centre_;                ///< mean of the nulls' residuals
-  Eigen::MatrixXd whitener_;              ///< of the named numbers
-  std::vector<Eigen::MatrixXd> inverse_;  ///< of each shape's knots' covariance
+  Eigen::VectorXd centre_;             ///< mean of the nulls' residuals
+  Eigen::MatrixXd whitener_;           ///< of the named numbers
+  std::vector<Eigen::MatrixXd> root_;  ///< whitens each shape's knots
   std::vector<double> shape_scale_;
   std::vector<Known> known_;
   double effect_threshold_ = 0, shape_threshold_ = 0;

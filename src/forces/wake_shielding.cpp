@@ -1,7 +1,8 @@
 // The lee behind a module.
+#include <cmath>
+
 #include "library.hpp"
 #include "lilytank/model.hpp"
-#include "pairs.hpp"
 #include "water.hpp"
 
 namespace lilytank {
@@ -12,6 +13,8 @@ constexpr Parameter kParameters[] = {
     {"length", "m", 0.08, 0.01, 0.5, "distance downstream over which the lee falls by e"},
     {"width", "m", 0.02, 0.005, 0.2, "deviation of the lee across the stream"},
 };
+
+constexpr double kWide = 5;  // deviations beyond which the lee is nothing
 
 // The moment without what terms have added to the water so far.
 Moment still(Moment now) {
@@ -34,23 +37,22 @@ class WakeShielding final : public ForceTerm {
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
-    const double far = 4 * p[1] + model.module.side;
-    // In one pass over pairs from the water as it was, so that no order of modules counts.
-    for_near_pairs(k, far, [&](const NearPair& pair) {
-      for (const bool swapped : {false, true}) {
-        const int front = swapped ? pair.j : pair.i, lee = swapped ? pair.i : pair.j;
-        const double sign = swapped ? -1 : 1;
-        const Vec2 slip = slip_of(model, k, still(now), front);
-        const double size = slip.norm();
-        if (size == 0) continue;
-        const double s = sign * (pair.dx * slip.x() + pair.dy * slip.y()) / size;
-        const double y = (pair.dx * slip.y() - pair.dy * slip.x()) / size;
-        if (s <= 0) continue;
+    const double far = 4 * p[1] + model.module.side, wide = kWide * p[2];
+    // From the water as it was, so that no order of modules counts.
+    for (int front = 0; front < k.modules; ++front) {
+      const Vec2 slip = slip_of(model, k, still(now), front);
+      const double size = slip.norm();
+      if (size == 0) continue;
+      const double cx = slip.x() / size, cy = slip.y() / size;
+      for (int lee = 0; lee < k.modules; ++lee) {
+        const double dx = k.x[lee] - k.x[front], dy = k.y[lee] - k.y[front];
+        const double s = dx * cx + dy * cy, y = dx * cy - dy * cx;
+        if (s <= 0 || std::fabs(y) > wide || s * s + y * y >= far * far) continue;
         const double deficit = p[0] * exp_portable(-s / p[1] - y * y / (2 * p[2] * p[2]));
         const Vec2 own = slip_of(model, k, still(now), lee);
         water.ux[lee] -= deficit * own.x(), water.uy[lee] -= deficit * own.y();
       }
-    });
+    }
   }
 };
 

@@ -1,0 +1,50 @@
+// Is a diagnosis to be trusted? Sealed experiments, diagnosed blind, and then compared with their
+// key.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lilytank/diagnosis.hpp"
+
+namespace lilytank {
+
+struct ProofOptions {
+  int worlds = 100;
+  double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
+  DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
+  /// Called once with the fingerprint of the key, before anything is diagnosed.
+  std::function<void(const std::string& hash)> sealed;
+};
+
+/// One sealed experiment: its key, and what was said of it.
+struct ProofWorld {
+  std::string kind;                ///< null, named, unnamed
+  std::string effect;              ///< of the catalogue; of unnamed ones the variable
+  std::vector<double> amplitudes;  ///< in units of the effect's sizes
+  double expected_z = 0;           ///< of a fit with the effect's own fingerprint; 0: unknown
+  Verdict verdict = Verdict::complete;
+  std::string said;                       ///< strongest finding; "" of complete
+  std::vector<std::string> alternatives;  ///< told with it
+  std::string variable;                   ///< of the finding
+  double z = 0;
+  /// null: complete; named: the name among the finding's; unnamed: so called, right variable.
+  bool right() const;
+};
+
+struct Proof {
+  std::string hash;  ///< of the key
+  std::vector<ProofWorld> worlds;
+};
+
+/// Makes a tank, its balls and sealed experiments in it (other steps than the diagnosis's, gusts
+/// point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One tank's
+/// nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
+std::optional<Proof> prove(const ProofOptions& options);
+
+/// Rates with binomial intervals, by kind and by expected z; what was taken for what.
+std::string proof_text(const Proof& proof);
+/// One row a world.
+std::string proof_csv(const Proof& proof);
+
+}  // namespace lilytank

@@ -1,0 +1,58 @@
+// lilytank prove: is a diagnosis to be trusted?
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/stop_signal.hpp"
+#include "io/atomic_file.hpp"
+#include "lilytank/proof.hpp"
+
+namespace lilytank::cli {
+
+int prove_verb(const Arguments& arguments) {
+  VerbOptions options("prove", "",
+                      "Seals experiments with known effects, none, or odd ones, diagnoses them "
+                      "blind, opens the key, and tells how often the diagnosis was right.");
+  const auto text = [] { return cxxopts::value<std::string>(); };
+  options.add()("worlds", "sealed experiments (100)", text(), "N")(
+      "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
+      "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
+      "seed", "of everything that is drawn (1)", text(), "N")(
+      "out", "directory of the results (out/proof)", text(), "DIR")(
+      "threads", "worlds at a time (default: one a core)", text(), "N")(
+      "force", "replace another proof's files")("quiet", "no progress");
+  if (!options.parse(arguments)) return Exit::done;
+  if (!options.positional().empty()) options.refuse("prove takes no file: it makes its own");
+  ProofOptions job;
+  job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
+  job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
+  job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
+  job.diagnosis.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  job.diagnosis.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
+  job.diagnosis.force = options.has("force");
+  job.diagnosis.out = options.text("out", (std::filesystem::path("out") / "proof").string());
+  if (job.diagnosis.out.empty()) options.refuse("--out is empty");
+  job.diagnosis.stop = &stop_signal();
+  Progress progress(options.has("quiet"));
+  job.diagnosis.progress = [&](double done, const std::string& stage) {
+    progress.tell(done, stage);
+  };
+  job.sealed = [](const std::string& hash) {
+    std::cout << "sealed; the key's fingerprint is " << hash << std::endl;
+  };
+  const auto proof = prove(job);
+  progress.clear();
+  if (!proof) {
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  const std::filesystem::path dir(job.diagnosis.out);
+  write_atomically((dir / "proof.txt").string(), proof_text(*proof));
+  write_atomically((dir / "proof.csv").string(), proof_csv(*proof));
+  std::cout << proof_text(*proof) << std::flush;
+  std::cerr << "results in " << job.diagnosis.out << "\n";
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli

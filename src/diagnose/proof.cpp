@@ -1,0 +1,300 @@
+#include "lilytank/proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/text_table.hpp"
+#include "diagnose/diagnoser.hpp"
+#include "lilytank/camera.hpp"
+#include "lilytank/emulator.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+#include "lilytank/state.hpp"
+#include "lilytank/statistics.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kOff = 0.08;  // share by which parameters of a sealed world are off
+constexpr int kRecordings = 3, kBalls = 24;
+constexpr double kRate = 30;  // frames per second
+constexpr int kSteps = 10;    // steps a tick in sealed worlds: 2.5 ms
+constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3;
+
+double draw(std::uint64_t seed, int world, std::uint32_t which) {
+  return uniform({seed, Stream::calibrate, world, which, 30});
+}
+
+RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds) {
+  RecordingShape shape;
+  shape.name = name, shape.body = body, shape.bodies = bodies;
+  shape.frames = static_cast<int>(std::lround(seconds * kRate)) + 1, shape.rate = kRate;
+  shape.headings = body == BodyKind::lily;
+  return shape;
+}
+
+Model tank_model() {
+  Model model = standard_model();
+  model.flow.K_v = 1, model.module.draught = 0.025;
+  model.control.latches = false;
+  return model;
+}
+
+Model with_steps(Model model, int steps) {
+  model.steps_per_tick = steps, model.dt = kTick / steps;
+  return model;
+}
+
+// What stands in the sealed envelope.
+struct Sealed {
+  ProofWorld key;
+  Effect effect;
+  std::vector<double> factors;  ///< on the five parameters
+};
+
+// A law that the catalogue does not have: a curve of one variable.
+Shape odd_law(const std::vector<Shape>& shapes, std::uint64_t seed, int world) {
+  std::vector<Shape> odd;
+  for (const Shape& s : shapes) {
+    const bool torque = s.curve.toward == Toward::torque;
+    const bool across = s.curve.toward == Toward::across_slip;
+    if ((torque && s.variable != "position") || (across && s.variable == "slip")) odd.push_back(s);
+  }
+  return odd[static_cast<std::size_t>(draw(seed, world, 1) * static_cast<double>(odd.size()))];
+}
+
+Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
+            std::uint64_t seed, int world) {
+  Sealed out;
+  for (std::uint32_t k = 0; k < 5; ++k) {
+    out.factors.push_back(1 + kOff * (2 * draw(seed, world, 40 + k) - 1));
+  }
+  if (world % 4 == 0) {
+    out.key.kind = "null";
+    return out;
+  }
+  const bool odd = world % 8 == 7;
+  out.key.kind = odd ? "unnamed" : "named";
+  if (odd) {
+    const Shape shape = odd_law(shapes, seed, world);
+    out.effect = effect_of(shape), out.key.effect = shape.variable;
+    const double phase = 2 * kPi * draw(seed, world, 2), size = 0.5 + 1.5 * draw(seed, world, 3);
+    for (int k = 0; k < kKnots; ++k) {
+      out.key.amplitudes.push_back(size * rotation(phase + 2 * kPi * k / kKnots).c);
+    }
+    return out;
+  }
+  out.effect =
+      effects[static_cast<std::size_t>(draw(seed, world, 1) * static_cast<double>(effects.size()))];
+  out.key.effect = out.effect.name;
+  for (std::uint32_t c = 0; c < out.effect.paths.size(); ++c) {
+    const double size = 0.4 + 1.6 * draw(seed, world, 4 + 2 * c);
+    const bool negative = out.effect.two_sided && draw(seed, world, 5 + 2 * c) < 0.5;
+    out.key.amplitudes.push_back(negative ? -size : size);
+  }
+  return out;
+}
+
+std::string key_text(const Sealed& s) {
+  std::string out = s.key.kind + " " + s.key.effect;
+  for (const auto& [path, value] : s.effect.shape) out += " " + path + " " + shortest(value);
+  for (const double a : s.key.amplitudes) out += " " + shortest(a);
+  for (const double f : s.factors) out += " " + shortest(f);
+  return out + "\n";
+}
+
+std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
+                                                  double seconds, std::uint64_t seed) {
+  Model model = with_steps(tank, kSteps);
+  std::vector<std::string> paths;
+  std::vector<double> values;
+  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
+  for (std::size_t k = 0; k < five.size(); ++k) {
+    paths.push_back(five[k].path);
+    values.push_back(
+        std::clamp(s.factors[k] * parameter_value(model, five[k].path), five[k].low, five[k].high));
+  }
+  model = with_parameters(model, paths, values);
+  if (!s.effect.paths.empty()) {
+    std::vector<double> amplitudes;
+    for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
+      amplitudes.push_back(s.effect.absent(model, c) + s.key.amplitudes[c] * s.effect.sizes[c]);
+    }
+    model = with_effect(model, s.effect, amplitudes);
+  }
+  std::vector<RecordingShape> shapes(
+      kRecordings, shape_named("sealed", BodyKind::lily, model.module.count, seconds));
+  EmulatorOptions options;
+  options.moment_matched = false;
+  return Emulator(model, {}, shapes, options).record({}, seed);
+}
+
+// The open part of the exam: balls, and Lilies in which nothing is missing.
+Experiment open_tank(const ProofOptions& options) {
+  Experiment e;
+  e.name = "proof";
+  e.base.model = with_steps(tank_model(), 5);
+  const double seconds = 60 * options.minutes;
+  std::vector<RecordingShape> shapes(kRecordings,
+                                     shape_named("balls", BodyKind::ball, kBalls, seconds));
+  EmulatorOptions exact;
+  exact.moment_matched = false;
+  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
+  auto balls = Emulator(with_steps(tank_model(), kSteps), {}, shapes, exact).record({}, seed);
+  Sealed nothing;
+  nothing.factors.assign(5, 1.0);
+  auto lilies = film_sealed(tank_model(), nothing, seconds, derived_seed(seed, 1));
+  if (!balls || !lilies) throw InputError("the proof's tank diverges");
+  for (auto* of : {&*balls, &*lilies}) {
+    for (Recording& r : *of) e.recordings.push_back(std::move(r));
+  }
+  return e;
+}
+
+std::vector<double> row_of(const Judged& j) {
+  std::vector<double> row{static_cast<double>(j.observed.summary.size()), j.details.pulsation,
+                          static_cast<double>(j.details.heaviest)};
+  row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
+  row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
+  return row;
+}
+Judged judged_of(const std::vector<double>& row) {
+  Judged j;
+  const auto summary = static_cast<Eigen::Index>(row[0]);
+  j.details.pulsation = row[1], j.details.heaviest = static_cast<int>(row[2]);
+  const Eigen::Map<const Eigen::VectorXd> all(row.data() + 3,
+                                              static_cast<Eigen::Index>(row.size()) - 3);
+  j.observed = {all.head(summary), all.tail(all.size() - summary)};
+  return j;
+}
+
+double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
+  const std::vector<Effect>& effects = diagnoser.atlas().plan().effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (effects[e].name != s.effect.name || effects[e].shape != s.effect.shape) continue;
+    double square = 0;
+    for (const double a : s.key.amplitudes) square += a * a;
+    return std::sqrt(square) * diagnoser.naming().effect_threshold() /
+           diagnoser.naming().smallest_seen(static_cast<int>(e));
+  }
+  return 0;
+}
+
+}  // namespace
+
+bool ProofWorld::right() const {
+  if (kind == "null") return verdict == Verdict::complete;
+  if (verdict != Verdict::missing) return false;
+  if (kind == "unnamed") return said == "unnamed" && variable == effect;
+  return said == effect ||
+         std::find(alternatives.begin(), alternatives.end(), effect) != alternatives.end();
+}
+
+std::optional<Proof> prove(const ProofOptions& options) try {
+  const Experiment open = open_tank(options);
+  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kKeySeed);
+  const Model tank = tank_model();
+  const double seconds = 60 * options.minutes;
+  const std::vector<Effect> effects = effect_catalogue(tank);
+  const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
+  std::vector<Sealed> sealed;
+  Fnv hash;
+  for (int w = 0; w < options.worlds; ++w) {
+    sealed.push_back(seal(effects, shapes, seed, w));
+    hash.add(key_text(sealed.back()));
+  }
+  Proof out;
+  out.hash = hex(hash.value());
+  if (options.sealed) options.sealed(out.hash);
+  DiagnosisOptions job = options.diagnosis;
+  job.hold_out = 0;
+  Diagnoser diagnoser(open, job);
+  diagnoser.prepare();
+  const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
+    const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
+                                  derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
+    if (!made) return std::vector<double>{};
+    Judged j;
+    j.observed = diagnoser.atlas().vectors(*made, &j.details);
+    return row_of(j);
+  });
+  for (std::size_t w = 0; w < rows.size(); ++w) {
+    ProofWorld world = sealed[w].key;
+    world.expected_z = expected_z(diagnoser, sealed[w]);
+    if (rows[w].empty()) {
+      world.verdict = Verdict::undecided;
+    } else {
+      Diagnosis d;
+      diagnoser.judge(judged_of(rows[w]), d);
+      world.verdict = d.verdict;
+      if (!d.findings.empty()) {
+        const DiagnosisFinding& f = d.findings.front();
+        world.said = f.effect, world.alternatives = f.alternatives;
+        world.variable = f.variable, world.z = f.z;
+      }
+    }
+    out.worlds.push_back(std::move(world));
+  }
+  return out;
+} catch (const Stopped&) {
+  return std::nullopt;
+}
+
+std::string proof_text(const Proof& proof) {
+  struct Rate {
+    int right = 0, wrong_name = 0, silent = 0, all = 0;
+  };
+  std::map<std::string, Rate> rates;
+  std::map<std::pair<std::string, std::string>, int> taken;
+  for (const ProofWorld& w : proof.worlds) {
+    std::vector<std::string> groups{w.kind};
+    if (w.kind == "named") {
+      groups.push_back(w.expected_z >= 10  ? "named, z >= 10"
+                       : w.expected_z >= 5 ? "named, 5 <= z < 10"
+                                           : "named, z < 5");
+    }
+    for (const std::string& g : groups) {
+      Rate& r = rates[g];
+      r.all += 1, r.right += w.right() ? 1 : 0;
+      r.silent += w.verdict == Verdict::complete && w.kind != "null" ? 1 : 0;
+      r.wrong_name += !w.right() && w.verdict == Verdict::missing && w.said != "unnamed" ? 1 : 0;
+    }
+    const std::string said = w.verdict == Verdict::missing ? w.said : name_of(w.verdict);
+    taken[{w.kind == "null"      ? "(nothing)"
+           : w.kind == "unnamed" ? "odd " + w.effect
+                                 : w.effect,
+           said}] += 1;
+  }
+  std::string out = "proof on " + std::to_string(proof.worlds.size()) +
+                    " sealed experiments, key " + proof.hash + "\n\n";
+  TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
+  for (const auto& [name, r] : rates) {
+    const Estimate e = wilson(r.right, r.all);
+    table.add({name, std::to_string(r.all), std::to_string(r.right), fixed(100 * e.low, 1) + " %",
+               fixed(100 * e.high, 1) + " %", std::to_string(r.wrong_name),
+               std::to_string(r.silent)});
+  }
+  out += table.text() + "\nwhat was taken for what\n";
+  TextTable confusion({"key", "said", "times"});
+  for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
+  return out + confusion.text();
+}
+
+std::string proof_csv(const Proof& proof) {
+  std::string out = "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,right\n";
+  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
+    const ProofWorld& w = proof.worlds[i];
+    out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
+           name_of(w.verdict) + "," + w.said + "," + w.variable + "," + shortest(w.z) + ",";
+    for (std::size_t k = 0; k < w.alternatives.size(); ++k) {
+      out += (k > 0 ? " " : "") + w.alternatives[k];
+    }
+    out += w.right() ? ",1\n" : ",0\n";
+  }
+  return out;
+}
+
+}  // namespace lilytank
