@@ -34,7 +34,7 @@ PredictorOptions predictor_options(const Model& model, const std::vector<Recordi
 /// frame then showed. Arrays have a value for each module that is carried along.
 struct PredictedFrame {
   int recording = 0, frame = 0;  ///< the frame that was predicted from
-  double time = 0;               ///< s, of it
+  double time = 0;               ///< s since the recording's begin
   double interval = 0;           ///< s to the next frame
   const Model* model = nullptr;  ///< of these modules
   Kinematics now;                ///< filtered, at `frame`

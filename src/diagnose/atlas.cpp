@@ -17,8 +17,36 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNullSeed = 1, kEffectSeed = 100, kFieldSeed = 7;
 constexpr double kFar = 1.6;  // farthest points, over the root of their dimension
+constexpr int kFolds = 8;
+constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
-constexpr double kBend = 1;   // one over the square of a second order that is expected
+constexpr double kBend = 1;  // one over the square of a second order that is expected
+
+// The rows of a design of one fold, or all others.
+Design part_of(const Design& design, int fold, bool inside) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
+    if ((i % kFolds == fold) == inside) rows.push_back(i);
+  }
+  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
+}
+
+// Scores less their mean at the parameters that the summary asks for, of every experiment by local
+// models that did not know it: as it will be with data.
+Matrix held_out_residuals(const Design& summaries, const Design& numbers) {
+  Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
+  FitBounds free;
+  free.reach = kReach;
+  for (int fold = 0; fold < kFolds; ++fold) {
+    const LocalModel parameters(part_of(summaries, fold, false));
+    const LocalModel scores(part_of(numbers, fold, false));
+    for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
+      const LocalFit fit = parameters.fit(summaries.numbers.row(i).transpose(), free);
+      out.row(i) = numbers.numbers.row(i) - scores.mean(fit.point).transpose();
+    }
+  }
+  return out;
+}
 
 Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -52,8 +80,8 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   const CalibrationSetup& setup = stages.setup();
   const Matrix points = scattered(options.nulls, derived_seed(options.seed, kNullSeed));
   const auto nulls =
-      simulate("nulls", setup.emulator(setup.shapes), points, Matrix(options.nulls, 0), nullptr,
-               derived_seed(options.seed, kNullSeed));
+      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), points,
+               Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
   std::vector<Eigen::Index> good;
   for (std::size_t i = 0; i < nulls.size(); ++i) {
     if (nulls[i].summary.size() > 0) good.push_back(static_cast<Eigen::Index>(i));
@@ -75,15 +103,9 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   parameters_ = std::make_unique<LocalModel>(summaries);
   scores_ = std::make_unique<LocalModel>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
-  deviation_ = Vector::Ones(numbers.numbers.cols());
-  null_residuals_.resize(n, numbers.numbers.cols());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    null_residuals_.row(i) = residual({summaries.numbers.row(i), numbers.numbers.row(i)});
-  }
+  null_residuals_ = held_out_residuals(summaries, numbers);
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
-  deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1))
-                   .cwiseSqrt()
-                   .transpose();
+  deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
   // Numbers that hardly ever vary would make a wonder of whatever varies them.
   for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
@@ -157,7 +179,7 @@ std::vector<Vectors> Atlas::simulate(const std::string& stage, const Emulator& e
 
 LocalFit Atlas::calibrated(const Vector& summary) const {
   FitBounds free;
-  free.reach = 6;
+  free.reach = kReach;
   return parameters_->fit(summary, free);
 }
 
@@ -176,7 +198,8 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   }
   std::vector<std::string> paths = setup.paths();
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
-  const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes);
+  const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
+                          {.moment_matched = false});
   const Matrix points = scattered(count, seed), amplitudes = amplitudes_of(effect, count, seed);
   const auto made = simulate(stage, emulator, points, amplitudes, &effect, seed);
   std::vector<Vector> residuals;

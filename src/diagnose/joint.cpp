@@ -33,7 +33,7 @@ class Joint {
         maps_(maps),
         atlas_(atlas),
         fit_(fit),
-        emulator_(fit.model, paths(fit), stages.setup().shapes) {}
+        emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
   std::vector<Vector> simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
     const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {

@@ -108,9 +108,9 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, Dia
   const auto& shapes = held ? setup_.held_out_shapes : setup_.shapes;
   std::vector<std::string> paths;
   for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
-  const Emulator with(fit.model, paths, shapes);
-  const auto b = repeat(stages_, *maps_, setup_.emulator(shapes), before, budget_.comparisons,
-                        "before", derived_seed(options_.seed, 801));
+  const Emulator with(fit.model, paths, shapes, {.moment_matched = false});
+  const auto b = repeat(stages_, *maps_, setup_.emulator(shapes, CalibrationSetup::Of::experiments),
+                        before, budget_.comparisons, "before", derived_seed(options_.seed, 801));
   const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons, "after",
                         derived_seed(options_.seed, 802));
   out.held_out = group_fits(setup_, atlas_->plan(), recordings, b, a);

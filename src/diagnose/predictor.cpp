@@ -101,9 +101,9 @@ class Filter {
     for (int frame = 0; frame + 1 < recording.frames; ++frame) {
       take_up(recording, frame, modules);
       if (carried_.empty()) continue;
-      step(frame, recording.time(frame));
+      step(frame, frame * dt_);
       PredictedFrame out = seen(frame);
-      out.recording = index, out.frame = frame, out.time = recording.time(frame);
+      out.recording = index, out.frame = frame, out.time = frame * dt_;
       visit(out);
       correct();
     }

@@ -66,7 +66,7 @@ TEST_F(Diagnosed, APlantedTorqueIsNamed) {
 
 TEST_F(Diagnosed, APulsatingPumpIsNamed) {
   const std::vector<std::string> path{"forces.flow_pulsation.share"};
-  const Diagnosis d = of(with_parameters(small_tank(), path, std::vector<double>{0.4}), 41);
+  const Diagnosis d = of(with_parameters(small_tank(), path, std::vector<double>{0.25}), 41);
   ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
   EXPECT_EQ(d.findings.front().effect, "flow_pulsation") << diagnosis_text(d);
 }
