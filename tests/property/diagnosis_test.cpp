@@ -26,64 +26,51 @@ std::vector<Recording> filmed(const Model& model, std::uint64_t seed) {
   return *Emulator(model, {}, {shape, shape, shape}, options).record({}, seed);
 }
 
-// Nulls and fingerprints of one tank serve all tests here.
-class Diagnosed : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    Experiment experiment;
-    experiment.name = "small";
-    experiment.base.model = small_tank();
-    experiment.recordings = filmed(small_tank(), 11);
-    DiagnosisOptions options;
-    options.hold_out = 0, options.minutes = 1;
-    diagnoser_ = new Diagnoser(experiment, options);
-    diagnoser_->prepare();
-  }
-  static void TearDownTestSuite() { delete diagnoser_; }
-  static Diagnosis of(const Model& model, std::uint64_t seed) {
-    Diagnosis out;
-    diagnoser_->judge(filmed(model, seed), out);
-    return out;
-  }
-  static Diagnoser* diagnoser_;
-};
-Diagnoser* Diagnosed::diagnoser_ = nullptr;
+Model with(const std::string& path, double value) {
+  return with_parameters(small_tank(), std::vector<std::string>{path}, std::vector<double>{value});
+}
 
-TEST_F(Diagnosed, NothingIsFoundWhereNothingIsMissing) {
+// A compass needle in every module.
+Model with_compass(const std::vector<Shape>& shapes) {
+  Shape compass;
+  for (const Shape& s : shapes) {
+    if (s.curve.along == Along::heading && s.curve.toward == Toward::torque) compass = s;
+  }
+  std::vector<double> values;
+  for (int k = 0; k < kKnots; ++k) values.push_back(1.5e-4 * rotation(2 * kPi * k / kKnots).s);
+  return with_effect(small_tank(), effect_of(compass), values);
+}
+
+// One test: nulls and fingerprints of the tank take most of the time and serve every question.
+TEST(SmallTank, IsDiagnosed) {
+  Experiment experiment;
+  experiment.name = "small";
+  experiment.base.model = small_tank();
+  experiment.recordings = filmed(small_tank(), 11);
+  DiagnosisOptions options;
+  options.hold_out = 0, options.minutes = 1;
+  Diagnoser diagnoser(experiment, options);
+  diagnoser.prepare();
+  const auto of = [&](const Model& model, std::uint64_t seed) {
+    Diagnosis out;
+    diagnoser.judge(filmed(model, seed), out);
+    return out;
+  };
   for (const std::uint64_t seed : {21, 22, 23}) {
     const Diagnosis d = of(small_tank(), seed);
     EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
     EXPECT_FALSE(d.detectable.empty());
   }
-}
-
-TEST_F(Diagnosed, APlantedTorqueIsNamed) {
-  const std::vector<std::string> path{"forces.spin_torque.torque"};
-  const Diagnosis d = of(with_parameters(small_tank(), path, std::vector<double>{1e-4}), 31);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  EXPECT_EQ(d.findings.front().effect, "spin_torque") << diagnosis_text(d);
-}
-
-TEST_F(Diagnosed, APulsatingPumpIsNamed) {
-  const std::vector<std::string> path{"forces.flow_pulsation.share"};
-  const Diagnosis d = of(with_parameters(small_tank(), path, std::vector<double>{0.25}), 41);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  EXPECT_EQ(d.findings.front().effect, "flow_pulsation") << diagnosis_text(d);
-}
-
-// A compass needle in every module: the curve over headings is found, no name is given.
-TEST_F(Diagnosed, ALawOfNoEffectIsUnnamed) {
-  Model model = small_tank();
-  Shape compass;
-  for (const Shape& s : diagnoser_->atlas().plan().shapes) {
-    if (s.curve.along == Along::heading && s.curve.toward == Toward::torque) compass = s;
-  }
-  std::vector<double> values;
-  for (int k = 0; k < kKnots; ++k) values.push_back(1.5e-4 * rotation(2 * kPi * k / kKnots).s);
-  const Diagnosis d = of(with_effect(model, effect_of(compass), values), 51);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  EXPECT_EQ(d.findings.front().effect, "unnamed") << diagnosis_text(d);
-  EXPECT_EQ(d.findings.front().variable, "heading") << diagnosis_text(d);
+  const Diagnosis torque = of(with("forces.spin_torque.torque", 1e-4), 31);
+  ASSERT_EQ(torque.verdict, Verdict::missing) << diagnosis_text(torque);
+  EXPECT_EQ(torque.findings.front().effect, "spin_torque") << diagnosis_text(torque);
+  const Diagnosis pumps = of(with("forces.flow_pulsation.share", 0.25), 41);
+  ASSERT_EQ(pumps.verdict, Verdict::missing) << diagnosis_text(pumps);
+  EXPECT_EQ(pumps.findings.front().effect, "flow_pulsation") << diagnosis_text(pumps);
+  const Diagnosis odd = of(with_compass(diagnoser.atlas().plan().shapes), 51);
+  ASSERT_EQ(odd.verdict, Verdict::missing) << diagnosis_text(odd);
+  EXPECT_EQ(odd.findings.front().effect, "unnamed") << diagnosis_text(odd);
+  EXPECT_EQ(odd.findings.front().variable, "heading") << diagnosis_text(odd);
 }
 
 }  // namespace

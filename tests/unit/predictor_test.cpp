@@ -99,8 +99,8 @@ TEST(ExpectedTank, DragIsTheMeanOverGusts) {
 
 // With the right model the innovations have no mean and, by gains from the data, variance one.
 TEST(Predictor, InnovationsOfTheRightModelAreNoise) {
-  const Model model = drifting(8);
-  const auto recordings = filmed(model, 60, 3);
+  const Model model = drifting(6);
+  const auto recordings = filmed(model, 30, 3);
   double sum = 0, square = 0, count = 0;
   predict(model, recordings, predictor_options(model, recordings), [&](const PredictedFrame& f) {
     for (std::size_t i = 0; i < f.dx.size(); ++i) {
@@ -110,7 +110,7 @@ TEST(Predictor, InnovationsOfTheRightModelAreNoise) {
       }
     }
   });
-  ASSERT_GT(count, 20000);
+  ASSERT_GT(count, 8000);
   // Neighbouring innovations are nearly independent.
   EXPECT_NEAR(sum / count, 0, 5 / std::sqrt(count));
   EXPECT_NEAR(square / count, 1, 0.15);
@@ -130,7 +130,7 @@ TEST(Scores, SeeAPlantedPush) {
   const std::vector<std::string> path{"forces.body_force.force_x"};
   const std::vector<double> value{4e-3};
   const auto without = filmed(model, 60, 5);
-  const auto with = filmed(with_parameters(model, path, value), 60, 5);
+  const auto with = filmed(with_parameters(model, path, value), 40, 5);
   const ScorePlan plan = plan_for(model, without);
   const std::size_t at = entry_named(plan, "body_force force_x");
   const double nothing = score(plan, without)[at], pushed = score(plan, with)[at];
@@ -141,7 +141,7 @@ TEST(Scores, SeeAPlantedPush) {
 // Same recordings, same bits.
 TEST(Scores, AreRepeatable) {
   const Model model = drifting(5);
-  const auto recordings = filmed(model, 20, 2);
+  const auto recordings = filmed(model, 8, 2);
   const ScorePlan plan = plan_for(model, recordings);
   EXPECT_EQ(score(plan, recordings), score(plan, recordings));
   EXPECT_EQ(score(plan, recordings).size(), plan.entries().size());
