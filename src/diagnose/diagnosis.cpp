@@ -74,6 +74,9 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
                        " was recorded with latches on: a diagnosis needs recordings with "
                        "latches = \"off\", or modules would move as one for other reasons");
     }
+    if (!r.has_heading()) {
+      throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
+    }
     out.recordings += 1, out.seconds += r.frames / r.rate;
     out.modules = std::max(out.modules, static_cast<int>(r.tracks.size()));
   }

@@ -16,7 +16,6 @@ struct JointFit {
   std::vector<double> value, low, high;  ///< 95 % intervals
   bool settled = false;
   double misfit = 0;
-  std::vector<double> values() const { return value; }
 };
 
 /// `amplitudes`: the naming's, in units of each effect's sizes. `round`: simulations of a round;

@@ -229,7 +229,6 @@ class ModuleDifferences final : public ScatterPart {
     }
     if (details == nullptr || each_.empty()) return;
     const auto& s = of[0];
-    details->lightest = static_cast<int>(std::max_element(s.begin(), s.end()) - s.begin());
     details->heaviest = static_cast<int>(std::min_element(s.begin(), s.end()) - s.begin());
   }
 
@@ -265,7 +264,7 @@ class Touches final : public ScatterPart {
       recording_ = frame.recording;
       std::fill(begun_.begin(), begun_.end(), kNever);
     }
-    frames_ += 1, pairs_ += 0.5 * static_cast<double>(seen.size() * (seen.size() - 1));
+    pairs_ += 0.5 * static_cast<double>(seen.size() * (seen.size() - 1));
     for_near_pairs(frame.now, side_ * 1.6, [&](const NearPair& pair) {
       const SquareGap at = square_gap(frame.now, pair, side_);
       if (at.gap > kApart) return;
@@ -327,7 +326,7 @@ class Touches final : public ScatterPart {
   std::vector<int> begun_;
   std::vector<Touch> touching_ = std::vector<Touch>(modules_ * modules_);
   int recording_ = -1;
-  double frames_ = 0, pairs_ = 0, near_ = 0, meetings_ = 0;
+  double pairs_ = 0, near_ = 0, meetings_ = 0;
   Mean together_, short_, inner_, outer_, right_, left_, top_, bottom_, along_x_, along_y_;
 };
 

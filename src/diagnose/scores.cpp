@@ -191,13 +191,6 @@ class Scorer {
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
     }
-    if (details != nullptr) {
-      details->information.clear();
-      for (std::size_t f = scored_; f < total_; ++f) {
-        if ((f - scored_) % kKnots == 0) details->information.emplace_back();
-        details->information.back().push_back(sensitivities_.information(f));
-      }
-    }
     return values;
   }
 

@@ -39,9 +39,8 @@ struct ScorePlan {
 
 /// Beside the vector, what a verdict needs of one experiment.
 struct ScoreDetails {
-  double pulsation = 0;                          ///< Hz, the strongest line in the flow's gain
-  int heaviest = 0, lightest = 0;                ///< modules that answer least, and most
-  std::vector<std::vector<double>> information;  ///< of each shape's knots
+  double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
+  int heaviest = 0;      ///< module that answers least
 };
 
 /// The vector of recordings, in the order of the plan's entries; always finite.

@@ -30,7 +30,6 @@ class Sensitivities {
 
   /// The estimate of a feature's amplitude; 0 where nothing was pushed.
   double estimate(std::size_t feature) const;
-  double information(std::size_t feature) const { return information_[feature]; }
 
  private:
   std::size_t features_;
