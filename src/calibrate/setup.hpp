@@ -32,7 +32,7 @@ struct CalibrationSetup {
   /// Of pieces, which must be fast, or of whole experiments, which must be right: their gusts are
   /// drawn point by point.
   enum class Of { experiments, pieces };
-  Emulator emulator(const std::vector<RecordingShape>& shapes_of, Of of) const;
+  Emulator emulator(const std::vector<RecordingShape>& shapes_of, Of of = Of::pieces) const;
 
   /// What the objective compares, of recordings of the experiment's whole length.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;
