@@ -1,4 +1,7 @@
 // Intervals by parametric bootstrap, profiles, correlations, what the data cannot tell apart.
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +16,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kReplicateSeed = 2000;
+constexpr double kReplicateSpread = 0.7;  // of their parameters, as a share of the last design's
 constexpr int kProfilePoints = 41;
 constexpr double kProfileReach = 4;      // standard errors
 constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two parameters are one
@@ -25,19 +29,56 @@ double student(double freedom) {
   return z + (z * z * z + z) / (4 * freedom);
 }
 
-// Of data sets' estimates, one a row: mean, deviation and correlation.
-struct Scatter {
-  Vector mean, deviation;
-  Matrix correlation;
+// How values depend on the parameters about a centre: a line, and what scatters about it.
+struct Line {
+  Vector at_centre;
+  Matrix slope;       ///< [value, parameter]
+  Matrix residuals;   ///< [simulation, value]
+  Matrix covariance;  ///< of a simulation's residuals
+  Matrix inverse;     ///< of the regressors' squares and products
+  double freedom = 1;
 };
-Scatter scatter_of(const Matrix& estimates) {
+// `off`: the points less the centre, a row each; all zero: their mean alone.
+Line line_through(const Matrix& off, const Matrix& values) {
+  const Eigen::Index n = off.rows(), p = off.isZero(0) ? 0 : off.cols();
+  Matrix x(n, 1 + p);
+  x.col(0).setOnes();
+  x.rightCols(p) = off.leftCols(p);
+  const Matrix found = x.colPivHouseholderQr().solve(values);
+  Line out;
+  out.at_centre = found.row(0);
+  out.slope = p > 0 ? Matrix(found.bottomRows(p).transpose())
+                    : Matrix(Matrix::Identity(values.cols(), off.cols()));
+  out.residuals = values - x * found;
+  out.freedom = static_cast<double>(n - 1 - p);
+  out.covariance = out.residuals.transpose() * out.residuals / out.freedom;
+  out.inverse = (x.transpose() * x).ldlt().solve(Matrix::Identity(1 + p, 1 + p));
+  return out;
+}
+
+// Parameters of data from what the local model takes them for.
+struct Scatter {
+  Vector estimate, deviation;
+  Matrix correlation, back;
+  double wide = 0;  ///< half width of an interval in deviations
+};
+// The local model's slopes carry noise, which draws its answers to its centre. Experiments of known
+// parameters tell by how much: their answers are a line in the parameters, and this is its inverse.
+Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer) {
   Scatter out;
-  out.mean = estimates.colwise().mean();
-  const Matrix off = estimates.rowwise() - out.mean.transpose();
-  const Matrix c = off.transpose() * off / static_cast<double>(estimates.rows() - 1);
+  const Eigen::FullPivLU<Matrix> lu(line.slope);
+  out.back = lu.isInvertible() ? Matrix(lu.inverse())
+                               : Matrix(Matrix::Identity(centre.size(), centre.size()));
+  const Vector off = out.back * (answer - line.at_centre);
+  out.estimate = centre + off;
+  const Matrix c = out.back * line.covariance * out.back.transpose();
   out.deviation = c.diagonal().cwiseSqrt();
   const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
   out.correlation = inverse.asDiagonal() * c * inverse.asDiagonal();
+  Vector x = Vector::Zero(line.inverse.rows());
+  x(0) = 1;
+  if (x.size() > 1) x.tail(x.size() - 1) = off;
+  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
   return out;
 }
 
@@ -53,20 +94,36 @@ FitBounds bounds_for(const Stages& stages) {
   return bounds;
 }
 
-void tell_parameters(const Stages& stages, const LocalFit& fit, const Vector& simulated,
-                     const Scatter& scatter, int replicates, CalibrationResult& out) {
+void tell_parameters(const Stages& stages, const LocalFit& fit, const Scatter& scatter,
+                     CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
-  const double wide = student(replicates - 1) * std::sqrt(1 + 1.0 / replicates);
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     CalibratedParameter& p = out.parameters[i];
     const FitParameter& of = p.parameter;
-    p.bias = scatter.mean(k) - simulated(k), p.deviation = scatter.deviation(k);
-    const double middle = fit.point(k) - p.bias;
+    const double middle = scatter.estimate(k), half = scatter.wide * scatter.deviation(k);
+    p.bias = fit.point(k) - middle, p.deviation = scatter.deviation(k);
     const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
-    p.estimate = within(middle);
-    p.low = within(middle - wide * p.deviation), p.high = within(middle + wide * p.deviation);
+    p.estimate = within(middle), p.low = within(middle - half), p.high = within(middle + half);
   }
+}
+
+// Points of the replicates: about the answer, so that it is seen how estimates follow them. The
+// paper's objective has flat directions, along which no line could be turned round.
+Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const Vector& centre,
+                        std::uint64_t seed) {
+  const CalibrationOptions& o = stages.setup().options;
+  Matrix points = centre.transpose().replicate(o.replicates, 1);
+  if (o.objective == CalibrationObjective::msd) return points;
+  const Matrix spread = kReplicateSpread * answer.spread;
+  for (int i = 0; i < o.replicates; ++i) {
+    Vector z(centre.size());
+    for (Eigen::Index k = 0; k < z.size(); ++k) {
+      z(k) = normal_pair({seed, Stream::calibrate, i, static_cast<std::uint32_t>(k), 5})[0];
+    }
+    points.row(i) = stages.to_scale(stages.from_scale(centre + spread * z));
+  }
+  return points;
 }
 
 void tell_profiles(const LocalAnswer& answer, const Vector& observed, const FitBounds& bounds,
@@ -134,42 +191,44 @@ void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& m
                     const Vector& observed, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   const int wanted = setup.options.replicates;
-  const Vector simulated = stages.to_scale(stages.from_scale(answer.fit.point));
-  const Matrix points = simulated.transpose().replicate(wanted, 1);
+  const Vector centre = stages.to_scale(stages.from_scale(answer.fit.point));
   const std::uint64_t seed = derived_seed(setup.options.seed, kReplicateSeed);
+  const Matrix points = replicate_points(stages, answer, centre, seed);
   const auto rows = stages.simulate("replicates", points, seed, maps);
   const FitBounds bounds = bounds_for(stages);
-  std::vector<Vector> estimates, numbers;
-  int larger = 0;
-  for (const auto& row : rows) {
-    if (row.empty()) continue;
-    numbers.push_back(Eigen::Map<const Vector>(row.data(), observed.size()));
-    const LocalFit fit = answer.model.fit(numbers.back(), bounds);
-    estimates.push_back(fit.point);
-    larger += fit.misfit >= answer.fit.misfit ? 1 : 0;
-  }
-  const auto n = static_cast<int>(estimates.size());
+  const auto n = std::count_if(rows.begin(), rows.end(), [](const auto& r) { return !r.empty(); });
   if (2 * n < wanted) throw InputError("worlds at the estimate diverge: is the step too long?");
-  Matrix all(n, simulated.size()), told(n, observed.size());
-  for (int i = 0; i < n; ++i) {
-    all.row(i) = estimates[static_cast<std::size_t>(i)];
-    told.row(i) = numbers[static_cast<std::size_t>(i)];
+  Matrix off(n, centre.size()), estimates(n, centre.size()), told(n, observed.size());
+  Eigen::Index at = 0;
+  int larger = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].empty()) continue;
+    told.row(at) = Eigen::Map<const Vector>(rows[i].data(), observed.size());
+    const LocalFit fit = answer.model.fit(told.row(at), bounds);
+    estimates.row(at) = fit.point;
+    off.row(at) = points.row(static_cast<Eigen::Index>(i)) - centre.transpose();
+    larger += fit.misfit >= answer.fit.misfit ? 1 : 0;
+    ++at;
   }
-  const Scatter scatter = scatter_of(all);
-  tell_parameters(stages, answer.fit, simulated, scatter, n, out);
-  for (int i = 0; i < n; ++i) {
-    const Vector of = all.row(i).transpose() - (scatter.mean - simulated);
+  const Line line = line_through(off, estimates);
+  const Scatter scatter = scatter_of(line, centre, answer.fit.point);
+  tell_parameters(stages, answer.fit, scatter, out);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector of = scatter.estimate + scatter.back * line.residuals.row(i).transpose();
     out.replicate_estimates.emplace_back(of.begin(), of.end());
   }
   out.correlation.assign(scatter.correlation.data(),
                          scatter.correlation.data() + scatter.correlation.size());
   out.misfit = answer.fit.misfit;
-  out.misfit_p = (larger + 1.0) / (n + 1.0);
-  const Scatter expected = scatter_of(told);
+  out.misfit_p = (larger + 1.0) / (static_cast<double>(n) + 1.0);
+  const Line numbers = line_through(off, told);
+  Vector expected = numbers.at_centre;
+  if (numbers.inverse.rows() > 1) expected += numbers.slope * (scatter.estimate - centre);
   const std::vector<SummaryEntry> entries = setup.entries();
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    out.numbers.push_back({entries[k], observed(i), expected.mean(i), expected.deviation(i)});
+    out.numbers.push_back(
+        {entries[k], observed(i), expected(i), std::sqrt(numbers.covariance(i, i))});
   }
   tell_profiles(answer, observed, bounds, out);
   warn(stages, answer, out);

@@ -163,7 +163,8 @@ class Way {
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_reach, stages_.from_scale(fit.point)});
     const Matrix covariance = model.parameter_covariance(fit.point);
-    answer_.emplace(LocalAnswer{std::move(model), fit, static_cast<int>(taken_.size()), settled});
+    answer_.emplace(
+        LocalAnswer{std::move(model), fit, static_cast<int>(taken_.size()), settled, own_});
     // A centre that is good enough stays, so that all simulations about it count.
     if (settled) return taken_.back();
     Vector step = fit.point - centre_;

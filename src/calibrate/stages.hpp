@@ -61,6 +61,8 @@ struct LocalAnswer {
   LocalFit fit;
   int rounds = 0;
   bool settled = false;  ///< the last design was about the answer
+  Eigen::MatrixXd
+      spread;  ///< of the designs: a lower triangle, points are its products with normals
 };
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
                          const Eigen::VectorXd& observed, CalibrationResult& out);
