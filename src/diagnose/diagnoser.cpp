@@ -60,9 +60,9 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
-  search = scaled(500, 200), flow_draws = scaled(16, 12), centre = scaled(100, 80);
-  nulls = scaled(280, 160), experiments = scaled(9, 6), round = scaled(130, 110);
-  replicates = scaled(80, 40), comparisons = scaled(24, 12);
+  search = scaled(300, 200), flow_draws = scaled(12, 12), centre = scaled(80, 80);
+  nulls = scaled(200, 160), experiments = scaled(6, 6), round = scaled(110, 110);
+  replicates = scaled(50, 40), comparisons = scaled(16, 12);
 }
 
 Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& options)
