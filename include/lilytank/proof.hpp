@@ -12,6 +12,7 @@ namespace lilytank {
 struct ProofOptions {
   int worlds = 100;
   double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
+  bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the fingerprint of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;

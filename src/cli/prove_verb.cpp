@@ -17,6 +17,7 @@ int prove_verb(const Arguments& arguments) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
+      "known-flow", "give the diagnosis the true flow instead of balls")(
       "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
       "seed", "of everything that is drawn (1)", text(), "N")(
       "out", "directory of the results (out/proof)", text(), "DIR")(
@@ -27,6 +28,7 @@ int prove_verb(const Arguments& arguments) {
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
+  job.known_flow = options.has("known-flow");
   job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
   job.diagnosis.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.diagnosis.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
