@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+constexpr int kMostCentres = 4;
+constexpr double kStays = 1.5;                               // deviations of the points
 constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
@@ -60,7 +62,7 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
-  search = scaled(300, 200), flow_draws = scaled(12, 12), centre = scaled(80, 80);
+  search = scaled(1500, 1000), flow_draws = scaled(12, 12), centre = 70;
   nulls = scaled(200, 160), experiments = scaled(6, 6), round = scaled(110, 110);
   replicates = scaled(50, 40), comparisons = scaled(16, 12);
 }
@@ -76,7 +78,12 @@ void Diagnoser::prepare() {
   CalibrationResult searched;
   const Vector first = stages_.to_scale(stages_.search(searched));
   const FitBounds bounds = stages_.bounds();
-  const auto [centre, deviation] = centre_of(first, *maps_, bounds);
+  // Points about the answer before, until the answer stays among them.
+  Centre now{first, {}, false};
+  for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
+    now = centre_of(now.point, round, *maps_, bounds);
+  }
+  const Vector &centre = now.point, &deviation = now.deviation;
   spread_ = (4 * deviation).cwiseMax(kLeastSpread * (bounds.high - bounds.low)).asDiagonal();
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(centre), centre, spread_,
@@ -114,11 +121,11 @@ Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options
 }
 
 // The parameters of the baseline that whole experiments say, and their errors.
-std::pair<Vector, Vector> Diagnoser::centre_of(const Vector& first, const FlowMaps& maps,
-                                               const FitBounds& bounds) {
+Diagnoser::Centre Diagnoser::centre_of(const Vector& first, int round, const FlowMaps& maps,
+                                       const FitBounds& bounds) {
   const Vector wide = kFirstSpread * (bounds.high - bounds.low);
   Matrix points(budget_.centre, first.size());
-  const std::uint64_t seed = derived_seed(options_.seed, 30);
+  const std::uint64_t seed = derived_seed(options_.seed, 3000 + static_cast<std::uint64_t>(round));
   for (int i = 0; i < budget_.centre; ++i) {
     for (Eigen::Index k = 0; k < first.size(); ++k) {
       const double u = uniform({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 5});
@@ -127,7 +134,7 @@ std::pair<Vector, Vector> Diagnoser::centre_of(const Vector& first, const FlowMa
     points.row(i) =
         points.row(i).transpose().cwiseMax(bounds.low).cwiseMin(bounds.high).transpose();
   }
-  const auto rows = stages_.simulate("centre", points, seed, maps);
+  const auto rows = stages_.simulate("centre " + std::to_string(round), points, seed, maps);
   Design design;
   std::vector<int> good;
   for (int i = 0; i < budget_.centre; ++i) {
@@ -148,7 +155,9 @@ std::pair<Vector, Vector> Diagnoser::centre_of(const Vector& first, const FlowMa
   near.reach = 2.5;
   const LocalFit fit = model.fit(
       Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())), near);
-  return {fit.point, model.parameter_covariance(fit.point).diagonal().cwiseSqrt()};
+  const Vector moved = (fit.point - first).cwiseQuotient(wide);
+  return {fit.point, model.parameter_covariance(fit.point).diagonal().cwiseSqrt(),
+          !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};
 }
 
 ScorePlan Diagnoser::plan(const Vector& centre) const {

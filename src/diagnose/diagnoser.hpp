@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "diagnose/joint.hpp"
@@ -49,9 +48,14 @@ class Diagnoser {
 
  private:
   static Stages begin(CalibrationSetup& setup, const DiagnosisOptions& options);
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> centre_of(const Eigen::VectorXd& first,
-                                                        const FlowMaps& maps,
-                                                        const FitBounds& bounds);
+  /// Where the baseline's parameters are, their errors, and whether the answer lay among the points
+  /// that were simulated.
+  struct Centre {
+    Eigen::VectorXd point, deviation;
+    bool settled = false;
+  };
+  Centre centre_of(const Eigen::VectorXd& first, int round, const FlowMaps& maps,
+                   const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
   Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
