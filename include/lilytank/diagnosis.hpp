@@ -95,9 +95,9 @@ struct Diagnosis {
   double effect_threshold = 0, shape_threshold = 0, false_alarms = 0;
   double strongest_left = 0;  ///< z of what is left after the findings
   std::vector<std::string> checks, warnings;
-  int recordings = 0, modules = 0, simulations = 0;
+  int recordings = 0, modules = 0;
   double seconds = 0;
-  std::string overlay;  ///< missing.toml
+  std::string overlay;  ///< missing.toml; empty where nothing was found
   std::string flow_csv;
 };
 

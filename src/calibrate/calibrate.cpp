@@ -2,36 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "calibrate/stages.hpp"
-#include "io/atomic_file.hpp"
 #include "lilytank/state.hpp"
 
 namespace lilytank {
 namespace {
-
-namespace fs = std::filesystem;
-
-// A directory belongs to one calibration, told by a file.
-void take_directory(const CalibrationSetup& setup) {
-  const CalibrationOptions& o = setup.options;
-  if (o.out.empty()) return;
-  const fs::path mark = fs::path(o.out) / "work" / "identity";
-  const std::string identity = "lilytank calibration 1 " + hex(setup.identity) + "\n";
-  std::error_code problem;
-  if (fs::exists(mark, problem) && read_whole(mark.string()) != identity) {
-    if (!o.force) {
-      throw InputError(o.out +
-                       " holds another calibration (other data, options or program): choose "
-                       "another --out, or replace it with --force");
-    }
-    fs::remove_all(fs::path(o.out) / "work", problem);
-  }
-  fs::create_directories(mark.parent_path(), problem);
-  if (problem) throw InputError(system_problem("cannot make", o.out, problem.value()));
-  write_atomically(mark.string(), identity);
-}
 
 CalibrationResult begun(const CalibrationSetup& setup) {
   CalibrationResult out;
@@ -57,7 +33,7 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
                                            const CalibrationOptions& options) try {
   CalibrationSetup setup = set_up(experiment, options);
-  take_directory(setup);
+  claim_directory(setup.options, "calibration", "1 " + hex(setup.identity));
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calibrate/design.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -17,23 +19,6 @@ constexpr double kNeverVaries = 1e-10;
 
 Eigen::Index coefficients_of(Eigen::Index p, bool products) {
   return 1 + 2 * p + (products ? p * (p - 1) / 2 : 0);
-}
-
-// How much correlations are drawn towards none: their summed sampling variance over their summed
-// squares. `z`: residuals divided by their deviations.
-double shrinkage(const Matrix& z) {
-  const auto n = static_cast<double>(z.rows());
-  const Matrix r = z.transpose() * z / n;
-  const Matrix squares = z.array().square().matrix();
-  const Matrix fourth = squares.transpose() * squares / n;
-  double variance = 0, size = 0;
-  for (Eigen::Index i = 0; i < r.rows(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      variance += std::max(0.0, fourth(i, j) - r(i, j) * r(i, j)) / n;
-      size += r(i, j) * r(i, j);
-    }
-  }
-  return size > 0 ? std::clamp(variance / size, 0.0, 1.0) : 1;
 }
 
 }  // namespace
@@ -64,7 +49,7 @@ void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
                 std::sqrt(freedom / static_cast<double>(residuals.rows()));
   }
   Matrix correlation = z.transpose() * z / static_cast<double>(z.rows());
-  correlation *= 1 - shrinkage(z);
+  correlation *= 1 - correlation_shrinkage(z);
   correlation.diagonal().setOnes();
   covariance_ = deviation.asDiagonal() * correlation * deviation.asDiagonal();
   const Matrix root = correlation.llt().matrixL();

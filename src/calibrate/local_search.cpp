@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/design.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
 
@@ -18,33 +19,9 @@ constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard 
 constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
 constexpr double kFarOff = 2;     // ... beyond which the next design is stretched that way
 constexpr double kWidest = 2;     // most of both, in deviations of the first design
-constexpr double kFar = 1.5, kNear = 1.6;  // farthest points, over the root of their dimension
-constexpr double kReach = 2;               // deviations of the design that a round may go
+constexpr double kNear = 1.6;     // farthest points that count, over the root of their dimension
+constexpr double kReach = 2;      // deviations of the design that a round may go
 constexpr std::uint64_t kRoundSeed = 1000;
-
-// Points about a centre: normal, in pairs opposite each other, mirrored at the bounds.
-Matrix scattered(const Vector& centre, const Matrix& spread, int count, const FitBounds& bounds,
-                 std::uint64_t seed) {
-  const Eigen::Index p = centre.size();
-  Matrix points(count, p);
-  for (int i = 0; i < count; ++i) {
-    Vector z(p);
-    for (Eigen::Index k = 0; k < p; ++k) {
-      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 2})[0];
-    }
-    // Far points would bend a quadratic, and tell little of the middle.
-    const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
-    if (far > 1) z /= far;
-    Vector at = centre + (i % 2 == 0 ? 1 : -1) * (spread * z);
-    for (Eigen::Index k = 0; k < p; ++k) {
-      if (at(k) < bounds.low(k)) at(k) = 2 * bounds.low(k) - at(k);
-      if (at(k) > bounds.high(k)) at(k) = 2 * bounds.high(k) - at(k);
-      at(k) = std::clamp(at(k), bounds.low(k), bounds.high(k));
-    }
-    points.row(i) = at;
-  }
-  return points;
-}
 
 // All simulations so far; those of worlds that diverged are left out.
 class Simulated {

@@ -1,10 +1,9 @@
 // The files of a calibration.
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 
 #include "io/atomic_file.hpp"
 #include "lilytank/calibration.hpp"
+#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -13,9 +12,7 @@ namespace {
 // Six digits: more than any interval is narrow. Empty where there is no number.
 std::string number(double value) {
   if (!std::isfinite(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
+  return significant(value, 6);
 }
 
 std::string overlay(const CalibrationResult& c) {
@@ -135,30 +132,18 @@ std::string rounds_csv(const CalibrationResult& c) {
   return out;
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
-std::string json_number(double value) {
-  return std::isfinite(value) ? number(value) : "null";
-}
-
 std::string json(const CalibrationResult& c) {
   std::string out =
-      "{\n  \"name\": " + quoted(c.name) + ",\n  \"objective\": " + quoted(c.objective) +
-      ",\n  \"flow\": " + quoted(c.flow) + ",\n  \"search\": " + quoted(c.search_name) +
+      "{\n  \"name\": " + json_quoted(c.name) + ",\n  \"objective\": " + json_quoted(c.objective) +
+      ",\n  \"flow\": " + json_quoted(c.flow) + ",\n  \"search\": " + json_quoted(c.search_name) +
       ",\n  \"dt\": " + json_number(c.dt) +
       ",\n  \"simulations\": " + std::to_string(c.simulations) +
       ",\n  \"misfit\": " + json_number(c.misfit) +
       ",\n  \"misfit_p\": " + json_number(c.misfit_p) + ",\n  \"parameters\": [";
   const char* comma = "";
   for (const CalibratedParameter& p : c.parameters) {
-    out += std::string(comma) + "\n    {\"path\": " + quoted(p.parameter.path) +
-           ", \"unit\": " + quoted(p.parameter.unit) + ", \"start\": " + json_number(p.start) +
+    out += std::string(comma) + "\n    {\"path\": " + json_quoted(p.parameter.path) +
+           ", \"unit\": " + json_quoted(p.parameter.unit) + ", \"start\": " + json_number(p.start) +
            ", \"estimate\": " + json_number(p.estimate) + ", \"low\": " + json_number(p.low) +
            ", \"high\": " + json_number(p.high) + "}";
     comma = ",";
@@ -166,7 +151,7 @@ std::string json(const CalibrationResult& c) {
   out += "\n  ],\n  \"eq9\": [";
   comma = "";
   for (const MsdFit& m : c.msd) {
-    out += std::string(comma) + "\n    {\"recordings\": " + quoted(m.recordings) +
+    out += std::string(comma) + "\n    {\"recordings\": " + json_quoted(m.recordings) +
            ", \"pieces\": " + std::to_string(m.pieces) +
            ", \"seconds\": " + json_number(m.seconds) + ", \"before\": " + json_number(m.before) +
            ", \"after\": " + json_number(m.after) + ", \"floor\": " + json_number(m.floor) + "}";
@@ -175,7 +160,7 @@ std::string json(const CalibrationResult& c) {
   out += "\n  ],\n  \"warnings\": [";
   comma = "";
   for (const std::string& w : c.warnings) {
-    out += std::string(comma) + "\n    " + quoted(w);
+    out += std::string(comma) + "\n    " + json_quoted(w);
     comma = ",";
   }
   return out + (c.warnings.empty() ? "]\n}\n" : "\n  ]\n}\n");
@@ -184,10 +169,6 @@ std::string json(const CalibrationResult& c) {
 }  // namespace
 
 std::vector<std::string> write_calibration(const CalibrationResult& c, const std::string& dir) {
-  const std::filesystem::path path(dir);
-  std::error_code problem;
-  std::filesystem::create_directories(path, problem);
-  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
   std::vector<std::pair<std::string, std::string>> files{
       {"calibrated.toml", overlay(c)},         {"intervals.csv", intervals_csv(c)},
       {"correlation.csv", correlation_csv(c)}, {"profiles.csv", profiles_csv(c)},
@@ -199,12 +180,7 @@ std::vector<std::string> write_calibration(const CalibrationResult& c, const std
     files.emplace_back("velocity.csv", velocity_csv(c));
   }
   if (!c.flow_csv.empty()) files.emplace_back("flow.csv", c.flow_csv);
-  std::vector<std::string> names;
-  for (const auto& [name, content] : files) {
-    write_atomically((path / name).string(), content);
-    names.push_back(name);
-  }
-  return names;
+  return write_files(dir, files);
 }
 
 }  // namespace lilytank

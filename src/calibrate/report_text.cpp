@@ -1,7 +1,6 @@
 // A calibration, readable.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/text_table.hpp"
 #include "lilytank/calibration.hpp"
@@ -13,9 +12,7 @@ namespace {
 constexpr std::size_t kWorst = 5;  // numbers that are named where the model does not fit
 
 std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return significant(value, 4);
 }
 
 std::string head(const CalibrationResult& c) {

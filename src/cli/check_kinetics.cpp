@@ -1,7 +1,6 @@
 #include "cli/check_kinetics.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "cli/progress.hpp"
@@ -116,9 +115,7 @@ void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, i
 }
 
 std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return significant(value, 3);
 }
 
 // Both curves at quarters of the time, and where they are furthest apart.

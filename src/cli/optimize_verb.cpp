@@ -1,5 +1,4 @@
 // lilytank optimize: what builds a target best.
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -20,9 +19,7 @@ namespace fs = std::filesystem;
 constexpr int kMostThreads = 4096;
 
 std::string four(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return significant(value, 4);
 }
 
 std::string plan_line(const OptimizationPlan& plan, const std::string& out) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
@@ -16,7 +17,6 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNullSeed = 1, kEffectSeed = 100, kFieldSeed = 7;
-constexpr double kFar = 1.6;  // farthest points, over the root of their dimension
 constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
@@ -78,28 +78,14 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
       centre_(centre),
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
-  const Matrix points = scattered(options.nulls, derived_seed(options.seed, kNullSeed));
-  const auto nulls =
-      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), points,
+  const Design all =
+      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments),
                Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
-  std::vector<Eigen::Index> good;
-  for (std::size_t i = 0; i < nulls.size(); ++i) {
-    if (nulls[i].summary.size() > 0) good.push_back(static_cast<Eigen::Index>(i));
-  }
-  if (2 * good.size() < nulls.size()) {
-    throw InputError("more than half of the simulated experiments diverged");
-  }
-  Design summaries, numbers;
-  const auto n = static_cast<Eigen::Index>(good.size());
-  summaries.points.resize(n, points.cols());
-  summaries.numbers.resize(n, nulls[static_cast<std::size_t>(good[0])].summary.size());
-  numbers.numbers.resize(n, nulls[static_cast<std::size_t>(good[0])].scores.size());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& from = nulls[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
-    summaries.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
-    summaries.numbers.row(i) = from.summary, numbers.numbers.row(i) = from.scores;
-  }
-  numbers.points = summaries.points;
+  const auto p = centre.size();
+  const Design summaries{all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
+  const Design numbers{summaries.points,
+                       all.numbers.rightCols(all.numbers.cols() - summary_numbers())};
+  const Eigen::Index n = all.points.rows();
   parameters_ = std::make_unique<LocalModel>(summaries);
   scores_ = std::make_unique<LocalModel>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
@@ -121,21 +107,8 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   }
 }
 
-Matrix Atlas::scattered(int count, std::uint64_t seed) const {
-  const Eigen::Index p = centre_.size();
-  const FitBounds bounds = stages_.bounds();
-  Matrix points(count, p);
-  for (int i = 0; i < count; ++i) {
-    Vector z(p);
-    for (Eigen::Index k = 0; k < p; ++k) {
-      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 3})[0];
-    }
-    const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
-    if (far > 1) z /= far;
-    const Vector at = centre_ + (i % 2 == 0 ? 1 : -1) * (spread_ * z);
-    points.row(i) = at.cwiseMax(bounds.low).cwiseMin(bounds.high);
-  }
-  return points;
+Eigen::Index Atlas::summary_numbers() const {
+  return static_cast<Eigen::Index>(stages_.setup().entries().size());
 }
 
 Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
@@ -143,10 +116,10 @@ Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* d
           to_vector(score(plan_, recordings, details))};
 }
 
-std::vector<Vectors> Atlas::simulate(const std::string& stage, const Emulator& emulator,
-                                     const Matrix& points, const Matrix& amplitudes,
-                                     const Effect* effect, std::uint64_t seed) {
-  const auto summary = static_cast<Eigen::Index>(stages_.setup().entries().size());
+Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Matrix& amplitudes,
+                       const Effect* effect, std::uint64_t seed) {
+  const Matrix points =
+      scattered(centre_, spread_, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
     std::vector<double> values = stages_.from_scale(points.row(i));
     for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
@@ -165,16 +138,9 @@ std::vector<Vectors> Atlas::simulate(const std::string& stage, const Emulator& e
     row.insert(row.end(), both.scores.begin(), both.scores.end());
     return row;
   });
-  std::vector<Vectors> out;
-  for (const std::vector<double>& row : rows) {
-    if (row.empty()) {
-      out.emplace_back();
-      continue;
-    }
-    const Vector all = to_vector(row);
-    out.push_back({all.head(summary), all.tail(all.size() - summary)});
-  }
-  return out;
+  Matrix where(points.rows(), points.cols() + amplitudes.cols());
+  where << points, amplitudes;
+  return design_of(where, rows);
 }
 
 LocalFit Atlas::calibrated(const Vector& summary) const {
@@ -200,31 +166,21 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  const Matrix points = scattered(count, seed), amplitudes = amplitudes_of(effect, count, seed);
-  const auto made = simulate(stage, emulator, points, amplitudes, &effect, seed);
-  std::vector<Vector> residuals;
-  std::vector<Eigen::Index> good;
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    if (made[i].summary.size() == 0) continue;
-    residuals.push_back(residual(made[i])), good.push_back(static_cast<Eigen::Index>(i));
-  }
-  const Eigen::Index numbers = deviation_.size();
-  Fingerprint out{Matrix::Zero(numbers, m), Matrix::Zero(numbers, m)};
-  if (static_cast<Eigen::Index>(good.size()) <= 2 * m) return out;
-  Matrix x(static_cast<Eigen::Index>(good.size()), 2 * m);
-  Matrix y(x.rows(), numbers);
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    const auto a = amplitudes.row(good[static_cast<std::size_t>(i)]);
+  const Design made = simulate(stage, emulator, amplitudes_of(effect, count, seed), &effect, seed);
+  const Eigen::Index n = made.points.rows(), numbers = deviation_.size();
+  Matrix x(n, 2 * m), y(n, numbers);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto a = made.points.row(i).tail(m);
     x.row(i) << a, a.array().square().matrix();
-    y.row(i) = residuals[static_cast<std::size_t>(i)];
+    y.row(i) = residual({made.numbers.row(i).head(summary_numbers()),
+                         made.numbers.row(i).tail(made.numbers.cols() - summary_numbers())});
   }
   // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
   // residuals are.
   Matrix normal = x.transpose() * x;
   for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
   const Matrix solved = normal.ldlt().solve(x.transpose() * y);
-  out.first = solved.topRows(m).transpose(), out.second = solved.bottomRows(m).transpose();
-  return out;
+  return {solved.topRows(m).transpose(), solved.bottomRows(m).transpose()};
 }
 
 }  // namespace lilytank

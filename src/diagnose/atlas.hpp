@@ -62,10 +62,10 @@ class Atlas {
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
  private:
-  std::vector<Vectors> simulate(const std::string& stage, const Emulator& emulator,
-                                const Eigen::MatrixXd& points, const Eigen::MatrixXd& amplitudes,
-                                const Effect* effect, std::uint64_t seed);
-  Eigen::MatrixXd scattered(int count, std::uint64_t seed) const;
+  /// Experiments about the centre: parameters and amplitudes, summaries and scores, a row each.
+  Design simulate(const std::string& stage, const Emulator& emulator,
+                  const Eigen::MatrixXd& amplitudes, const Effect* effect, std::uint64_t seed);
+  Eigen::Index summary_numbers() const;
   Stages& stages_;
   const FlowMaps& maps_;
   ScorePlan plan_;

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "io/atomic_file.hpp"
+#include "calibrate/design.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
@@ -13,7 +12,6 @@
 namespace lilytank {
 namespace {
 
-namespace fs = std::filesystem;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
@@ -34,25 +32,6 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;
-}
-
-void take_directory(const CalibrationSetup& setup, const DiagnosisOptions& o) {
-  if (o.out.empty()) return;
-  const fs::path mark = fs::path(o.out) / "work" / "identity";
-  const std::string identity =
-      "lilytank diagnosis 1 " + hex(setup.identity) + " " + shortest(o.minutes) + "\n";
-  std::error_code problem;
-  if (fs::exists(mark, problem) && read_whole(mark.string()) != identity) {
-    if (!o.force) {
-      throw InputError(o.out +
-                       " holds another diagnosis (other data or options): choose another --out, or "
-                       "replace it with --force");
-    }
-    fs::remove_all(fs::path(o.out) / "work", problem);
-  }
-  fs::create_directories(mark.parent_path(), problem);
-  if (problem) throw InputError(system_problem("cannot make", o.out, problem.value()));
-  write_atomically(mark.string(), identity);
 }
 
 }  // namespace
@@ -112,11 +91,11 @@ void Diagnoser::run(Diagnosis& out) {
   out.flow_csv = setup_.corrected_csv(*maps_->best());
   const Judged judged = judge(setup_.training, out);
   model_and_show(judged, out);
-  out.simulations = stages_.simulations() + budget_.nulls;
 }
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
-  take_directory(setup, options);
+  claim_directory(setup.options, "diagnosis",
+                  "1 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -124,32 +103,10 @@ Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options
 Diagnoser::Centre Diagnoser::centre_of(const Vector& first, int round, const FlowMaps& maps,
                                        const FitBounds& bounds) {
   const Vector wide = kFirstSpread * (bounds.high - bounds.low);
-  Matrix points(budget_.centre, first.size());
   const std::uint64_t seed = derived_seed(options_.seed, 3000 + static_cast<std::uint64_t>(round));
-  for (int i = 0; i < budget_.centre; ++i) {
-    for (Eigen::Index k = 0; k < first.size(); ++k) {
-      const double u = uniform({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 5});
-      points(i, k) = first(k) + (i % 2 == 0 ? 1 : -1) * 1.7 * (2 * u - 1) * wide(k);
-    }
-    points.row(i) =
-        points.row(i).transpose().cwiseMax(bounds.low).cwiseMin(bounds.high).transpose();
-  }
-  const auto rows = stages_.simulate("centre " + std::to_string(round), points, seed, maps);
-  Design design;
-  std::vector<int> good;
-  for (int i = 0; i < budget_.centre; ++i) {
-    if (!rows[static_cast<std::size_t>(i)].empty()) good.push_back(i);
-  }
-  const auto n = static_cast<Eigen::Index>(good.size());
-  if (2 * n < budget_.centre) throw InputError("most worlds about the search's answer diverge");
-  design.points.resize(n, first.size());
-  design.numbers.resize(n, static_cast<Eigen::Index>(setup_.entries().size()));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& row = rows[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
-    design.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
-    design.numbers.row(i) = Eigen::Map<const Vector>(row.data(), design.numbers.cols());
-  }
-  const LocalModel model(design);
+  const Matrix points = scattered(first, wide.asDiagonal(), budget_.centre, bounds, seed);
+  const LocalModel model(
+      design_of(points, stages_.simulate("centre " + std::to_string(round), points, seed, maps)));
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
   near.reach = 2.5;

@@ -19,6 +19,15 @@ Effect one(const std::string& name, const std::string& parameter, double size,
   return e;
 }
 
+// An amplitude along each of two axes.
+Effect two(const std::string& name, const std::string& first, const std::string& second,
+           double size, const std::string& unit, const std::string& variable) {
+  Effect e = one(name, first, size, unit, variable);
+  e.paths.push_back(force(name, second)), e.sizes.push_back(size), e.units.push_back(unit);
+  e.two_sided = true;
+  return e;
+}
+
 constexpr const char* kLogLatches = "latches off, or their times logged";
 constexpr const char* kLonely = "a recording of one module alone";
 constexpr const char* kOtherBody = "a recording of bodies of another shape or mass";
@@ -31,24 +40,24 @@ void add_pairs(std::vector<Effect>& all) {
       Effect e = one(name, "strength", range < 0.01 ? 6e-3 : 4e-3, "N", "pair");
       e.shape = {{force(name, "range"), range}};
       e.refine = {{force(name, "range"), "m", range / 2.5, range * 2.5, true, false}};
-      e.group = "short pair forces", e.split = kLogLatches;
+      e.split = kLogLatches;
       e.scored = name[5] == 'a';  // the other one's force is this one's, turned round
       all.push_back(e);
     }
   }
   Effect magnet = one("magnetic_dipole", "strength", 0.012, "N", "pair");
-  magnet.group = "pair forces", magnet.split = kLonely;
+  magnet.split = kLonely;
   all.push_back(magnet);
   magnet.shape = {{force("magnetic_dipole", "angle"), kPi / 2}};
   all.push_back(magnet);
   Effect stick = one("latch_stick", "strength", 0.02, "N", "pair");
-  stick.group = "short pair forces", stick.split = kLogLatches;
+  stick.split = kLogLatches;
   all.push_back(stick);
   Effect film = one("lubrication", "coefficient", 0.15, "N s/m", "pair");
-  film.group = "pair forces", film.split = kLonely;
+  film.split = kLonely;
   all.push_back(film);
   Effect lee = one("wake_shielding", "share", 0.4, "1", "pair");
-  lee.group = "pair forces", lee.split = kLonely;
+  lee.split = kLonely;
   all.push_back(lee);
 }
 
@@ -57,67 +66,55 @@ void add_walls(std::vector<Effect>& all) {
     Effect e = one("wall_force", "strength", range < 0.01 ? 0.01 : 5e-3, "N", "radius");
     e.shape = {{force("wall_force", "range"), range}};
     e.refine = {{force("wall_force", "range"), "m", range / 2.5, range * 2.5, true, false}};
-    e.two_sided = true, e.group = "flow map", e.split = kOtherBody;
+    e.two_sided = true, e.split = kOtherBody;
     all.push_back(e);
   }
   Effect layer = one("wall_layer", "share", 0.6, "1", "radius");
   layer.shape = {{force("wall_layer", "thickness"), 0.02}};
-  layer.group = "flow map", layer.split = kOtherBody;
+  layer.split = kOtherBody;
   all.push_back(layer);
 }
 
 void add_water(std::vector<Effect>& all, const Model& model) {
   Effect mass = one("added_mass", "coefficient", 0.5, "1", "slip");
-  mass.group = "mass and drag", mass.split = kOtherBody;
+  mass.split = kOtherBody;
   all.push_back(mass);
   Effect magnus = one("magnus_lift", "coefficient", 0.3, "1", "spin");
   magnus.two_sided = true;
   all.push_back(magnus);
   Effect viscous = one("viscous_drag", "coefficient", 0.03, "N s/m", "slip");
-  viscous.two_sided = true, viscous.group = "drag laws", viscous.split = kPumps;
+  viscous.two_sided = true, viscous.split = kPumps;
   all.push_back(viscous);
   Effect turning = one("rotational_drag", "coefficient", 5e-6, "N m s", "spin");
   turning.two_sided = true;
   all.push_back(turning);
   Effect coriolis = one("coriolis", "rate", 0.4, "1/s", "slip");
-  coriolis.two_sided = true, coriolis.group = "flow map", coriolis.split = kTurned;
+  coriolis.two_sided = true, coriolis.split = kTurned;
   all.push_back(coriolis);
-  Effect push = one("body_force", "force_x", 1.5e-3, "N", "position");
-  push.paths.push_back(force("body_force", "force_y"));
-  push.sizes.push_back(1.5e-3), push.units.push_back("N");
-  push.two_sided = true, push.group = "flow map", push.split = kTurned;
+  Effect push = two("body_force", "force_x", "force_y", 1.5e-3, "N", "position");
+  push.split = kTurned;
   all.push_back(push);
   Effect drift = one("flow_drift", "rate", 5e-4, "1/s", "time");
   drift.two_sided = true;
   all.push_back(drift);
   const double out = 0.45 * model.tank.radius;
   for (int k = 0; k < 6; ++k) {
-    Effect stream = one("local_flow", "speed_x", 0.06, "m/s", "position");
-    stream.paths.push_back(force("local_flow", "speed_y"));
-    stream.sizes.push_back(0.06), stream.units.push_back("m/s");
+    Effect stream = two("local_flow", "speed_x", "speed_y", 0.06, "m/s", "position");
     const Rot at = rotation(k * kPi / 3);
     stream.shape = {{force("local_flow", "x"), out * at.c},
                     {force("local_flow", "y"), out * at.s},
                     {force("local_flow", "width"), 0.06}};
-    stream.two_sided = true, stream.group = "flow map", stream.split = kOtherBody;
+    stream.split = kOtherBody;
     all.push_back(stream);
   }
 }
 
 void add_modules(std::vector<Effect>& all) {
-  Effect push = one("self_propulsion", "force_x", 1e-3, "N", "heading");
-  push.paths.push_back(force("self_propulsion", "force_y"));
-  push.sizes.push_back(1e-3), push.units.push_back("N");
-  push.two_sided = true;
-  all.push_back(push);
+  all.push_back(two("self_propulsion", "force_x", "force_y", 1e-3, "N", "heading"));
   Effect torque = one("spin_torque", "torque", 1.2e-5, "N m", "spin");
   torque.two_sided = true;
   all.push_back(torque);
-  Effect offset = one("mass_offset", "forward", 1e-3, "m", "heading");
-  offset.paths.push_back(force("mass_offset", "left"));
-  offset.sizes.push_back(1e-3), offset.units.push_back("m");
-  offset.two_sided = true;
-  all.push_back(offset);
+  all.push_back(two("mass_offset", "forward", "left", 1e-3, "m", "heading"));
   Effect heavy = one("heterogeneous_module", "extra", 0.4, "1", "module");
   heavy.scored = false;
   all.push_back(heavy);
@@ -171,7 +168,7 @@ std::vector<Effect> effect_catalogue(const Model& model) {
   contact.name = "contact_law", contact.paths = {"contact.friction", "contact.restitution"};
   contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
   contact.two_sided = true, contact.variable = "pair", contact.scored = false;
-  contact.group = "short pair forces", contact.split = kLogLatches;
+  contact.split = kLogLatches;
   all.push_back(contact);
   return all;
 }

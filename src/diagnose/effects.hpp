@@ -23,9 +23,9 @@ struct Effect {
   /// Of those, the ones that are found along once the effect is there: path, unit, bounds.
   std::vector<FitParameter> refine;
   std::string variable;  ///< of what the mismatch is a function: position, radius, pair, slip, ...
-  std::string group;     ///< effects that may not be told apart from it by their nature; "" none
-  std::string split;     ///< the cheapest experiment that would
-  bool scored = true;    ///< the term gives a force to be compared with innovations
+  /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
+  std::string split;
+  bool scored = true;  ///< the term gives a force to be compared with innovations
   /// Value of an amplitude at which the effect is absent.
   double absent(const Model& model, std::size_t component) const;
 };

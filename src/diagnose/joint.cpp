@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
@@ -35,8 +36,9 @@ class Joint {
         fit_(fit),
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
-  std::vector<Vector> simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
-    const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+  std::vector<std::vector<double>> simulate(const std::string& stage, const Matrix& points,
+                                            std::uint64_t seed) {
+    return stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
       const auto field = loosened(*maps_.draw(derived_seed(seed, kMix), i), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
@@ -44,11 +46,6 @@ class Joint {
       const Vector all = joined(atlas_.vectors(*made), atlas_);
       return std::vector<double>(all.begin(), all.end());
     });
-    std::vector<Vector> out;
-    for (const auto& row : rows) {
-      out.push_back(Eigen::Map<const Vector>(row.data(), static_cast<Eigen::Index>(row.size())));
-    }
-    return out;
   }
   std::vector<double> values(const Vector& point) const {
     std::vector<double> out;
@@ -71,39 +68,6 @@ class Joint {
   JointFit& fit_;
   Emulator emulator_;
 };
-
-Matrix scattered(const Vector& centre, const Matrix& spread, int count, const FitBounds& bounds,
-                 std::uint64_t seed) {
-  Matrix points(count, centre.size());
-  for (int i = 0; i < count; ++i) {
-    Vector z(centre.size());
-    for (Eigen::Index k = 0; k < z.size(); ++k) {
-      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 4})[0];
-    }
-    const double far = z.norm() / (1.6 * std::sqrt(static_cast<double>(z.size())));
-    if (far > 1) z /= far;
-    points.row(i) =
-        (centre + (i % 2 == 0 ? 1 : -1) * (spread * z)).cwiseMax(bounds.low).cwiseMin(bounds.high);
-  }
-  return points;
-}
-
-Design design_of(const Matrix& points, const std::vector<Vector>& rows) {
-  std::vector<Eigen::Index> good;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].size() > 0) good.push_back(static_cast<Eigen::Index>(i));
-  }
-  if (2 * good.size() < rows.size()) throw InputError("most worlds with the effect diverge");
-  Design out;
-  const auto n = static_cast<Eigen::Index>(good.size());
-  out.points.resize(n, points.cols());
-  out.numbers.resize(n, rows[static_cast<std::size_t>(good[0])].size());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    out.points.row(i) = points.row(good[static_cast<std::size_t>(i)]);
-    out.numbers.row(i) = rows[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
-  }
-  return out;
-}
 
 // The list of what is fitted, and the centre and spread of the first design.
 void begin(const Stages& stages, const std::vector<Effect>& effects,
@@ -169,14 +133,14 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled * 1.5;
     if (!fit.settled) centre = answer.point;
   }
-  fit.misfit = answer.misfit;
   const Matrix points = answer.point.transpose().replicate(replicates, 1);
   const auto rows = joint.simulate("joint replicates", points, derived_seed(seed, 99));
   std::vector<Vector> estimates;
   FitBounds free;
   free.reach = 5;
-  for (const Vector& row : rows) {
-    if (row.size() > 0) estimates.push_back(model->fit(row, free).point);
+  const Matrix told = design_of(points, rows).numbers;
+  for (Eigen::Index i = 0; i < told.rows(); ++i) {
+    estimates.push_back(model->fit(told.row(i).transpose(), free).point);
   }
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);

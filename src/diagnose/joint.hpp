@@ -15,7 +15,6 @@ struct JointFit {
   Model model;                           ///< with every effect switched on, at its held numbers
   std::vector<double> value, low, high;  ///< 95 % intervals
   bool settled = false;
-  double misfit = 0;
 };
 
 /// `amplitudes`: the naming's, in units of each effect's sizes. `round`: simulations of a round;

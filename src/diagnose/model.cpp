@@ -28,7 +28,6 @@ void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
                               std::sqrt(covariance(k, k)), before[i], before[i], before[i]});
   }
-  out.overlay = "# What was found of " + setup_.name + ".\n";
   if (e.found.empty()) return;
   std::vector<Effect> effects;
   std::vector<Vector> amplitudes;
@@ -48,6 +47,9 @@ void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
   const JointFit fit =
       fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_, budget_.round,
                   budget_.replicates, derived_seed(options_.seed, 700));
+  if (!fit.settled) {
+    out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
+  }
   tell_parameters(fit, effects, out);
   show(fit, before, out);
 }
@@ -110,8 +112,8 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, Dia
   for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
   const Emulator with(fit.model, paths, shapes, {.moment_matched = false});
   const auto b = repeat(stages_, *maps_, setup_.emulator(shapes, CalibrationSetup::Of::experiments),
-                        before, budget_.comparisons, "before", derived_seed(options_.seed, 801));
-  const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons, "after",
+                        before, budget_.comparisons, derived_seed(options_.seed, 801));
+  const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons,
                         derived_seed(options_.seed, 802));
   out.held_out = group_fits(setup_, atlas_->plan(), recordings, b, a);
   msd_share(recordings, b, a, setup_.piece, out);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "calibrate/design.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -13,6 +15,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kFolds = 5;
+constexpr double kLeastShrinkage = 0.02;
 constexpr int kMostEffects = 3;
 constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
 constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
@@ -28,15 +31,7 @@ Matrix whitener_of(const Matrix& rows) {
   const Vector deviation = (off.colwise().squaredNorm() / n).cwiseSqrt().cwiseMax(1e-9).transpose();
   const Matrix z = off * deviation.cwiseInverse().asDiagonal();
   Matrix r = z.transpose() * z / n;
-  const Matrix squares = z.array().square().matrix();
-  const Matrix fourth = squares.transpose() * squares / n;
-  double variance = 0, size = 0;
-  for (Eigen::Index i = 0; i < r.rows(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      variance += std::max(0.0, fourth(i, j) - r(i, j) * r(i, j)) / n, size += r(i, j) * r(i, j);
-    }
-  }
-  r *= 1 - (size > 0 ? std::clamp(variance / size, 0.02, 1.0) : 1.0);
+  r *= 1 - std::max(kLeastShrinkage, correlation_shrinkage(z));
   r.diagonal().setOnes();
   Matrix out = Matrix(r.llt().matrixL())
                    .triangularView<Eigen::Lower>()
@@ -289,7 +284,6 @@ std::size_t Naming::best(const Vector& all, double floor, EffectFit& out,
 Explanation Naming::explain(const Vector& residual) const {
   Explanation out;
   Vector all = whitened(residual - centre_);
-  out.distance = all.head(atlas_.named_numbers()).squaredNorm();
   double explained = 0;
   for (int round = 0;; ++round) {
     EffectFit chosen;
@@ -303,7 +297,6 @@ Explanation Naming::explain(const Vector& residual) const {
     explained = std::max(explained, chosen.z);
     out.found.push_back(chosen);
   }
-  out.distance_left = all.head(atlas_.named_numbers()).squaredNorm();
   return out;
 }
 

@@ -22,8 +22,7 @@ struct Explanation {
   std::vector<EffectFit> found;
   /// The strongest effect and shape in what is left, against what is expected of nothing.
   EffectFit left_effect, left_shape;
-  double distance = 0, distance_left = 0;  ///< squared, of the named numbers
-  double strongest = 0;                    ///< z of the strongest candidate before anything
+  double strongest = 0;  ///< z of the strongest candidate before anything
 };
 
 class Naming {

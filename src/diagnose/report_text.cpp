@@ -1,17 +1,15 @@
 // The report of a diagnosis as text.
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/text_table.hpp"
 #include "lilytank/diagnosis.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
 std::string digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return significant(value, 3);
 }
 
 std::string headline(const Diagnosis& d) {
@@ -68,8 +66,9 @@ std::string diagnosis_text(const Diagnosis& d) {
   std::string out =
       "diagnosis of " + d.name + ": " + name_of(d.verdict) + ", " + headline(d) + "\n";
   out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) +
-         " Lilies, " + digits(d.seconds) + " s in all; " + std::to_string(d.simulations) +
-         " simulated experiments\n";
+         " Lilies, " + digits(d.seconds) + " s in all\n";
+  if (!d.checks.empty()) out += "\nWhat the checks of the recordings found\n";
+  for (const std::string& check : d.checks) out += "  " + check + "\n";
   for (const DiagnosisFinding& f : d.findings) tell(f, out);
   if (!d.held_out.empty() && !d.findings.empty()) tell_fit(d, out);
   if (!d.parameters.empty()) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/scores.hpp"
+#include "diagnose/score_plan.hpp"
 
 namespace lilytank {
 

@@ -286,8 +286,7 @@ class Scorer {
     if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
     last_[out.module] = frame.frame;
     if (!held && !lost) {
-      PredictedFrame shown = frame;
-      sensitivities_.pass(out.module, pushes_[i], shown, i, kLoss, out.usable);
+      sensitivities_.pass(out.module, pushes_[i], frame, i, kLoss, out.usable);
     }
     return out;
   }

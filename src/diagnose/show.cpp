@@ -8,6 +8,7 @@
 #include "diagnose/slack.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"
+#include "lilytank/study.hpp"
 
 namespace lilytank {
 namespace {
@@ -74,25 +75,22 @@ std::map<Key, std::array<double, 3>> innovations(const Model& model,
 
 }  // namespace
 
-std::vector<std::vector<Recording>> repeat(Stages& stages, const FlowMaps& maps,
+std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps& maps,
                                            const Emulator& emulator,
                                            const std::vector<double>& values, int count,
-                                           const std::string& stage, std::uint64_t seed) {
+                                           std::uint64_t seed) {
   std::vector<std::optional<std::vector<Recording>>> made(static_cast<std::size_t>(count));
-  stages.rows(stage, count, [&](int i) {
+  const CalibrationOptions& o = stages.setup().options;
+  const auto stopped = [&] { return o.stop != nullptr && o.stop->load(); };
+  for_each_world(count, o.threads, [&](int i) {
+    if (stopped()) return;
     const auto field = loosened(*maps.draw(derived_seed(seed, 7), i), seed, i);
-    auto one =
+    made[static_cast<std::size_t>(i)] =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
-    if (one) made[static_cast<std::size_t>(i)] = std::move(*one);
-    return std::vector<double>{1};
   });
+  if (stopped()) throw Stopped{};
   std::vector<std::vector<Recording>> out;
-  for (int i = 0; i < count; ++i) {
-    auto& one = made[static_cast<std::size_t>(i)];
-    if (!one) {  // kept from before a stop: recordings themselves are not kept
-      const auto field = loosened(*maps.draw(derived_seed(seed, 7), i), seed, i);
-      one = emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
-    }
+  for (auto& one : made) {
     if (one) out.push_back(std::move(*one));
   }
   if (2 * out.size() < made.size()) throw InputError("most worlds at the estimate diverge");

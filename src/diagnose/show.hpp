@@ -9,11 +9,12 @@
 
 namespace lilytank {
 
-/// Simulates the shapes of recordings at values of an emulator's parameters, `count` times.
-std::vector<std::vector<Recording>> repeat(Stages& stages, const FlowMaps& maps,
+/// Simulates the shapes of recordings at values of an emulator's parameters, `count` times. Throws
+/// Stopped, InputError.
+std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps& maps,
                                            const Emulator& emulator,
                                            const std::vector<double>& values, int count,
-                                           const std::string& stage, std::uint64_t seed);
+                                           std::uint64_t seed);
 
 /// Groups of the motion summary and contacts: mean squared deviation of the recordings' numbers
 /// from those of simulations before and after.

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdio>
 
 #include "lilytank/flow_estimate.hpp"
 #include "text/number.hpp"
@@ -10,9 +9,7 @@ namespace {
 // Seven digits are more than any flow is known to; unknown values are empty cells.
 std::string number(double value) {
   if (std::isnan(value)) return "";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.7g", value);
-  return text;
+  return significant(value, 7);
 }
 
 std::string place(const FlowEstimate& e, int i) {

@@ -47,9 +47,7 @@ std::string bias_csv(const std::vector<FlowBiasRow>& rows) {
 
 void write_flow(const FlowReport& report, const std::string& dir) {
   const std::filesystem::path path(dir);
-  std::error_code problem;
-  std::filesystem::create_directories(path, problem);
-  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  make_directory(dir);
   const auto write = [&](const std::string& name, const std::string& content) {
     write_atomically((path / name).string(), content);
   };

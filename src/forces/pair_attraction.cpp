@@ -1,4 +1,5 @@
-// Attraction of modules that are near each other, as of menisci between floating bodies.
+// Attraction of modules that are near each other, as of menisci between floating bodies, and its
+// mirror image, repulsion.
 #include <cmath>
 
 #include "library.hpp"
@@ -13,31 +14,46 @@ constexpr Parameter kParameters[] = {
     {"range", "m", 0.012, 0.001, 0.1, "gap over which the force falls by e"},
 };
 
-class PairAttraction final : public ForceTerm {
+class PairForce final : public ForceTerm {
  public:
-  std::string_view name() const override { return "pair_attraction"; }
+  explicit constexpr PairForce(bool attracts) : attracts_(attracts) {}
+  std::string_view name() const override {
+    return attracts_ ? "pair_attraction" : "pair_repulsion";
+  }
   std::string_view summary() const override {
-    return "attraction between modules along the line of their centres, falling with the gap";
+    return attracts_
+               ? "attraction between modules along the line of their centres, falling with the gap"
+               : "repulsion between modules along the line of their centres, falling with the gap";
   }
   std::string_view equation() const override {
-    return "F = strength exp(-g / range), g = max(0, r - side), r the distance of the centres; "
-           "nothing beyond g = 8 range";
+    return attracts_ ? "F = strength exp(-g / range), g = max(0, r - side), r the distance of the "
+                       "centres; nothing beyond g = 8 range"
+                     : "F = -strength exp(-g / range), g = max(0, r - side), r the distance of the "
+                       "centres; nothing beyond g = 8 range";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {
+    const double strength = attracts_ ? p[0] : -p[0];
     for_near_pairs(k, model.module.side + 8 * p[1], [&](const NearPair& pair) {
       const double gap = std::fmax(0, pair.r - model.module.side);
-      pull_together(pair, p[0] * exp_portable(-gap / p[1]), out);
+      pull_together(pair, strength * exp_portable(-gap / p[1]), out);
     });
   }
+
+ private:
+  bool attracts_;
 };
 
 }  // namespace
 
 const ForceTerm& pair_attraction() {
-  static const PairAttraction term;
+  static const PairForce term(true);
+  return term;
+}
+const ForceTerm& pair_repulsion() {
+  static const PairForce term(false);
   return term;
 }
 

@@ -8,9 +8,7 @@ namespace lilytank {
 
 std::vector<std::string> write_analysis(const Analysis& analysis, const std::string& dir) {
   const std::filesystem::path path(dir);
-  std::error_code problem;
-  std::filesystem::create_directories(path, problem);
-  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  make_directory(dir);
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const std::string& content) {
     files.push_back((path / name).string());

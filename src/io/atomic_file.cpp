@@ -69,6 +69,23 @@ void write_atomically(const std::string& file, std::string_view content) {
   sync_directory(std::filesystem::path(file).parent_path());
 }
 
+void make_directory(const std::string& dir) {
+  std::error_code problem;
+  std::filesystem::create_directories(dir, problem);
+  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+}
+
+std::vector<std::string> write_files(
+    const std::string& dir, const std::vector<std::pair<std::string, std::string>>& files) {
+  make_directory(dir);
+  std::vector<std::string> names;
+  for (const auto& [name, content] : files) {
+    write_atomically((std::filesystem::path(dir) / name).string(), content);
+    names.push_back(name);
+  }
+  return names;
+}
+
 std::string read_whole(const std::string& file, const SourcePlace& asked_by) {
   const auto refuse = [&](int number) -> InputError {
     const std::string message = system_problem("cannot read", file, number);

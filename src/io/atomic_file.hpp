@@ -2,6 +2,8 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lilytank/error.hpp"
 
@@ -10,6 +12,14 @@ namespace lilytank {
 /// Writes `content` under a temporary name beside `file`, hands it to the disk, renames it. Throws
 /// InputError with the system's reason; the file is then as it was before.
 void write_atomically(const std::string& file, std::string_view content);
+
+/// Makes a directory and those it lies in, where they are absent. Throws InputError.
+void make_directory(const std::string& dir);
+
+/// Writes files, pairs of name and content, into a directory, made if absent; each atomically.
+/// Returns their names. Throws InputError.
+std::vector<std::string> write_files(const std::string& dir,
+                                     const std::vector<std::pair<std::string, std::string>>& files);
 
 /// The whole content of a file. Throws InputError, at `asked_by` where that is known.
 std::string read_whole(const std::string& file, const SourcePlace& asked_by = {});

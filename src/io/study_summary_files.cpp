@@ -8,9 +8,7 @@ namespace lilytank {
 
 void write_study_summary(const StudySummary& summary, const std::string& dir) {
   const std::filesystem::path path(dir);
-  std::error_code problem;
-  std::filesystem::create_directories(path, problem);
-  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
+  make_directory(dir);
   write_atomically((path / "summary.csv").string(), summary_csv(summary));
   write_atomically((path / "yield_curve.csv").string(), yield_curve_csv(summary));
   write_atomically((path / "survival.csv").string(), survival_csv(summary));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -27,22 +28,6 @@ std::string sizes_text(const std::vector<int>& by_size) {
     out += n == 1 ? " single" : " of " + std::to_string(n);
   }
   return out.empty() ? "none" : out;
-}
-
-std::string json_quoted(const std::string& text) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\', out += c;
-    } else if (code < 0x20) {
-      out += "\\u00", out += digits[code >> 4], out += digits[code & 15];
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 /// Collects the members of a JSON object, one a line.

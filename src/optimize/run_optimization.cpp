@@ -1,5 +1,4 @@
 // The job behind `lilytank optimize`: search, write the optimum, prepare its comparison.
-#include <cstdio>
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
@@ -15,9 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string four(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return significant(value, 4);
 }
 
 std::string comment_of(const OptimizationPlan& plan, const Incumbent& best) {

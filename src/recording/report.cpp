@@ -1,8 +1,8 @@
 #include "recording/report.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace lilytank {
 
@@ -27,9 +27,7 @@ std::vector<Finding> Report::take() {
 }
 
 std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return significant(value, 3);
 }
 
 std::string length_text(double metres) {

@@ -1,11 +1,11 @@
 // The well-mixed model: rates from counts, and Gillespie's direct method.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "lilytank/kinetics.hpp"
 #include "lilytank/math.hpp"
 #include "lilytank/random.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -69,9 +69,7 @@ double evaluation_rate_of(const Ruleset& rules, const ReactionNetwork& network,
 }
 
 std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
+  return significant(value, 3);
 }
 
 }  // namespace

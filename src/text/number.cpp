@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace lilytank {
 namespace {
@@ -40,6 +41,12 @@ std::string without_rounding(double value) {
   char buffer[40];
   const auto format = std::chars_format::general;
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format, 15).ptr};
+}
+
+std::string significant(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
 }
 
 std::optional<double> parse_number(std::string_view text) {

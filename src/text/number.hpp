@@ -14,6 +14,9 @@ std::string shortest(float value);
 /// times in tables; reads back to within one part in 10^15.
 std::string without_rounding(double value);
 
+/// With that many significant digits, for reports: "0.0123", "1.2e-05".
+std::string significant(double value, int digits);
+
 /// The whole of `text` as a finite decimal number; nothing if it is not one (empty, "nan", "1 ",
 /// "0x1", out of the range of double). A leading '+' is allowed.
 std::optional<double> parse_number(std::string_view text);

@@ -1,0 +1,75 @@
+#include "calibrate/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lilytank/error.hpp"
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double kFar = 1.5;  // farthest points, over the root of their dimension
+
+}  // namespace
+
+Matrix scattered(const Vector& centre, const Matrix& spread, int count, const FitBounds& bounds,
+                 std::uint64_t seed) {
+  const Eigen::Index p = centre.size();
+  Matrix points(count, p);
+  for (int i = 0; i < count; ++i) {
+    Vector z(p);
+    for (Eigen::Index k = 0; k < p; ++k) {
+      z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 2})[0];
+    }
+    // Far points would bend a quadratic, and tell little of the middle.
+    const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
+    if (far > 1) z /= far;
+    Vector at = centre + (i % 2 == 0 ? 1 : -1) * (spread * z);
+    for (Eigen::Index k = 0; k < p; ++k) {
+      if (at(k) < bounds.low(k)) at(k) = 2 * bounds.low(k) - at(k);
+      if (at(k) > bounds.high(k)) at(k) = 2 * bounds.high(k) - at(k);
+      at(k) = std::clamp(at(k), bounds.low(k), bounds.high(k));
+    }
+    points.row(i) = at;
+  }
+  return points;
+}
+
+Design design_of(const Matrix& points, const std::vector<std::vector<double>>& rows) {
+  std::vector<Eigen::Index> good;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].empty()) good.push_back(static_cast<Eigen::Index>(i));
+  }
+  if (good.empty() || 2 * good.size() < rows.size()) {
+    throw InputError("more than half of the simulations about an answer diverged");
+  }
+  const auto n = static_cast<Eigen::Index>(good.size());
+  const auto width = static_cast<Eigen::Index>(rows[static_cast<std::size_t>(good[0])].size());
+  Design out{points(good, Eigen::all), Matrix(n, width)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& row = rows[static_cast<std::size_t>(good[static_cast<std::size_t>(i)])];
+    out.numbers.row(i) = Eigen::Map<const Vector>(row.data(), width);
+  }
+  return out;
+}
+
+double correlation_shrinkage(const Matrix& z) {
+  const auto n = static_cast<double>(z.rows());
+  const Matrix r = z.transpose() * z / n;
+  const Matrix squares = z.array().square().matrix();
+  const Matrix fourth = squares.transpose() * squares / n;
+  double variance = 0, size = 0;
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      variance += std::max(0.0, fourth(i, j) - r(i, j) * r(i, j)) / n;
+      size += r(i, j) * r(i, j);
+    }
+  }
+  return size > 0 ? std::clamp(variance / size, 0.0, 1.0) : 1;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,25 @@
+// Where simulations for a local model are made, and what they told.
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lilytank/local_model.hpp"
+
+namespace lilytank {
+
+/// Points about a centre, a row each: normal with `spread` as the root of their covariance, in
+/// pairs opposite each other, none farther than 1.5 roots of their dimension, mirrored at bounds.
+Eigen::MatrixXd scattered(const Eigen::VectorXd& centre, const Eigen::MatrixXd& spread, int count,
+                          const FitBounds& bounds, std::uint64_t seed);
+
+/// Points and the numbers that simulations told there; empty rows are worlds that diverged and are
+/// left out. Throws InputError if these are more than half.
+Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);
+
+/// How much correlations are drawn towards none: their summed sampling variance over their summed
+/// squares [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 2005]. `z`: an observation a
+/// row, divided by the deviations.
+double correlation_shrinkage(const Eigen::MatrixXd& z);
+
+}  // namespace lilytank
