@@ -40,6 +40,10 @@ Model tank_model() {
   Model model = standard_model();
   model.flow.K_v = 1, model.module.draught = 0.025;
   model.control.latches = false;
+  // The water is extracted with the drag of a sphere: the balls must have it.
+  for (ActiveForce& force : model.forces) {
+    if (force.term->name() == "ball_drag") force.p[0] = BallPhysics{}.drag_coefficient;
+  }
   return model;
 }
 
