@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lilytank/model.hpp"
+#include "lilytank/model_parameter.hpp"
 #include "lilytank/recording.hpp"
 
 namespace lilytank {
@@ -41,9 +42,17 @@ struct RecordingShape {
 /// `starts` are looked for every `interval` seconds, the first frame first.
 RecordingShape shape_of(const Recording& recording, double interval = 1);
 
-/// Paths of the camera's noise, which may be varied beside those of the model.
+/// Paths of the camera, which may be varied beside those of the model.
 inline const std::string kPositionNoise = "camera.position_noise";  ///< m
 inline const std::string kHeadingNoise = "camera.heading_noise";    ///< rad
+inline const std::string kLens = "camera.lens";                     ///< 1/m^2, Camera::lens
+/// rad: the camera leans towards +x and +y, from a height of 1 m; from h m it is h times as much.
+inline const std::string kTiltX = "camera.tilt_x", kTiltY = "camera.tilt_y";
+/// Whether a path is the camera's.
+bool of_camera(const std::string& path);
+/// A number that an emulator can vary: one of the camera's, or model_parameter(). Throws
+/// InputError.
+ModelParameter emulator_parameter(const std::string& path);
 
 struct EmulatorOptions {
   /// Draw the gusts' wrench on a module from its moments instead of point by point: three times
@@ -58,8 +67,8 @@ struct EmulatorOptions {
 /// used by many threads at once.
 class Emulator {
  public:
-  /// `paths`: scenario paths (model_parameter.hpp), kPositionNoise or kHeadingNoise. `model` holds
-  /// everything else; the numbers of its bodies are those of each shape. Throws InputError.
+  /// `paths`: scenario paths (model_parameter.hpp) or the camera's. `model` holds everything else;
+  /// the numbers of its bodies are those of each shape. Throws InputError.
   Emulator(Model model, std::vector<std::string> paths, std::vector<RecordingShape> shapes,
            const EmulatorOptions& options = {});
 

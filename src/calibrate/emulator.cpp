@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lilytank/camera.hpp"
-#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/world.hpp"
 
@@ -17,8 +16,15 @@ struct Emulator::Scene {
 
 namespace {
 
-bool of_camera(const std::string& path) {
-  return path == kPositionNoise || path == kHeadingNoise;
+const std::vector<ModelParameter>& camera_parameters() {
+  static const std::vector<ModelParameter> all{
+      {kPositionNoise, "m", 0, 0.1, "deviation of a position"},
+      {kHeadingNoise, "rad", 0, 1, "deviation of a heading"},
+      {kLens, "1/m^2", -1.5, 1.5, "places are seen at x (1 + lens |x|^2)"},
+      {kTiltX, "rad", -0.3, 0.3, "the camera leans towards +x"},
+      {kTiltY, "rad", -0.3, 0.3, "the camera leans towards +y"},
+  };
+  return all;
 }
 
 // The seed of a camera must differ from that of its world.
@@ -42,6 +48,17 @@ State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
 
 }  // namespace
 
+bool of_camera(const std::string& path) {
+  return path.rfind("camera.", 0) == 0;
+}
+
+ModelParameter emulator_parameter(const std::string& path) {
+  for (const ModelParameter& one : camera_parameters()) {
+    if (one.path == path) return one;
+  }
+  return model_parameter(path);
+}
+
 Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<RecordingShape> shapes,
                    const EmulatorOptions& options)
     : model_(std::move(model)),
@@ -49,7 +66,7 @@ Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<Reco
       shapes_(std::move(shapes)),
       options_(options) {
   for (const std::string& path : paths_) {
-    if (!of_camera(path)) static_cast<void>(model_parameter(path));
+    static_cast<void>(emulator_parameter(path));
   }
   if (options_.moment_matched && model_.flow.gusts == Gusts::per_point &&
       model_.flow.at == FlowAt::points) {
@@ -63,15 +80,24 @@ Emulator::Scene Emulator::scene(std::span<const double> values, const RecordingS
   camera.position_noise = options_.position_noise, camera.heading_noise = options_.heading_noise;
   std::vector<std::string> names;
   std::vector<double> numbers;
+  double tilt_x = 0, tilt_y = 0;
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (paths_[i] == kPositionNoise) {
       camera.position_noise = values[i];
     } else if (paths_[i] == kHeadingNoise) {
       camera.heading_noise = values[i];
+    } else if (paths_[i] == kLens) {
+      camera.lens = values[i];
+    } else if (paths_[i] == kTiltX) {
+      tilt_x = values[i];
+    } else if (paths_[i] == kTiltY) {
+      tilt_y = values[i];
     } else {
       names.push_back(paths_[i]), numbers.push_back(values[i]);
     }
   }
+  camera.tilt = std::hypot(tilt_x, tilt_y);
+  if (camera.tilt > 0) camera.tilt_direction = std::atan2(tilt_y, tilt_x);
   Scene out{with_parameters(model_, names, numbers), camera};
   if (field) out.model.field = field;
   const bool balls = shape.body == BodyKind::ball;

@@ -7,7 +7,7 @@
 
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
-#include "lilytank/model_parameter.hpp"
+#include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {
@@ -21,6 +21,12 @@ constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;  // one over the square of a second order that is expected
+// Of a fingerprint about found amplitudes: experiments, how far from these as a share of them, and
+// one over the square of an error of the slopes that is expected.
+constexpr int kAbout = 10;
+constexpr double kFarOff = 100;   // deviations
+constexpr double kLearned = 1.2;  // sizes
+constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
 
 // The rows of a design of one fold, or all others.
 Design part_of(const Design& design, int fold, bool inside) {
@@ -79,7 +85,7 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
   const Design all =
-      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments),
+      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
                Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
   const auto p = centre.size();
   const Design summaries{all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
@@ -116,15 +122,15 @@ Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* d
           to_vector(score(plan_, recordings, details))};
 }
 
-Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Matrix& amplitudes,
-                       const Effect* effect, std::uint64_t seed) {
+Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Vector& about,
+                       const Matrix& amplitudes, const Effect* effect, std::uint64_t seed) {
   const Matrix points =
-      scattered(centre_, spread_, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
+      scattered(about, spread_, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
     std::vector<double> values = stages_.from_scale(points.row(i));
     for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
       const auto k = static_cast<std::size_t>(c);
-      const ModelParameter of = model_parameter(effect->paths[k]);
+      const ModelParameter of = emulator_parameter(effect->paths[k]);
       values.push_back(
           std::clamp(effect->absent(stages_.setup().model, k) + amplitudes(i, c) * effect->sizes[k],
                      of.low, of.high));
@@ -151,13 +157,24 @@ LocalFit Atlas::calibrated(const Vector& summary) const {
 
 Vector Atlas::residual(const Vectors& vectors) const {
   const LocalFit fit = calibrated(vectors.summary);
-  return (vectors.scores - scores_->mean(fit.point)).cwiseQuotient(deviation_);
+  return limited(vectors.scores - scores_->mean(fit.point));
 }
 
-Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
+// What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
+// ever vary must not outweigh all others.
+Vector Atlas::limited(const Vector& off) const {
+  return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
+}
+
+Vector Fingerprint::moved(const Vector& amplitudes) const {
+  if (local()) return moved_base;
+  // Beyond the sizes it was learned at, calibration soon cannot follow any more.
+  return moved_first * amplitudes * std::min(1.0, kLearned / amplitudes.cwiseAbs().maxCoeff());
+}
+
+Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
+                              const Matrix& amplitudes, std::uint64_t seed) {
   const CalibrationSetup& setup = stages_.setup();
-  const auto m = static_cast<Eigen::Index>(effect.paths.size());
-  const int count = options_.experiments * static_cast<int>(m);
   std::vector<double> absent;
   for (std::size_t c = 0; c < effect.paths.size(); ++c) {
     absent.push_back(effect.absent(setup.model, c));
@@ -166,21 +183,78 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  const Design made = simulate(stage, emulator, amplitudes_of(effect, count, seed), &effect, seed);
-  const Eigen::Index n = made.points.rows(), numbers = deviation_.size();
-  Matrix x(n, 2 * m), y(n, numbers);
+  const Design made = simulate(stage, emulator, about, amplitudes, &effect, seed);
+  const Eigen::Index n = made.points.rows();
+  Answers out{made.points.rightCols(amplitudes.cols()), Matrix(n, deviation_.size()),
+              Matrix(n, about.size())};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = made.points.row(i).tail(m);
-    x.row(i) << a, a.array().square().matrix();
-    y.row(i) = residual({made.numbers.row(i).head(summary_numbers()),
-                         made.numbers.row(i).tail(made.numbers.cols() - summary_numbers())});
+    const Vectors v{made.numbers.row(i).head(summary_numbers()),
+                    made.numbers.row(i).tail(deviation_.size())};
+    const LocalFit fit = calibrated(v.summary);
+    out.residuals.row(i) = limited(v.scores - scores_->mean(fit.point)).transpose();
+    out.moved.row(i) = fit.point.transpose() - made.points.row(i).head(about.size());
   }
+  return out;
+}
+
+Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  const int count = options_.experiments * static_cast<int>(m);
+  const Answers made = answers(effect, stage, centre_, amplitudes_of(effect, count, seed), seed);
+  Matrix x(made.amplitudes.rows(), 2 * m);
+  x << made.amplitudes, made.amplitudes.array().square().matrix();
   // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
   // residuals are.
   Matrix normal = x.transpose() * x;
   for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
-  const Matrix solved = normal.ldlt().solve(x.transpose() * y);
-  return {solved.topRows(m).transpose(), solved.bottomRows(m).transpose()};
+  const auto solver = normal.ldlt();
+  const Matrix seen = solver.solve(x.transpose() * made.residuals);
+  Matrix plain = made.amplitudes.transpose() * made.amplitudes;
+  plain.diagonal().array() += kBend;
+  const Matrix moved = plain.ldlt().solve(made.amplitudes.transpose() * made.moved);
+  Fingerprint out;
+  out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
+  out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
+  out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
+  out.experiments = options_.experiments;
+  return out;
+}
+
+Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
+                                     const Effect& effect, const Vector& calibrated,
+                                     const std::string& stage, std::uint64_t seed) {
+  const Eigen::Index m = amplitudes.size();
+  Matrix tried(kAbout, m);
+  for (int i = 0; i < kAbout; ++i) {
+    for (Eigen::Index c = 0; c < m; ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      tried(i, c) = i % 2 == 0 ? 2 * u - 1 : -tried(i - 1, c);  // pairs opposite each other
+    }
+  }
+  const Vector reach = kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+  const double least = effect.two_sided ? -1e9 : 0;
+  tried = (tried * reach.asDiagonal()).rowwise() + amplitudes.transpose();
+  const FitBounds bounds = stages_.bounds();
+  const Vector point =
+      (calibrated - from.moved(amplitudes)).cwiseMax(bounds.low).cwiseMin(bounds.high);
+  const Answers made = answers(effect, stage, point, tried.cwiseMax(least), seed);
+  // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
+  const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
+  const Matrix secant =
+      from.first + from.second * (amplitudes - from.about).asDiagonal().toDenseMatrix();
+  Matrix x(off.rows(), 1 + m);
+  x << Vector::Ones(off.rows()), off;
+  Matrix normal = x.transpose() * x;
+  for (Eigen::Index c = 0; c < m; ++c) normal(1 + c, 1 + c) += kSlopeKnown;
+  const Matrix solved =
+      normal.ldlt().solve(x.transpose() * (made.residuals - off * secant.transpose()));
+  Fingerprint out = from;
+  out.about = amplitudes, out.base = solved.row(0).transpose();
+  out.first = secant + solved.bottomRows(m).transpose();
+  out.second = Matrix::Zero(out.first.rows(), m);
+  out.moved_base = made.moved.colwise().mean().transpose();
+  out.experiments = static_cast<int>(off.rows());
+  return out;
 }
 
 }  // namespace lilytank

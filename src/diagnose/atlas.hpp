@@ -25,12 +25,18 @@ struct AtlasOptions {
   std::uint64_t seed = 1;
 };
 
-/// Residuals' answer to an effect's amplitudes, in units of its sizes: first and second order.
+/// Residuals' answer to an effect's amplitudes, in units of its sizes: base + first d + second d^2,
+/// d = amplitudes - about. About 0 the base is nothing.
 struct Fingerprint {
+  Eigen::VectorXd about;          ///< [amplitude]
+  Eigen::VectorXd base;           ///< [number]
   Eigen::MatrixXd first, second;  ///< [number, amplitude]
-  Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const {
-    return first * amplitudes + second * amplitudes.array().square().matrix();
-  }
+  /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
+  Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
+  Eigen::VectorXd moved_base;   ///< [parameter]
+  int experiments = 0;          ///< that it rests on, for each amplitude
+  bool local() const { return about.cwiseAbs().maxCoeff() > 0; }
+  Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };
 
 /// An experiment's vector, its two parts.
@@ -58,14 +64,26 @@ class Atlas {
   const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
   /// The fingerprint of an effect that is not in the plan's list.
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
+  /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
+  /// at the parameters at which calibration then finds `calibrated` in spite of the effect.
+  Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
+                                const Effect& effect, const Eigen::VectorXd& calibrated,
+                                const std::string& stage, std::uint64_t seed);
   const LocalModel& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
  private:
-  /// Experiments about the centre: parameters and amplitudes, summaries and scores, a row each.
-  Design simulate(const std::string& stage, const Emulator& emulator,
+  /// Experiments about a point: parameters and amplitudes, summaries and scores, a row each.
+  Design simulate(const std::string& stage, const Emulator& emulator, const Eigen::VectorXd& about,
                   const Eigen::MatrixXd& amplitudes, const Effect* effect, std::uint64_t seed);
+  /// Experiments with an effect, calibrated without it.
+  struct Answers {
+    Eigen::MatrixXd amplitudes, residuals, moved;  ///< a row each
+  };
+  Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
+                  const Eigen::MatrixXd& amplitudes, std::uint64_t seed);
   Eigen::Index summary_numbers() const;
+  Eigen::VectorXd limited(const Eigen::VectorXd& off) const;  ///< in deviations
   Stages& stages_;
   const FlowMaps& maps_;
   ScorePlan plan_;

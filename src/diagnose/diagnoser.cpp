@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "calibrate/design.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
+#include "text/fnv.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -16,6 +18,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostCentres = 4;
+constexpr double kStrong = 10;  // z above which fingerprints must be sharper than they are
+constexpr double kLeastAmplitude = 0.2, kRival = 0.5;
+constexpr int kRivals = 3, kMostSharpened = 6;
 constexpr double kStays = 1.5;                               // deviations of the points
 constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
 
@@ -32,6 +37,13 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;
+}
+
+std::uint64_t fnv_of(const Vector& numbers) {
+  Fnv hash;
+  hash.add({reinterpret_cast<const char*>(numbers.data()),
+            static_cast<std::size_t>(numbers.size()) * sizeof(double)});
+  return hash.value();
 }
 
 }  // namespace
@@ -79,7 +91,7 @@ Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out
 Judged Diagnoser::judge(Judged j, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
   Naming naming = *naming_;
-  j.explanation = explained(naming, residual);
+  j.explanation = sharpened(naming, explained(naming, residual), j, residual);
   tell_ranking(naming, residual, j.explanation, out);
   tell_detectable(naming, out);
   tell_findings(naming, residual, j.explanation, out);
@@ -151,13 +163,61 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
   if (e.left_shape.z > std::max(naming.shape_threshold(), 0.15 * largest)) {
     if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
   }
-  for (const int s : asked) {
-    naming.add_shape(
-        s, atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
-                               "shape " + std::to_string(s),
-                               derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s))));
-  }
+  for (const int s : asked) naming.add_shape(s, shape_fingerprint(s));
   return asked.empty() ? e : naming.explain(residual);
+}
+
+// Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
+// experiments of its own strength. First those that might be it, then whatever leads.
+Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
+                                 const Vector& residual) {
+  const Vector calibrated = atlas_->calibrated(judged.observed.summary).point;
+  const std::string tag = hex(fnv_of(residual));
+  std::map<std::pair<int, int>, Fingerprint> known;
+  std::uint64_t asked = 0;
+  const auto sharpen = [&](const EffectFit& f) {
+    const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
+    const ScorePlan& plan = atlas_->plan();
+    const Effect effect = f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]);
+    const auto before = known.find({f.effect, f.shape});
+    const Fingerprint from = before != known.end() ? before->second
+                             : f.effect >= 0       ? atlas_->fingerprints()[id]
+                                                   : shape_fingerprint(f.shape);
+    const std::string stage = "sharp " + tag + " " + std::to_string(asked) +
+                              (f.effect >= 0 ? " effect " : " shape ") + std::to_string(id);
+    const Fingerprint to = atlas_->fingerprint_about(f.amplitudes, from, effect, calibrated, stage,
+                                                     derived_seed(options_.seed, 900 + asked++));
+    known[{f.effect, f.shape}] = to;
+    naming.sharpen(f, to);
+  };
+  if (e.found.empty() || e.found[0].z < kStrong) return e;
+  const auto blunt = [&](const EffectFit& f) {
+    const bool told = known.count({f.effect, f.shape}) > 0;
+    return f.amplitudes.norm() > kLeastAmplitude && (!told || (f.at_reach && f.effect >= 0));
+  };
+  for (const EffectFit& f : naming.leading(residual, kRivals)) {
+    if (blunt(f)) sharpen(f);
+  }
+  for (int more = 0; more < kMostSharpened; ++more) {
+    e = naming.explain(residual);
+    std::vector<EffectFit> next = naming.leading(residual, kRivals);
+    next.erase(std::remove_if(next.begin() + 1, next.end(),
+                              [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
+               next.end());
+    for (const EffectFit& f : e.found) {
+      if (f.z >= kStrong) next.push_back(f);
+    }
+    const auto first = std::find_if(next.begin(), next.end(), blunt);
+    if (first == next.end()) break;
+    sharpen(*first);
+  }
+  return naming.explain(residual);
+}
+
+Fingerprint Diagnoser::shape_fingerprint(int s) {
+  return atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
+                             "shape " + std::to_string(s),
+                             derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s)));
 }
 
 }  // namespace lilytank

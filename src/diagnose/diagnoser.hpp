@@ -58,6 +58,9 @@ class Diagnoser {
                    const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
   Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
+  Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
+                        const Eigen::VectorXd& residual);
+  Fingerprint shape_fingerprint(int shape);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
@@ -66,6 +69,7 @@ class Diagnoser {
   void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
   void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                      Diagnosis& out) const;
+  void blame_camera(const Explanation& e, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
                        Diagnosis& out) const;
   void show(const JointFit& fit, const std::vector<double>& before, Diagnosis& out);

@@ -32,6 +32,7 @@ constexpr const char* kLogLatches = "latches off, or their times logged";
 constexpr const char* kLonely = "a recording of one module alone";
 constexpr const char* kOtherBody = "a recording of bodies of another shape or mass";
 constexpr const char* kTurned = "a recording with the camera turned by half a turn";
+constexpr const char* kGrid = "a picture of a square grid on the water";
 constexpr const char* kPumps = "a recording at another pump power";
 
 void add_pairs(std::vector<Effect>& all) {
@@ -155,7 +156,24 @@ void add_noise(std::vector<Effect>& all) {
   all.push_back(kicks);
 }
 
+// What the camera does to places. No force stands behind it.
+void add_camera(std::vector<Effect>& all) {
+  Effect lens;
+  lens.name = "lens_distortion", lens.paths = {kLens}, lens.sizes = {0.15};
+  lens.units = {"1/m^2"}, lens.two_sided = true, lens.scored = false;
+  lens.variable = "radius", lens.split = kGrid;
+  all.push_back(lens);
+  Effect tilt = lens;
+  tilt.name = "camera_tilt", tilt.paths = {kTiltX, kTiltY}, tilt.sizes = {0.03, 0.03};
+  tilt.units = {"rad", "rad"}, tilt.variable = "position";
+  all.push_back(tilt);
+}
+
 }  // namespace
+
+bool Effect::camera() const {
+  return !paths.empty() && of_camera(paths.front());
+}
 
 double Effect::absent(const Model& model, std::size_t component) const {
   return name == "contact_law" ? parameter_value(model, paths[component]) : 0;
@@ -164,6 +182,7 @@ double Effect::absent(const Model& model, std::size_t component) const {
 std::vector<Effect> effect_catalogue(const Model& model) {
   std::vector<Effect> all;
   add_pairs(all), add_walls(all), add_water(all, model), add_modules(all), add_noise(all);
+  add_camera(all);
   Effect contact;
   contact.name = "contact_law", contact.paths = {"contact.friction", "contact.restitution"};
   contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
@@ -174,6 +193,7 @@ std::vector<Effect> effect_catalogue(const Model& model) {
 }
 
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes) {
+  if (effect.camera()) return model;
   std::vector<double> values = amplitudes;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const ModelParameter of = model_parameter(effect.paths[i]);

@@ -7,6 +7,7 @@
 
 #include "forces/empirical_force.hpp"
 #include "lilytank/calibration.hpp"
+#include "lilytank/emulator.hpp"
 #include "lilytank/model.hpp"
 
 namespace lilytank {
@@ -26,6 +27,8 @@ struct Effect {
   /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
   std::string split;
   bool scored = true;  ///< the term gives a force to be compared with innovations
+  /// It is the camera's doing, not the tank's.
+  bool camera() const;
   /// Value of an amplitude at which the effect is absent.
   double absent(const Model& model, std::size_t component) const;
 };
@@ -33,7 +36,7 @@ struct Effect {
 /// Every effect that a simulation can have. `model` gives sizes of tank and module.
 std::vector<Effect> effect_catalogue(const Model& model);
 
-/// The model with an effect at `amplitudes` (one a path).
+/// The model with an effect at `amplitudes` (one a path); as it is if the effect is the camera's.
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes);
 
 /// Shapes that are looked for without a name: a variable and a direction.

@@ -129,7 +129,29 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
     out.findings.push_back(std::move(f));
   }
   out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
+  blame_camera(e, out);
   if (e.found.empty() && e.strongest > naming.shape_threshold()) out.verdict = Verdict::undecided;
+}
+
+// Where the camera is at fault, what else was found may be its shadow: forces are not told.
+void Diagnoser::blame_camera(const Explanation& e, Diagnosis& out) const {
+  std::vector<DiagnosisFinding> faults;
+  for (std::size_t i = 0; i < e.found.size(); ++i) {
+    if (e.found[i].effect < 0) continue;
+    const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(e.found[i].effect)];
+    if (!effect.camera()) continue;
+    DiagnosisFinding f = out.findings[i];
+    for (std::size_t c = 0; c < effect.paths.size(); ++c) {
+      const double value = e.found[i].amplitudes(static_cast<Eigen::Index>(c)) * effect.sizes[c];
+      f.parameters.push_back({effect.paths[c].substr(effect.paths[c].rfind('.') + 1),
+                              effect.paths[c], value, value, value, effect.units[c]});
+    }
+    f.equation = effect.name == "camera_tilt" ? "the camera's axis leans; from 1 m above the water"
+                                              : "places are seen at x (1 + lens |x|^2)";
+    faults.push_back(std::move(f));
+  }
+  if (faults.empty()) return;
+  out.verdict = Verdict::measurement, out.findings = std::move(faults);
 }
 
 }  // namespace lilytank

@@ -28,7 +28,7 @@ void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
                               std::sqrt(covariance(k, k)), before[i], before[i], before[i]});
   }
-  if (e.found.empty()) return;
+  if (out.verdict != Verdict::missing) return;
   std::vector<Effect> effects;
   std::vector<Vector> amplitudes;
   for (const EffectFit& f : e.found) {
@@ -120,7 +120,7 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, Dia
   std::vector<std::string> told;
   std::vector<double> values;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (paths[i] == kPositionNoise || paths[i] == kHeadingNoise) continue;
+    if (of_camera(paths[i])) continue;
     told.push_back(paths[i]), values.push_back(fit.value[i]);
   }
   const Model after = with_parameters(fit.model, told, values);

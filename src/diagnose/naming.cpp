@@ -22,6 +22,8 @@ constexpr double kInexact = 0.12;  // share of what was found that a remainder m
                                    // are known to some per cent only
 constexpr double kPrice = 4;       // of an amplitude, in squared distance
 constexpr double kMostSize = 6;    // sizes beyond which a fingerprint is no guide
+// How far from its own amplitudes a fingerprint about found ones holds.
+constexpr double kNear = 0.5, kNearLeast = 0.4;
 constexpr double kEulerGamma = 0.57721566490153286;
 
 // The covariance's inverse root, correlations shrunk towards none [Schaefer and Strimmer 2005].
@@ -78,16 +80,21 @@ Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
 Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape,
                             bool two_sided) const {
   Known out;
-  out.effect = effect, out.shape = shape, out.two_sided = two_sided;
-  // A residual has deviation one, amplitudes a mean square of some 0.7.
-  const double error = 1 / std::sqrt(0.7 * std::max(1, atlas_.experiments()));
+  out.effect = effect, out.shape = shape;
+  // A residual has deviation one, amplitudes a mean square of some 0.7; those about found ones are
+  // known with a slope as well, and their base is a mean.
+  const bool local = fingerprint.local();
+  const auto n = static_cast<double>(std::max(1, fingerprint.experiments));
   const auto kept = [&](const Matrix& of, double e) {
     return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
   };
-  const Matrix first = kept(fingerprint.first, error), second = kept(fingerprint.second, error);
+  const double error = local ? 0 : 1 / std::sqrt(0.7 * n);
+  out.all = {fingerprint.about, whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
+             whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
+             two_sided};
   const Eigen::Index named = atlas_.named_numbers();
-  out.all_first = whitened(first), out.all_second = whitened(second);
-  out.first = out.all_first.topRows(named), out.second = out.all_second.topRows(named);
+  out.named = {fingerprint.about, out.all.base.head(named), out.all.first.topRows(named),
+               out.all.second.topRows(named), two_sided};
   return out;
 }
 
@@ -111,47 +118,53 @@ double Naming::z_of(double gain, double scale, Eigen::Index freedom) const {
   return (std::cbrt(g / m) - (1 - part)) / std::sqrt(part);
 }
 
-namespace {
+Vector Naming::Answer::at(const Vector& amplitudes) const {
+  const Vector d = amplitudes - about;
+  return base + first * d + second * d.array().square().matrix();
+}
 
-// Gauss and Newton on the amplitudes; those that cannot be negative stop at nothing.
-EffectFit fitted(const Matrix& first, const Matrix& second, bool two_sided, const Vector& data) {
+// Gauss and Newton on the amplitudes; those that cannot be negative stop at nothing, those about
+// found ones stay near them.
+EffectFit Naming::Answer::fit(const Vector& data) const {
   const Eigen::Index m = first.cols();
+  const bool local = about.cwiseAbs().maxCoeff() > 0;
+  const Vector reach = local ? Vector((kNear * about.cwiseAbs()).array() + kNearLeast)
+                             : Vector(Vector::Constant(m, kMostSize));
+  const Vector most = about + reach;
+  const Vector least = (about - reach).cwiseMax(two_sided ? -1e9 : 0.0);
   EffectFit out;
   out.amplitudes = Vector::Zero(m);
-  const auto left = [&](const Vector& a) {
-    return Vector(data - first * a - second * a.array().square().matrix());
-  };
   const double before = data.squaredNorm();
   double best = before;
   for (const double sign : {1.0, -1.0}) {
-    if (sign < 0 && !two_sided) break;
-    Vector a = Vector::Constant(m, m == 1 ? 0.3 * sign : 0.0);
+    if (sign < 0 && (!two_sided || local || m > 1)) break;
+    Vector a = about;
+    if (!local && m == 1) a(0) = 0.3 * sign;
     for (int step = 0; step < 12; ++step) {
-      const Matrix slope = first + 2 * second * a.asDiagonal();
+      const Matrix slope = first + 2 * second * (a - about).asDiagonal();
       Matrix normal = slope.transpose() * slope;
       normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-      a += normal.ldlt().solve(slope.transpose() * left(a));
-      a = a.cwiseMax(two_sided ? -kMostSize : 0.0).cwiseMin(kMostSize);
+      a += normal.ldlt().solve(slope.transpose() * (data - at(a)));
+      a = a.cwiseMax(least).cwiseMin(most);
     }
-    const double distance = left(a).squaredNorm();
-    if (distance < best) best = distance, out.amplitudes = a;
-    if (m > 1) break;
+    const double distance = (data - at(a)).squaredNorm();
+    if (distance >= best) continue;
+    best = distance, out.amplitudes = a;
+    out.at_reach = ((a - about).cwiseAbs().array() >= (1 - 1e-9) * reach.array()).any();
   }
   out.gain = before - best;
   return out;
 }
 
-}  // namespace
-
 EffectFit Naming::fit(const Known& of, const Vector& data) const {
-  EffectFit out = fitted(of.first, of.second, of.two_sided, data);
+  EffectFit out = of.named.fit(data);
   out.effect = of.effect, out.shape = of.shape;
-  out.z = z_of(out.gain, of.scale, of.first.cols());
+  out.z = z_of(out.gain, of.scale, of.named.first.cols());
   return out;
 }
 
 EffectFit Naming::fit_all(const Known& of, const Vector& all) const {
-  EffectFit out = fitted(of.all_first, of.all_second, of.two_sided, all);
+  EffectFit out = of.all.fit(all);
   out.effect = of.effect, out.shape = of.shape;
   return out;
 }
@@ -181,7 +194,10 @@ void Naming::calibrate(double false_alarms) {
     const Matrix fold_whitener = whitener_of(others.leftCols(named));
     const Matrix change = fold_whitener * whitener.inverse();
     std::vector<Known> known = known_;
-    for (Known& k : known) k.first = change * k.first, k.second = change * k.second, k.scale = 1;
+    for (Known& k : known) {
+      k.named.first = change * k.named.first, k.named.second = change * k.named.second;
+      k.scale = 1;
+    }
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const Vector off = nulls.row(i).transpose() - centre_;
       const Vector whitened = fold_whitener * off.head(named);
@@ -198,9 +214,9 @@ void Naming::calibrate(double false_alarms) {
   for (std::size_t k = 0; k < known_.size(); ++k) {
     double mean = 0;
     for (const auto& of : effects) mean += of[k].gain / all;
-    const auto m = static_cast<double>(known_[k].first.cols());
+    const auto m = static_cast<double>(known_[k].named.first.cols());
     // Of what cannot be negative half of the nulls gain nothing.
-    known_[k].scale = std::max(0.5, mean / (known_[k].two_sided ? m : 0.5 * m));
+    known_[k].scale = std::max(0.5, mean / (known_[k].named.two_sided ? m : 0.5 * m));
   }
   for (std::size_t s = 0; s < shape_scale_.size(); ++s) {
     double mean = 0;
@@ -211,7 +227,7 @@ void Naming::calibrate(double false_alarms) {
   for (std::size_t i = 0; i < effects.size(); ++i) {
     double e = 0, s = 0;
     for (std::size_t k = 0; k < known_.size(); ++k) {
-      e = std::max(e, z_of(effects[i][k].gain, known_[k].scale, known_[k].first.cols()));
+      e = std::max(e, z_of(effects[i][k].gain, known_[k].scale, known_[k].named.first.cols()));
     }
     for (std::size_t k = 0; k < shape_scale_.size(); ++k) {
       s = std::max(s, z_of(shapes[i][k].gain, shape_scale_[k], kKnots));
@@ -244,6 +260,25 @@ std::vector<EffectFit> Naming::shapes(const Vector& residual) const {
 
 void Naming::add_shape(int shape, const Fingerprint& fingerprint) {
   known_.push_back(known(fingerprint, -1, shape, true));
+}
+
+void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
+  for (Known& k : known_) {
+    if (k.effect != fit.effect || k.shape != fit.shape) continue;
+    const double scale = k.scale;
+    k = known(fingerprint, k.effect, k.shape, k.named.two_sided);
+    k.scale = scale;
+  }
+}
+
+std::vector<EffectFit> Naming::leading(const Vector& residual, int count) const {
+  const Vector all = whitened(residual - centre_);
+  std::vector<EffectFit> out;
+  for (const Known& k : known_) out.push_back(fit_all(k, all));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
+  out.resize(std::min(out.size(), static_cast<std::size_t>(count)));
+  return out;
 }
 
 EffectFit Naming::strongest_shape(const Vector& all) const {
@@ -292,8 +327,7 @@ Explanation Naming::explain(const Vector& residual) const {
     if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
     if (k == known_.size() || round == kMostEffects) break;
     const Known& of = known_[k];
-    all -= of.all_first * chosen.amplitudes +
-           of.all_second * chosen.amplitudes.array().square().matrix();
+    all -= of.all.at(chosen.amplitudes);
     explained = std::max(explained, chosen.z);
     out.found.push_back(chosen);
   }
@@ -304,10 +338,11 @@ double Naming::smallest_seen(int effect) const {
   for (const Known& k : known_) {
     if (k.effect != effect) continue;
     double seen = 0;
-    for (Eigen::Index c = 0; c < k.first.cols(); ++c) {
+    const Answer& of = k.named;
+    for (Eigen::Index c = 0; c < of.first.cols(); ++c) {
       for (const double sign : {1.0, -1.0}) {
-        if (sign < 0 && !k.two_sided) continue;
-        const double z = (sign * k.first.col(c) + k.second.col(c)).norm() / std::sqrt(k.scale);
+        if (sign < 0 && !of.two_sided) continue;
+        const double z = (sign * of.first.col(c) + of.second.col(c)).norm() / std::sqrt(k.scale);
         seen = std::max(seen, z);
       }
     }

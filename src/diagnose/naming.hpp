@@ -14,6 +14,7 @@ struct EffectFit {
   int shape = -1;              ///< index into the plan's shapes
   Eigen::VectorXd amplitudes;  ///< in units of the effect's sizes
   double gain = 0;             ///< fall of the squared distance
+  bool at_reach = false;       ///< as far as its fingerprint holds: the truth may be beyond
   double z = 0;                ///< deviations of a normal number with the same probability
 };
 
@@ -35,6 +36,10 @@ class Naming {
   std::vector<EffectFit> shapes(const Eigen::VectorXd& residual) const;
   /// Adds the fingerprint of a shape, so that it competes with the named effects.
   void add_shape(int shape, const Fingerprint& fingerprint);
+  /// The effects, and shapes that were added, that leave least, each alone; at most `count`.
+  std::vector<EffectFit> leading(const Eigen::VectorXd& residual, int count) const;
+  /// Replaces a fingerprint by one about the amplitudes that were found.
+  void sharpen(const EffectFit& fit, const Fingerprint& fingerprint);
   /// Forward selection of effects, and of shapes that were added, until nothing is left.
   Explanation explain(const Eigen::VectorXd& residual) const;
   double effect_threshold() const { return effect_threshold_; }
@@ -44,13 +49,20 @@ class Naming {
   double smallest_seen(int effect) const;
 
  private:
+  /// A whitened fingerprint.
+  struct Answer {
+    Eigen::VectorXd about, base;
+    Eigen::MatrixXd first, second;
+    bool two_sided = false;
+    Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
+    EffectFit fit(const Eigen::VectorXd& data) const;
+  };
   struct Known {
     int effect = -1, shape = -1;
-    bool two_sided = false;
-    Eigen::MatrixXd first, second;  ///< whitened, named numbers
+    Answer named;  ///< of named numbers
     /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
     /// probability, as shapes overlap, but for which of two candidates leaves less.
-    Eigen::MatrixXd all_first, all_second;
+    Answer all;
     double scale = 1;  ///< mean gain of nulls by its degrees of freedom
   };
   Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;

@@ -122,18 +122,18 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
         std::clamp(s.factors[k] * parameter_value(model, five[k].path), five[k].low, five[k].high));
   }
   model = with_parameters(model, paths, values);
-  if (!s.effect.paths.empty()) {
-    std::vector<double> amplitudes;
-    for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
-      amplitudes.push_back(s.effect.absent(model, c) + s.key.amplitudes[c] * s.effect.sizes[c]);
-    }
-    model = with_effect(model, s.effect, amplitudes);
+  std::vector<double> amplitudes;
+  for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
+    amplitudes.push_back(s.effect.absent(model, c) + s.key.amplitudes[c] * s.effect.sizes[c]);
   }
+  if (!amplitudes.empty()) model = with_effect(model, s.effect, amplitudes);
+  if (!s.effect.camera()) amplitudes.clear();
   std::vector<RecordingShape> shapes(
       kRecordings, shape_named("sealed", BodyKind::lily, model.module.count, seconds));
   EmulatorOptions options;
   options.moment_matched = false;
-  return Emulator(model, {}, shapes, options).record({}, seed);
+  const auto varied = amplitudes.empty() ? std::vector<std::string>{} : s.effect.paths;
+  return Emulator(model, varied, shapes, options).record(amplitudes, seed);
 }
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
@@ -190,14 +190,6 @@ double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
 
 }  // namespace
 
-bool ProofWorld::right() const {
-  if (kind == "null") return verdict == Verdict::complete;
-  if (verdict != Verdict::missing) return false;
-  if (kind == "unnamed") return said == "unnamed" && variable == effect;
-  return said == effect ||
-         std::find(alternatives.begin(), alternatives.end(), effect) != alternatives.end();
-}
-
 std::optional<Proof> prove(const ProofOptions& options) try {
   const Experiment open = open_tank(options);
   const std::uint64_t seed = derived_seed(options.diagnosis.seed, kKeySeed);
@@ -246,60 +238,6 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   return out;
 } catch (const Stopped&) {
   return std::nullopt;
-}
-
-std::string proof_text(const Proof& proof) {
-  struct Rate {
-    int right = 0, wrong_name = 0, silent = 0, all = 0;
-  };
-  std::map<std::string, Rate> rates;
-  std::map<std::pair<std::string, std::string>, int> taken;
-  for (const ProofWorld& w : proof.worlds) {
-    std::vector<std::string> groups{w.kind};
-    if (w.kind == "named") {
-      groups.push_back(w.expected_z >= 10  ? "named, z >= 10"
-                       : w.expected_z >= 5 ? "named, 5 <= z < 10"
-                                           : "named, z < 5");
-    }
-    for (const std::string& g : groups) {
-      Rate& r = rates[g];
-      r.all += 1, r.right += w.right() ? 1 : 0;
-      r.silent += w.verdict == Verdict::complete && w.kind != "null" ? 1 : 0;
-      r.wrong_name += !w.right() && w.verdict == Verdict::missing && w.said != "unnamed" ? 1 : 0;
-    }
-    const std::string said = w.verdict == Verdict::missing ? w.said : name_of(w.verdict);
-    taken[{w.kind == "null"      ? "(nothing)"
-           : w.kind == "unnamed" ? "odd " + w.effect
-                                 : w.effect,
-           said}] += 1;
-  }
-  std::string out = "proof on " + std::to_string(proof.worlds.size()) +
-                    " sealed experiments, key " + proof.hash + "\n\n";
-  TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
-  for (const auto& [name, r] : rates) {
-    const Estimate e = wilson(r.right, r.all);
-    table.add({name, std::to_string(r.all), std::to_string(r.right), fixed(100 * e.low, 1) + " %",
-               fixed(100 * e.high, 1) + " %", std::to_string(r.wrong_name),
-               std::to_string(r.silent)});
-  }
-  out += table.text() + "\nwhat was taken for what\n";
-  TextTable confusion({"key", "said", "times"});
-  for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text();
-}
-
-std::string proof_csv(const Proof& proof) {
-  std::string out = "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,right\n";
-  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
-    const ProofWorld& w = proof.worlds[i];
-    out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
-           name_of(w.verdict) + "," + w.said + "," + w.variable + "," + shortest(w.z) + ",";
-    for (std::size_t k = 0; k < w.alternatives.size(); ++k) {
-      out += (k > 0 ? " " : "") + w.alternatives[k];
-    }
-    out += w.right() ? ",1\n" : ",0\n";
-  }
-  return out;
 }
 
 }  // namespace lilytank
