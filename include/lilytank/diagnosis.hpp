@@ -87,6 +87,7 @@ struct Diagnosis {
   std::vector<Detectable> detectable;
   std::vector<MovedParameter> parameters;
   std::vector<GroupFit> held_out;
+  double removed() const;  ///< of all groups' mismatch beyond chance, the share that is removed
   double msd_before = 0, msd_after = 0, msd_floor = 0;  ///< m^2, Eq. 9 of held-out recordings
   double msd_removed = 0, msd_low = 0, msd_high = 0;
   std::vector<FoundCurve> maps;  ///< every shape's curve of what the baseline leaves

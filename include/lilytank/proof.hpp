@@ -11,8 +11,10 @@ namespace lilytank {
 
 struct ProofOptions {
   int worlds = 100;
-  double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
-  bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
+  double minutes = 4;       ///< of a recording; an experiment has three, and three of balls
+  bool known_flow = false;  ///< no balls: the diagnosis is given the true flow
+  int modelled =
+      10;  ///< worlds with a named effect whose model is fitted and shown as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the fingerprint of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
@@ -29,6 +31,10 @@ struct ProofWorld {
   std::vector<std::string> alternatives;  ///< told with it
   std::string variable;                   ///< of the finding
   double z = 0;
+  /// Of those that were modelled: how many 95 % intervals there were, how many hold the truth, and
+  /// the share of the mismatch that the model removes on recordings that had no part in it.
+  int intervals = 0, covered = 0;
+  double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
   /// null: complete; named: the name among the finding's; unnamed: so called, right variable.
   bool right() const;
 };

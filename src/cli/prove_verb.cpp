@@ -18,6 +18,7 @@ int prove_verb(const Arguments& arguments) {
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
+      "modelled", "worlds whose effect is also fitted and shown (10)", text(), "N")(
       "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
       "seed", "of everything that is drawn (1)", text(), "N")(
       "out", "directory of the results (out/proof)", text(), "DIR")(
@@ -28,6 +29,7 @@ int prove_verb(const Arguments& arguments) {
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
+  job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));
   job.known_flow = options.has("known-flow");
   job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
   job.diagnosis.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));

@@ -90,6 +90,7 @@ Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out
 
 Judged Diagnoser::judge(Judged j, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
+  j.tag = hex(fnv_of(j.observed.scores));
   Naming naming = *naming_;
   j.explanation = sharpened(naming, explained(naming, residual), j, residual);
   tell_ranking(naming, residual, j.explanation, out);
@@ -102,7 +103,7 @@ void Diagnoser::run(Diagnosis& out) {
   prepare();
   out.flow_csv = setup_.corrected_csv(*maps_->best());
   const Judged judged = judge(setup_.training, out);
-  model_and_show(judged, out);
+  model_and_show(judged, setup_.held_out.empty() ? setup_.training : setup_.held_out, out);
 }
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
@@ -172,7 +173,6 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
 Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
                                  const Vector& residual) {
   const Vector calibrated = atlas_->calibrated(judged.observed.summary).point;
-  const std::string tag = hex(fnv_of(residual));
   std::map<std::pair<int, int>, Fingerprint> known;
   std::uint64_t asked = 0;
   const auto sharpen = [&](const EffectFit& f) {
@@ -183,7 +183,7 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     const Fingerprint from = before != known.end() ? before->second
                              : f.effect >= 0       ? atlas_->fingerprints()[id]
                                                    : shape_fingerprint(f.shape);
-    const std::string stage = "sharp " + tag + " " + std::to_string(asked) +
+    const std::string stage = "sharp " + judged.tag + " " + std::to_string(asked) +
                               (f.effect >= 0 ? " effect " : " shape ") + std::to_string(id);
     const Fingerprint to = atlas_->fingerprint_about(f.amplitudes, from, effect, calibrated, stage,
                                                      derived_seed(options_.seed, 900 + asked++));

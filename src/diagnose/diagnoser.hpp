@@ -23,6 +23,7 @@ struct Judged {
   Vectors observed;
   ScoreDetails details;
   Explanation explanation;
+  std::string tag;  ///< for the names of what is kept of these recordings
 };
 
 class Diagnoser {
@@ -36,8 +37,8 @@ class Diagnoser {
   Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);
   /// The same of a vector that is known already.
   Judged judge(Judged measured, Diagnosis& out);
-  /// Fits what was found and shows it on the held-out recordings.
-  void model_and_show(const Judged& judged, Diagnosis& out);
+  /// Fits what was found and shows it on recordings that had no part in it.
+  void model_and_show(const Judged& judged, const std::vector<Recording>& held_out, Diagnosis& out);
   /// All of it.
   void run(Diagnosis& out);
 
@@ -72,7 +73,8 @@ class Diagnoser {
   void blame_camera(const Explanation& e, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
                        Diagnosis& out) const;
-  void show(const JointFit& fit, const std::vector<double>& before, Diagnosis& out);
+  void show(const JointFit& fit, const std::vector<double>& before,
+            const std::vector<Recording>& recordings, Diagnosis& out);
 
   DiagnosisOptions options_;
   DiagnosisBudget budget_;

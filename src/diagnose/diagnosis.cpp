@@ -51,6 +51,14 @@ double GroupFit::removed() const {
   return before > 1 ? std::clamp(1 - std::max(0.0, after - 1) / (before - 1), -1.0, 1.0) : 0;
 }
 
+double Diagnosis::removed() const {
+  double before = 0, after = 0;
+  for (const GroupFit& g : held_out) {
+    before += std::max(0.0, g.before - 1), after += std::max(0.0, g.after - 1);
+  }
+  return before > 0 ? 1 - after / before : 0;
+}
+
 std::string name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::complete:

@@ -105,7 +105,7 @@ void begin(const Stages& stages, const std::vector<Effect>& effects,
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      const std::vector<Effect>& effects, const std::vector<Vector>& amplitudes,
                      const Vectors& observed, const Matrix& spread, int round, int replicates,
-                     std::uint64_t seed) {
+                     const std::string& tag, std::uint64_t seed) {
   JointFit fit;
   Vector centre;
   Matrix width;
@@ -125,7 +125,8 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
   for (int k = 1; k <= kMostRounds && !fit.settled; ++k) {
     const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
     const Matrix points = scattered(centre, width, round, bounds, own);
-    model.emplace(design_of(points, joint.simulate("joint " + std::to_string(k), points, own)));
+    model.emplace(
+        design_of(points, joint.simulate("joint " + tag + " " + std::to_string(k), points, own)));
     FitBounds near = bounds;
     near.reach = 2.5;
     answer = model->fit(data, near);
@@ -134,7 +135,7 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     if (!fit.settled) centre = answer.point;
   }
   const Matrix points = answer.point.transpose().replicate(replicates, 1);
-  const auto rows = joint.simulate("joint replicates", points, derived_seed(seed, 99));
+  const auto rows = joint.simulate("joint " + tag + " replicates", points, derived_seed(seed, 99));
   std::vector<Vector> estimates;
   FitBounds free;
   free.reach = 5;

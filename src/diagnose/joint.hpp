@@ -19,9 +19,11 @@ struct JointFit {
 
 /// `amplitudes`: the naming's, in units of each effect's sizes. `round`: simulations of a round;
 /// `replicates`: for the intervals.
+/// `tag`: for the names of what is kept.
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      const std::vector<Effect>& effects,
                      const std::vector<Eigen::VectorXd>& amplitudes, const Vectors& observed,
-                     const Eigen::MatrixXd& spread, int round, int replicates, std::uint64_t seed);
+                     const Eigen::MatrixXd& spread, int round, int replicates,
+                     const std::string& tag, std::uint64_t seed);
 
 }  // namespace lilytank

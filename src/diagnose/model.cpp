@@ -16,7 +16,8 @@ using Vector = Eigen::VectorXd;
 
 }  // namespace
 
-void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
+void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
+                               Diagnosis& out) {
   const Explanation& e = judged.explanation;
   const Vectors& observed = judged.observed;
   const ScoreDetails& details = judged.details;
@@ -46,12 +47,12 @@ void Diagnoser::model_and_show(const Judged& judged, Diagnosis& out) {
   }
   const JointFit fit =
       fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_, budget_.round,
-                  budget_.replicates, derived_seed(options_.seed, 700));
+                  budget_.replicates, judged.tag, derived_seed(options_.seed, 700));
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
   tell_parameters(fit, effects, out);
-  show(fit, before, out);
+  show(fit, before, held_out, out);
 }
 
 void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
@@ -104,10 +105,10 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<Effect>& 
   out.overlay = text;
 }
 
-void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, Diagnosis& out) {
-  const bool held = !setup_.held_out.empty();
-  const auto& recordings = held ? setup_.held_out : setup_.training;
-  const auto& shapes = held ? setup_.held_out_shapes : setup_.shapes;
+void Diagnoser::show(const JointFit& fit, const std::vector<double>& before,
+                     const std::vector<Recording>& recordings, Diagnosis& out) {
+  std::vector<RecordingShape> shapes;
+  for (const Recording& one : recordings) shapes.push_back(shape_of(one));
   std::vector<std::string> paths;
   for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
   const Emulator with(fit.model, paths, shapes, {.moment_matched = false});

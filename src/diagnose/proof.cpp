@@ -4,14 +4,12 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/text_table.hpp"
 #include "diagnose/diagnoser.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
-#include "lilytank/statistics.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 
@@ -22,7 +20,7 @@ constexpr double kOff = 0.08;  // share by which parameters of a sealed world ar
 constexpr int kRecordings = 3, kBalls = 24;
 constexpr double kRate = 30;  // frames per second
 constexpr int kSteps = 10;    // steps a tick in sealed worlds: 2.5 ms
-constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3;
+constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20;
 
 double draw(std::uint64_t seed, int world, std::uint32_t which) {
   return uniform({seed, Stream::calibrate, world, which, 30});
@@ -176,6 +174,41 @@ Judged judged_of(const std::vector<double>& row) {
   return j;
 }
 
+// Every number of a sealed world that a diagnosis may tell, by path.
+std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
+  std::map<std::string, double> out;
+  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
+  for (std::size_t k = 0; k < five.size(); ++k) {
+    out[five[k].path] =
+        std::clamp(s.factors[k] * parameter_value(tank, five[k].path), five[k].low, five[k].high);
+  }
+  for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
+    out[s.effect.paths[c]] = s.effect.absent(tank, c) + s.key.amplitudes[c] * s.effect.sizes[c];
+  }
+  for (const auto& [path, value] : s.effect.shape) out[path] = value;
+  return out;
+}
+
+// The model of a world that was named rightly, against the key and further recordings of it.
+void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
+                 double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
+  const auto further = film_sealed(tank, s, seconds, seed);
+  if (!further) return;
+  diagnoser.model_and_show(judged, *further, d);
+  const auto truth = truth_of(tank, s);
+  const auto count = [&](const std::string& path, double low, double high) {
+    const auto at = truth.find(path);
+    if (at == truth.end() || !(low < high)) return;
+    world.intervals += 1, world.covered += low <= at->second && at->second <= high ? 1 : 0;
+  };
+  for (const MovedParameter& p : d.parameters) count(p.path, p.low, p.high);
+  for (const DiagnosisFinding& f : d.findings) {
+    for (const FoundParameter& p : f.parameters) count(p.path, p.low, p.high);
+  }
+  world.removed = d.removed();
+  world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
+}
+
 double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
   const std::vector<Effect>& effects = diagnoser.atlas().plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -218,6 +251,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     j.observed = diagnoser.atlas().vectors(*made, &j.details);
     return row_of(j);
   });
+  int modelled = 0;
   for (std::size_t w = 0; w < rows.size(); ++w) {
     ProofWorld world = sealed[w].key;
     world.expected_z = expected_z(diagnoser, sealed[w]);
@@ -225,12 +259,18 @@ std::optional<Proof> prove(const ProofOptions& options) try {
       world.verdict = Verdict::undecided;
     } else {
       Diagnosis d;
-      diagnoser.judge(judged_of(rows[w]), d);
+      const Judged judged = diagnoser.judge(judged_of(rows[w]), d);
       world.verdict = d.verdict;
       if (!d.findings.empty()) {
         const DiagnosisFinding& f = d.findings.front();
         world.said = f.effect, world.alternatives = f.alternatives;
         world.variable = f.variable, world.z = f.z;
+      }
+      const bool named = world.kind == "named" && world.right();
+      if (named && d.verdict == Verdict::missing && modelled < options.modelled) {
+        modelled += 1;
+        model_world(diagnoser, judged, tank, sealed[w], seconds,
+                    derived_seed(seed, kFurtherSeed + static_cast<std::uint64_t>(w)), d, world);
       }
     }
     out.worlds.push_back(std::move(world));

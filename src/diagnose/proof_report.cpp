@@ -17,6 +17,33 @@ bool ProofWorld::right() const {
          std::find(alternatives.begin(), alternatives.end(), effect) != alternatives.end();
 }
 
+namespace {
+
+// Intervals, share removed and gain of the worlds whose model was fitted.
+std::string models_text(const Proof& proof) {
+  int worlds = 0, intervals = 0, covered = 0, gained = 0;
+  std::vector<double> removed;
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.intervals == 0) continue;
+    worlds += 1, intervals += w.intervals, covered += w.covered;
+    gained += w.gain_low > 0 ? 1 : 0;
+    removed.push_back(w.removed);
+  }
+  if (worlds == 0) return "";
+  std::sort(removed.begin(), removed.end());
+  const Estimate e = wilson(covered, intervals);
+  return "\nmodels of " + std::to_string(worlds) + " rightly named worlds\n  " +
+         std::to_string(covered) + " of " + std::to_string(intervals) +
+         " 95 % intervals hold the truth (" + fixed(100 * e.low, 1) + " to " +
+         fixed(100 * e.high, 1) +
+         " %)\n  share of the mismatch removed on further recordings: " + "median " +
+         fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
+         fixed(100 * removed.front(), 0) + " %\n  one step ahead " + std::to_string(gained) +
+         " of them are surely better\n";
+}
+
+}  // namespace
+
 std::string proof_text(const Proof& proof) {
   struct Rate {
     int right = 0, wrong_name = 0, silent = 0, all = 0;
@@ -54,11 +81,13 @@ std::string proof_text(const Proof& proof) {
   out += table.text() + "\nwhat was taken for what\n";
   TextTable confusion({"key", "said", "times"});
   for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text();
+  return out + confusion.text() + models_text(proof);
 }
 
 std::string proof_csv(const Proof& proof) {
-  std::string out = "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,right\n";
+  std::string out =
+      "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,intervals,covered,removed,"
+      "gain_nat,right\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     const ProofWorld& w = proof.worlds[i];
     out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
@@ -66,7 +95,8 @@ std::string proof_csv(const Proof& proof) {
     for (std::size_t k = 0; k < w.alternatives.size(); ++k) {
       out += (k > 0 ? " " : "") + w.alternatives[k];
     }
-    out += w.right() ? ",1\n" : ",0\n";
+    out += "," + std::to_string(w.intervals) + "," + std::to_string(w.covered) + "," +
+           shortest(w.removed) + "," + shortest(w.gain) + (w.right() ? ",1\n" : ",0\n");
   }
   return out;
 }

@@ -253,8 +253,9 @@ class Touches final : public ScatterPart {
          {"time together", "meetings", "share of the time near", "fast partings"}) {
       out.push_back({"contact", name});
     }
-    for (const char* name : {"gap at contact, outer", "gap at contact, right",
-                             "gap at contact, top", "gap at contact along x"}) {
+    for (const char* name :
+         {"gap at contact, outwards", "gap at contact, along the radius", "gap at contact, right",
+          "gap at contact, top", "gap at contact along x"}) {
       out.push_back({"camera", name});
     }
     return out;
@@ -278,7 +279,11 @@ class Touches final : public ScatterPart {
         const double x = 0.5 * (frame.now.x[a] + frame.now.x[b]);
         const double y = 0.5 * (frame.now.y[a] + frame.now.y[b]);
         const double gap = std::clamp(at.gap, -2e-3, kTouch);
-        (std::hypot(x, y) < 0.45 * radius_ ? inner_ : outer_).add(gap);
+        const double rr = (x * x + y * y) / (radius_ * radius_);
+        place_.add(rr), place_square_.add(rr * rr), gap_.add(gap), both_.add(gap * rr);
+        const double radial = std::fabs(at.nx * x + at.ny * y) / std::max(std::hypot(x, y), 1e-6);
+        if (radial > 0.8) along_radius_.add(gap);
+        if (radial < 0.6) across_radius_.add(gap);
         (x > 0 ? right_ : left_).add(gap), (y > 0 ? top_ : bottom_).add(gap);
         (std::fabs(at.nx) > 0.7 ? along_x_ : along_y_).add(gap);
       }
@@ -291,7 +296,10 @@ class Touches final : public ScatterPart {
     values.push_back(std::log((near_ + 1) / std::max(pairs_, 1.0)));
     values.push_back(short_.value());
     // Differences only: how deep squares sink into each other belongs to the contact's details.
-    values.push_back(1e3 * (outer_.value() - inner_.value()));
+    const double spread = place_square_.value() - place_.value() * place_.value();
+    const double slope = both_.value() - gap_.value() * place_.value();
+    values.push_back(1e3 * slope / std::max(spread, 1e-6));
+    values.push_back(1e3 * (along_radius_.value() - across_radius_.value()));
     values.push_back(1e3 * (right_.value() - left_.value()));
     values.push_back(1e3 * (top_.value() - bottom_.value()));
     values.push_back(1e3 * (along_x_.value() - along_y_.value()));
@@ -327,7 +335,8 @@ class Touches final : public ScatterPart {
   std::vector<Touch> touching_ = std::vector<Touch>(modules_ * modules_);
   int recording_ = -1;
   double pairs_ = 0, near_ = 0, meetings_ = 0;
-  Mean together_, short_, inner_, outer_, right_, left_, top_, bottom_, along_x_, along_y_;
+  Mean together_, short_, place_, place_square_, gap_, both_, along_radius_, across_radius_;
+  Mean right_, left_, top_, bottom_, along_x_, along_y_;
 };
 
 }  // namespace

@@ -20,12 +20,14 @@ Model small_tank() {
   return model;
 }
 
-std::vector<Recording> filmed(const Model& model, std::uint64_t seed) {
+// `tilt`: rad, how far the camera leans towards +x.
+std::vector<Recording> filmed(const Model& model, std::uint64_t seed, double tilt = 0) {
   RecordingShape shape;
   shape.name = "simulated", shape.bodies = kModules, shape.frames = kFrames;
   EmulatorOptions options;
   options.moment_matched = false;
-  return *Emulator(model, {}, {shape, shape, shape}, options).record({}, seed);
+  const std::vector<double> values{tilt};
+  return *Emulator(model, {kTiltX}, {shape, shape, shape}, options).record(values, seed);
 }
 
 Model with(const std::string& path, double value) {
@@ -69,6 +71,10 @@ TEST(SmallTank, IsDiagnosed) {
   const Diagnosis pumps = of(with("forces.flow_pulsation.share", 0.25), 41);
   ASSERT_EQ(pumps.verdict, Verdict::missing) << diagnosis_text(pumps);
   EXPECT_EQ(pumps.findings.front().effect, "flow_pulsation") << diagnosis_text(pumps);
+  Diagnosis camera;
+  diagnoser.judge(filmed(small_tank(), 61, 0.06), camera);
+  EXPECT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);
+  EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
   const Diagnosis odd = of(with_compass(diagnoser.atlas().plan().shapes), 51);
   ASSERT_EQ(odd.verdict, Verdict::missing) << diagnosis_text(odd);
   // Strong odd laws may leave a named one beside them; the curve over headings must be there.
