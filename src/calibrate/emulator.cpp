@@ -121,12 +121,15 @@ std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingS
   }
   Trajectory trajectory;
   const auto steps = static_cast<std::int64_t>(std::ceil(seconds / scene.model.dt - 1e-9));
-  const auto poses = static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(shape.bodies);
-  for (auto* of : {&trajectory.x, &trajectory.y, &trajectory.theta}) of->reserve(poses);
   append_poses(world, trajectory);
-  for (std::int64_t step = 0; step < steps; ++step) {
+  for (std::int64_t step = 1; step <= steps; ++step) {
     if (world.step() == RunStatus::diverged) return std::nullopt;
-    append_poses(world, trajectory);
+    // A frame lies between two poses: the others are not seen.
+    const double at = static_cast<double>(step) * scene.model.dt;
+    const double off = at - std::round(at * shape.rate) / shape.rate;
+    if (step == steps || std::fabs(off) < scene.model.dt * (1 + 1e-6)) {
+      append_poses(world, trajectory);
+    }
   }
   Camera camera = scene.camera;
   camera.seed = derived_seed(seed, kCameraRun);

@@ -19,7 +19,8 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostCentres = 4;
 constexpr double kStrong = 10;  // z above which fingerprints must be sharper than they are
-constexpr double kLeastAmplitude = 0.2, kRival = 0.5;
+constexpr double kLeastAmplitude = 0.2, kRival = 0.5, kNear = 0.85;
+constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr int kRivals = 3, kMostSharpened = 6;
 constexpr double kStays = 1.5;                               // deviations of the points
 constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
@@ -168,6 +169,23 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
   return asked.empty() ? e : naming.explain(residual);
 }
 
+// One effect of a size like those that were simulated explains all there is, and nothing else
+// comes near.
+bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& residual) const {
+  const EffectFit& f = e.found.front();
+  if (e.found.size() > 1 || f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kLearned) {
+    return false;
+  }
+  const std::vector<Effect>& effects = atlas_->plan().effects;
+  const std::string& name = effects[static_cast<std::size_t>(f.effect)].name;
+  const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
+  return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
+    const bool same =
+        other.effect >= 0 && effects[static_cast<std::size_t>(other.effect)].name == name;
+    return !same && other.gain > kNear * leading.front().gain;
+  });
+}
+
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
 // experiments of its own strength. First those that might be it, then whatever leads.
 Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
@@ -190,7 +208,7 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     known[{f.effect, f.shape}] = to;
     naming.sharpen(f, to);
   };
-  if (e.found.empty() || e.found[0].z < kStrong) return e;
+  if (e.found.empty() || e.found[0].z < kStrong || plain(naming, e, residual)) return e;
   const auto blunt = [&](const EffectFit& f) {
     const bool told = known.count({f.effect, f.shape}) > 0;
     return f.amplitudes.norm() > kLeastAmplitude && (!told || (f.at_reach && f.effect >= 0));

@@ -59,6 +59,7 @@ class Diagnoser {
                    const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
   Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
+  bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
   Fingerprint shape_fingerprint(int shape);

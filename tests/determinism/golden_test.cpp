@@ -22,7 +22,7 @@ struct Scene {
 std::vector<Scene> scenes() {
   return {{"chain, firmware clock", test::chain_scene(Clock::firmware), 120, "dd23acef54eb180b"},
           {"chain, event clock", test::chain_scene(Clock::events), 120, "79371d5ea66c9be9"},
-          {"balls and modules", test::mixed_scene(), 60, "c894ca4e0b6ce0e0"},
+          {"balls and modules", test::mixed_scene(), 60, "f9f80bd22201d628"},
           {"packed", test::packed_scene(), 5, "f7ef1832b942bda6"},
           {"moment-matched gusts", test::drawn_scene(Gusts::moment_matched, FlowAt::points), 30,
            "24939309392d635f"},
