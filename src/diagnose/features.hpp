@@ -1,0 +1,44 @@
+// The forces that the effects of a plan would exert on modules where they are.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "diagnose/score_plan.hpp"
+#include "forces/force_sum.hpp"
+
+namespace lilytank {
+
+/// Wrenches of every scored component of every effect at its size, each by its own term. Terms that
+/// only add are asked alone; what terms do to the water goes through the drag's derivative; what
+/// they make of the sum is compared with the sum.
+class Features {
+ public:
+  /// `model`: of these modules; must outlive this.
+  Features(const ScorePlan& plan, const Model& model);
+  void find(const Kinematics& k, const Moment& now);
+  std::size_t size() const { return features_.size(); }
+  const Wrench& at(std::size_t feature, std::size_t i) const { return wrenches_[feature][i]; }
+  const Wrench& drag(std::size_t i) const { return drag_[i]; }
+  const Wrench& baseline(std::size_t i) const { return baseline_[i]; }
+
+ private:
+  struct Feature {
+    enum class Kind { adds, stirs, transforms } kind = Kind::adds;
+    std::vector<ActiveForce> forces;
+    std::unique_ptr<ForceSum> sum;
+  };
+  void add(const Effect& effect, std::size_t component);
+  void derive(const Kinematics& k, const Moment& now);
+  void stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
+            const Moment& now, std::vector<Wrench>& out);
+
+  const Model& model_;
+  std::vector<Feature> features_;
+  std::vector<ActiveForce> drag_only_;
+  std::unique_ptr<ForceSum> base_, drag_sum_;
+  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_gain_;
+  std::vector<double> ux_, uy_, probe_, none_;
+  std::vector<std::vector<Wrench>> wrenches_;
+};
+
+}  // namespace lilytank
