@@ -35,6 +35,10 @@ struct ProofWorld {
   /// the share of the mismatch that the model removes on recordings that had no part in it.
   int intervals = 0, covered = 0;
   double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
+  /// What simpler methods make of the same recordings: the effect that a sparse regression of
+  /// differentiated positions finds strongest ("" for none), and how far the MSD is off.
+  std::string regression;
+  double displacement = 0;
   /// null: complete; named: the name among the finding's; unnamed: so called, right variable.
   bool right() const;
 };

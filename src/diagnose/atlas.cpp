@@ -197,6 +197,17 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
   return out;
 }
 
+double Atlas::displacement_misfit(const Vector& summary) const {
+  const std::vector<SummaryEntry> entries = stages_.setup().entries();
+  std::vector<Eigen::Index> of;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].group == "displacement") of.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Vector off = (summary - parameters_->mean(calibrated(summary).point))(of);
+  const Matrix covariance = parameters_->covariance()(of, of);
+  return off.dot(covariance.ldlt().solve(off));
+}
+
 Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   const int count = options_.experiments * static_cast<int>(m);

@@ -57,6 +57,9 @@ class Atlas {
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
+  /// How far the displacements alone are from what the calibrated baseline gives, a squared
+  /// distance by their covariance: all that a comparison of MSDs could see.
+  double displacement_misfit(const Eigen::VectorXd& summary) const;
   /// Of every null, a row each.
   const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
   int experiments() const { return options_.experiments; }

@@ -29,6 +29,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
                               std::sqrt(covariance(k, k)), before[i], before[i], before[i]});
   }
+  for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
+    out.checks.push_back(setup_.parameters[i].path + " = " + significant(before[i], 3) + " " +
+                         setup_.parameters[i].unit + ", fitted along");
+  }
   if (out.verdict != Verdict::missing) return;
   std::vector<Effect> effects;
   std::vector<Vector> amplitudes;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnose/diagnoser.hpp"
+#include "diagnose/yardstick.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -157,8 +158,10 @@ Experiment open_tank(const ProofOptions& options) {
   return e;
 }
 
-std::vector<double> row_of(const Judged& j) {
-  std::vector<double> row{static_cast<double>(j.observed.summary.size()), j.details.pulsation,
+// A world's vector as a row, with what a regression says of it before.
+std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
+  std::vector<double> row{static_cast<double>(kept.effect),
+                          static_cast<double>(j.observed.summary.size()), j.details.pulsation,
                           static_cast<double>(j.details.heaviest)};
   row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
   row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
@@ -166,10 +169,10 @@ std::vector<double> row_of(const Judged& j) {
 }
 Judged judged_of(const std::vector<double>& row) {
   Judged j;
-  const auto summary = static_cast<Eigen::Index>(row[0]);
-  j.details.pulsation = row[1], j.details.heaviest = static_cast<int>(row[2]);
-  const Eigen::Map<const Eigen::VectorXd> all(row.data() + 3,
-                                              static_cast<Eigen::Index>(row.size()) - 3);
+  const auto summary = static_cast<Eigen::Index>(row[1]);
+  j.details.pulsation = row[2], j.details.heaviest = static_cast<int>(row[3]);
+  const Eigen::Map<const Eigen::VectorXd> all(row.data() + 4,
+                                              static_cast<Eigen::Index>(row.size()) - 4);
   j.observed = {all.head(summary), all.tail(all.size() - summary)};
   return j;
 }
@@ -249,7 +252,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     if (!made) return std::vector<double>{};
     Judged j;
     j.observed = diagnoser.atlas().vectors(*made, &j.details);
-    return row_of(j);
+    return row_of(j, sparse_regression(diagnoser.atlas().plan(), *made));
   });
   int modelled = 0;
   for (std::size_t w = 0; w < rows.size(); ++w) {
@@ -258,9 +261,14 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     if (rows[w].empty()) {
       world.verdict = Verdict::undecided;
     } else {
+      const int kept = static_cast<int>(rows[w][0]);
+      if (kept >= 0) {
+        world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
+      }
       Diagnosis d;
       const Judged judged = diagnoser.judge(judged_of(rows[w]), d);
       world.verdict = d.verdict;
+      world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
       if (!d.findings.empty()) {
         const DiagnosisFinding& f = d.findings.front();
         world.said = f.effect, world.alternatives = f.alternatives;

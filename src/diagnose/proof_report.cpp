@@ -42,6 +42,33 @@ std::string models_text(const Proof& proof) {
          " of them are surely better\n";
 }
 
+// The same worlds by simpler methods. The MSD's threshold is the largest of the nulls themselves,
+// in its favour.
+std::string simpler_text(const Proof& proof) {
+  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, seen = 0, ours = 0;
+  double largest = 0;
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.kind != "null") continue;
+    nulls += 1, alarms += w.regression.empty() ? 0 : 1;
+    largest = std::max(largest, w.displacement);
+  }
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.kind != "named" || w.expected_z < 10) continue;
+    strong += 1, ours += w.right() ? 1 : 0;
+    right += w.regression == w.effect ? 1 : 0;
+    wrong += !w.regression.empty() && w.regression != w.effect ? 1 : 0;
+    seen += w.displacement > largest ? 1 : 0;
+  }
+  if (nulls == 0 || strong == 0) return "";
+  const auto of = [](int n, int all) { return std::to_string(n) + " of " + std::to_string(all); };
+  return "\nsimpler methods on the same worlds (named ones of z >= 10; this one: " +
+         of(ours, strong) +
+         " right)\n  finite differences with sparse regression: " + of(right, strong) + " right, " +
+         of(wrong, strong) + " a wrong name, " + of(alarms, nulls) +
+         " of nothing missing called something\n  MSD alone: " + of(seen, strong) +
+         " noticed, none named\n";
+}
+
 }  // namespace
 
 std::string proof_text(const Proof& proof) {
@@ -81,13 +108,14 @@ std::string proof_text(const Proof& proof) {
   out += table.text() + "\nwhat was taken for what\n";
   TextTable confusion({"key", "said", "times"});
   for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text() + models_text(proof);
+  return out + confusion.text() + models_text(proof) + simpler_text(proof);
 }
 
 std::string proof_csv(const Proof& proof) {
   std::string out =
       "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,intervals,covered,removed,"
-      "gain_nat,right\n";
+      "gain_nat,regression,"
+      "msd_misfit,right\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     const ProofWorld& w = proof.worlds[i];
     out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
@@ -96,7 +124,8 @@ std::string proof_csv(const Proof& proof) {
       out += (k > 0 ? " " : "") + w.alternatives[k];
     }
     out += "," + std::to_string(w.intervals) + "," + std::to_string(w.covered) + "," +
-           shortest(w.removed) + "," + shortest(w.gain) + (w.right() ? ",1\n" : ",0\n");
+           shortest(w.removed) + "," + shortest(w.gain) + "," + w.regression + "," +
+           shortest(w.displacement) + (w.right() ? ",1\n" : ",0\n");
   }
   return out;
 }
