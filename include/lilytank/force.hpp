@@ -46,6 +46,7 @@ struct Moment {
   bool expected = false;             ///< beside gusts = false: drag's mean over gusts instead
   const FlowField* field = nullptr;  ///< the flow now; null: the model's
   double gain = 1;                   ///< factor on its mean and deviation, beside K_v
+  double gust_gain = 1;              ///< factor on its deviation alone, beside gain
   /// m/s, [bodies] what terms that stir add to the water's velocity at each body; empty: nothing.
   std::span<const double> ux, uy;
 };
@@ -57,6 +58,7 @@ const FlowField& field_now(const Model& model, const Moment& now);
 struct Stirring {
   double gain = 1;           ///< factor on the field's mean and deviation
   std::span<double> ux, uy;  ///< m/s, [bodies] added to the water's velocity at a body
+  double gust_gain = 1;      ///< factor on the field's deviation alone
 };
 
 /// Factors on twists at the end of a step; 1 leaves them alone.

@@ -128,7 +128,7 @@ void add_noise(std::vector<Effect>& all) {
   all.push_back(pumps);
   for (const double time : {0.25, 1.0}) {
     for (const double length : {0.03, 0.08}) {
-      Effect eddies = one("correlated_gusts", "deviation", 0.06, "m/s", "lag");
+      Effect eddies = one("correlated_gusts", "share", 0.15, "1", "lag");
       eddies.shape = {{force("correlated_gusts", "time"), time},
                       {force("correlated_gusts", "length"), length}};
       eddies.refine = {

@@ -87,7 +87,7 @@ void Features::derive(const Kinematics& k, const Moment& now) {
 void Features::stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
                     const Moment& now, std::vector<Wrench>& out) {
   std::fill(ux_.begin(), ux_.end(), 0.0), std::fill(uy_.begin(), uy_.end(), 0.0);
-  Stirring water{1, ux_, uy_};
+  Stirring water{1, ux_, uy_, 1};
   term.stir(model_, k, now, p, water);
   const double gain = water.gain - 1;
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -29,7 +29,7 @@ class BallDrag final : public ForceTerm {
     const double scale = 0.5 * model.flow.rho * model.ball.drag_area * p[0];
     const FlowField& field = field_now(model, now);
     const double K_v = model.flow.K_v * now.gain;
-    const double share = now.gusts ? 1 / std::sqrt(p[1]) : 0;
+    const double share = now.gusts ? now.gust_gain / std::sqrt(p[1]) : 0;
     for (int i = k.modules; i < k.size(); ++i) {
       const FlowSample f = field.at(k.x[i], k.y[i]);
       const auto xi =

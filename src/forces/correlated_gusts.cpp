@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "library.hpp"
+#include "lilytank/model.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {
@@ -11,6 +12,7 @@ constexpr Parameter kParameters[] = {
     {"deviation", "m/s", 0, 0, 2, "of the eddies' velocity per axis"},
     {"time", "s", 0.5, 0.01, 100, "over which they fade by e"},
     {"length", "m", 0.06, 0.005, 10, "over which the velocity of neighbours is alike"},
+    {"share", "1", 0, 0, 1, "of the variance of the flow's own gusts that are such eddies"},
 };
 
 constexpr int kWaves = 32;
@@ -49,22 +51,29 @@ class CorrelatedGusts final : public ForceTerm {
     return "eddies: gusts that last, and that bodies near each other share";
   }
   std::string_view equation() const override {
-    return "u += a random flow without divergence, of this deviation per axis, correlated over "
-           "`time` (exponentially) and `length`: a sum of 32 waves";
+    return "u += (deviation + K_v sqrt(share) sigma) e, sigma the flow's own deviation, which is "
+           "left with sqrt(1 - share) of itself; e a random flow without divergence, of deviation "
+           "1 per axis, correlated over `time` (exponentially) and `length`: a sum of 32 waves";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }
-  void stir(const Model&, const Kinematics& k, const Moment& now, std::span<const double> p,
+  void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
-    if (!now.gusts || p[0] == 0) return;
-    for (std::uint32_t m = 0; m < kWaves; ++m) {
-      const Wave wave = wave_of(now.seed, m, p[1], p[2]);
-      for (int i = 0; i < k.size(); ++i) {
-        const double size =
-            p[0] * cosine(wave.kx * k.x[i] + wave.ky * k.y[i] + wave.w * now.time + wave.phase);
-        water.ux[i] += size * wave.ax, water.uy[i] += size * wave.ay;
+    if (!now.gusts || (p[0] == 0 && p[3] == 0)) return;
+    Wave waves[kWaves];
+    for (std::uint32_t m = 0; m < kWaves; ++m) waves[m] = wave_of(now.seed, m, p[1], p[2]);
+    const double own = std::sqrt(p[3]) * model.flow.K_v * water.gain;
+    for (int i = 0; i < k.size(); ++i) {
+      double ex = 0, ey = 0;
+      for (const Wave& wave : waves) {
+        const double swing =
+            cosine(wave.kx * k.x[i] + wave.ky * k.y[i] + wave.w * now.time + wave.phase);
+        ex += swing * wave.ax, ey += swing * wave.ay;
       }
+      const FlowSample f = p[3] > 0 ? field_now(model, now).at(k.x[i], k.y[i]) : FlowSample{};
+      water.ux[i] += (p[0] + own * f.sigma_x) * ex, water.uy[i] += (p[0] + own * f.sigma_y) * ey;
     }
+    water.gust_gain *= std::sqrt(1 - p[3]);
   }
 };
 

@@ -166,6 +166,7 @@ void drag(const DragSettings& settings, const std::uint32_t counter[4], const st
       Spots spots;
       locate(field, field.cells_of(m.x), field.cells_of(m.y), 0, spots);
       read(field, spots, 1, &task.centre);
+      calm(settings, 1, &task.centre);
       sum_modules<FlowAt::centre>(task, m, sum);
     } else {
       sum_modules<FlowAt::points>(task, m, sum);
@@ -192,6 +193,7 @@ DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
       segments(segments_),
       half(static_cast<float>(0.5 * model.module.side)),
       K_v(static_cast<float>(model.flow.K_v * now.gain)),
+      gust_gain(static_cast<float>(now.gust_gain)),
       draw{now.seed, Stream::gust, now.gust, 0, 0} {
   const double side = model.module.side, pitch = side / segments;
   double second = 0, fourth = 0;

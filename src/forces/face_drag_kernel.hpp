@@ -22,6 +22,7 @@ struct DragSettings {
   int segments;
   float half;  ///< m, half the side
   float K_v;
+  float gust_gain;              ///< factor on the field's deviation
   Draw draw;                    ///< of the gusts; `body` is the first module of the block
   float places[kMostSegments];  ///< m, where segments lie: from a face's middle along its tangent
   float squares;                ///< m^2, sum of their squares

@@ -115,6 +115,16 @@ HWY_INLINE Gust gust_of(const Water& u, const FaceFrame& f) {
           hn::Mul(hn::Mul(u.sigma_x, u.sigma_y), inverse), inverse};
 }
 
+/// Leaves the field's deviation at the share that it has now.
+HWY_INLINE void calm(const DragSettings& settings, int count, Water* water) {
+  if (settings.gust_gain == 1) return;
+  const Float gain = hn::Set(Floats(), settings.gust_gain);
+  for (int k = 0; k < count; ++k) {
+    water[k].sigma_x = hn::Mul(water[k].sigma_x, gain);
+    water[k].sigma_y = hn::Mul(water[k].sigma_y, gain);
+  }
+}
+
 /// The water at places along a face (m from its middle).
 template <FlowAt kAt>
 HWY_INLINE void water_along(const Task& task, const FaceFrame& f, const float* places, int count,
@@ -130,6 +140,7 @@ HWY_INLINE void water_along(const Task& task, const FaceFrame& f, const float* p
     locate(task.field, gx, gy, k, spots);
   }
   read(task.field, spots, count, out);
+  calm(task.settings, count, out);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE

@@ -20,10 +20,10 @@ void ForceSum::stir(const Kinematics& k, Moment& now) {
   std::fill(stirred_x_.begin(), stirred_x_.end(), 0.0);
   std::fill(stirred_y_.begin(), stirred_y_.end(), 0.0);
   now.ux = stirred_x_, now.uy = stirred_y_;
-  Stirring water{1, stirred_x_, stirred_y_};
+  Stirring water{1, stirred_x_, stirred_y_, 1};
   for (const ActiveForce* force : stirring_) {
     force->term->stir(*model_, k, now, force->p, water);
-    now.gain = water.gain;
+    now.gain = water.gain, now.gust_gain = water.gust_gain;
   }
 }
 

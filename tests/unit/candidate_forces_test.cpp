@@ -17,14 +17,14 @@ using test::wrenches;
 // What a term does to the water at each body.
 struct Stirred {
   std::vector<double> x, y;
-  double gain = 1;
+  double gain = 1, gust_gain = 1;
 };
 Stirred stirred(const Model& model, const MovingBodies& bodies, const ActiveForce& f,
                 const Moment& now) {
   Stirred s{std::vector<double>(bodies.x.size(), 0.0), std::vector<double>(bodies.x.size(), 0.0)};
-  Stirring water{1, s.x, s.y};
+  Stirring water{1, s.x, s.y, 1};
   f.term->stir(model, bodies.view(), now, f.p, water);
-  s.gain = water.gain;
+  s.gain = water.gain, s.gust_gain = water.gust_gain;
   return s;
 }
 std::vector<Wrench> transformed(const Model& model, const MovingBodies& bodies,
@@ -242,6 +242,23 @@ TEST(CandidateForces, EddiesHaveTheirDeviationTimeAndLength) {
   // A flow without divergence is longer correlated along its direction than across.
   EXPECT_GT(along / worlds / unit, std::exp(-0.5) - error);
   EXPECT_LT(across / worlds / unit, std::exp(-0.5) - 0.1);
+}
+
+// Eddies in the place of gusts leave the water's variance what it was.
+TEST(CandidateForces, EddiesTakeTheirShareOfTheGusts) {
+  Model model = uniform(0.2);
+  model.field = test::uniform_water({0.2, 0, 0.1, 0.1});
+  MovingBodies b = lone(0);
+  const auto eddies = force("correlated_gusts", {0, 0.5, 0.06, 0.7});
+  double square = 0, left = 1;
+  const int worlds = 4000;
+  for (int w = 0; w < worlds; ++w) {
+    const Stirred a = stirred(model, b, eddies, {.seed = static_cast<std::uint64_t>(w + 1)});
+    square += a.x[0] * a.x[0], left = a.gust_gain;
+  }
+  const double sigma = model.flow.K_v * 0.1;
+  EXPECT_NEAR(square / worlds / (sigma * sigma), 0.7, 6 * std::sqrt(2.0 / worlds));
+  EXPECT_NEAR(left, std::sqrt(0.3), 1e-12);
 }
 
 TEST(CandidateForces, RandomForcesHaveTheirSizes) {
