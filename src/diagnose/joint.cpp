@@ -1,5 +1,6 @@
 #include "diagnose/joint.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -100,42 +101,123 @@ void begin(const Stages& stages, const std::vector<Effect>& effects,
       Eigen::Map<const Vector>(wide.data(), static_cast<Eigen::Index>(wide.size())).asDiagonal();
 }
 
+// Where the amplitudes of each effect begin among the parameters.
+std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<Effect>& effects) {
+  std::vector<Eigen::Index> out;
+  auto at = static_cast<Eigen::Index>(stages.setup().parameters.size());
+  for (const Effect& e : effects) {
+    out.push_back(at);
+    at += static_cast<Eigen::Index>(e.paths.size() + e.refine.size());
+  }
+  return out;
+}
+
+// The effect that the data ask for least, by Wald's distance of its amplitudes from nothing; none
+// (the list's size) if all are asked for. `point` then becomes the answer without it.
+std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
+                     const Matrix& covariance, double keep, Vector& point) {
+  const std::vector<Eigen::Index> places = places_of(stages, effects);
+  std::size_t weakest = effects.size();
+  double least = keep * keep;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const auto m = static_cast<Eigen::Index>(effects[e].paths.size());
+    Vector off = point.segment(places[e], m);
+    for (Eigen::Index c = 0; c < m; ++c) {
+      off(c) -= effects[e].absent(stages.setup().model, static_cast<std::size_t>(c));
+    }
+    const Matrix own = covariance.block(places[e], places[e], m, m);
+    const double distance = off.dot(own.ldlt().solve(off)) / static_cast<double>(m);
+    if (distance < least) least = distance, weakest = e;
+  }
+  if (weakest == effects.size() || effects.size() == 1) return effects.size();
+  const auto m = static_cast<Eigen::Index>(effects[weakest].paths.size());
+  Vector off = point.segment(places[weakest], m);
+  for (Eigen::Index c = 0; c < m; ++c) {
+    off(c) -= effects[weakest].absent(stages.setup().model, static_cast<std::size_t>(c));
+  }
+  const Matrix own = covariance.block(places[weakest], places[weakest], m, m);
+  point -= covariance.middleCols(places[weakest], m) * own.ldlt().solve(off);
+  return weakest;
+}
+
+// What a point says of the effects: their amplitudes by their sizes, and what is refined of them.
+void read_point(const Stages& stages, const Vector& point, std::vector<Effect>& effects,
+                std::vector<Vector>& amplitudes) {
+  const std::vector<Eigen::Index> places = places_of(stages, effects);
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    Effect& effect = effects[e];
+    Eigen::Index at = places[e];
+    for (std::size_t c = 0; c < effect.paths.size(); ++c, ++at) {
+      amplitudes[e](static_cast<Eigen::Index>(c)) =
+          (point(at) - effect.absent(stages.setup().model, c)) / effect.sizes[c];
+    }
+    for (const FitParameter& p : effect.refine) {
+      for (auto& [path, value] : effect.shape) {
+        if (path == p.path) value = std::clamp(p.from_scale(point(at)), p.low, p.high);
+      }
+      ++at;
+    }
+  }
+}
+
+FitBounds bounds_of(const JointFit& fit) {
+  FitBounds bounds;
+  const auto n = static_cast<Eigen::Index>(fit.parameters.size());
+  bounds.low.resize(n), bounds.high.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const FitParameter& p = fit.parameters[static_cast<std::size_t>(k)];
+    bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
+  }
+  return bounds;
+}
+
 }  // namespace
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
-                     const std::vector<Effect>& effects, const std::vector<Vector>& amplitudes,
+                     std::vector<Effect> effects, std::vector<Vector> amplitudes,
                      const Vectors& observed, const Matrix& spread, int round, int replicates,
-                     const std::string& tag, std::uint64_t seed) {
+                     double keep, const std::string& tag, std::uint64_t seed) {
   JointFit fit;
+  for (std::size_t e = 0; e < effects.size(); ++e) fit.kept.push_back(e);
   Vector centre;
   Matrix width;
   begin(stages, effects, amplitudes, atlas.calibrated(observed.summary).point, spread, fit, centre,
         width);
-  FitBounds bounds;
-  bounds.low.resize(centre.size()), bounds.high.resize(centre.size());
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& p = fit.parameters[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
-  }
-  Joint joint(stages, maps, atlas, fit);
+  FitBounds bounds = bounds_of(fit);
+  std::optional<Joint> joint(std::in_place, stages, maps, atlas, fit);
   const Vector data = joined(observed, atlas);
   std::optional<LocalModel> model;
   LocalFit answer;
-  for (int k = 1; k <= kMostRounds && !fit.settled; ++k) {
+  int most = kMostRounds;
+  for (int k = 1; k <= most && !fit.settled; ++k) {
     const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
     const Matrix points = scattered(centre, width, round, bounds, own);
-    model.emplace(
-        design_of(points, joint.simulate("joint " + tag + " " + std::to_string(k), points, own)));
+    const std::string stage = "joint " + tag + " " + std::to_string(k);
+    model.emplace(design_of(points, joint->simulate(stage, points, own)));
     FitBounds near = bounds;
     near.reach = 2.5;
     answer = model->fit(data, near);
+    Vector point = answer.point;
+    const std::size_t dropped =
+        needless(stages, effects, model->parameter_covariance(point), keep, point);
+    if (dropped < effects.size()) {
+      read_point(stages, point, effects, amplitudes);
+      const auto at = static_cast<std::ptrdiff_t>(dropped);
+      effects.erase(effects.begin() + at), amplitudes.erase(amplitudes.begin() + at);
+      fit.kept.erase(fit.kept.begin() + at);
+      begin(stages, effects, amplitudes, point.head(spread.rows()), spread, fit, centre, width);
+      bounds = bounds_of(fit);
+      centre = centre.cwiseMax(bounds.low).cwiseMin(bounds.high);
+      joint.emplace(stages, maps, atlas, fit);
+      ++most;
+      continue;
+    }
     const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(answer.point - centre);
     fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled * 1.5;
     if (!fit.settled) centre = answer.point;
   }
   const Matrix points = answer.point.transpose().replicate(replicates, 1);
-  const auto rows = joint.simulate("joint " + tag + " replicates", points, derived_seed(seed, 99));
+  const auto rows = joint->simulate("joint " + tag + " replicates", points, derived_seed(seed, 99));
   std::vector<Vector> estimates;
   FitBounds free;
   free.reach = 5;

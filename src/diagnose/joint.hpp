@@ -14,16 +14,18 @@ struct JointFit {
   std::vector<FitParameter> parameters;
   Model model;                           ///< with every effect switched on, at its held numbers
   std::vector<double> value, low, high;  ///< 95 % intervals
+  std::vector<std::size_t> kept;         ///< which of the effects it still needs
   bool settled = false;
 };
 
-/// `amplitudes`: the naming's, in units of each effect's sizes. `round`: simulations of a round;
-/// `replicates`: for the intervals.
-/// `tag`: for the names of what is kept.
+/// Effects are dropped, weakest first, that the data no longer ask for once everything is fitted
+/// together: a name may have stood for a baseline that another effect had pushed aside. At least
+/// one is kept. `keep`: z by which an effect's amplitudes must differ from nothing. `amplitudes`:
+/// the naming's, in units of each effect's sizes. `round`: simulations of a round; `replicates`:
+/// for the intervals. `tag`: for the names of what is kept.
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
-                     const std::vector<Effect>& effects,
-                     const std::vector<Eigen::VectorXd>& amplitudes, const Vectors& observed,
-                     const Eigen::MatrixXd& spread, int round, int replicates,
-                     const std::string& tag, std::uint64_t seed);
+                     std::vector<Effect> effects, std::vector<Eigen::VectorXd> amplitudes,
+                     const Vectors& observed, const Eigen::MatrixXd& spread, int round,
+                     int replicates, double keep, const std::string& tag, std::uint64_t seed);
 
 }  // namespace lilytank

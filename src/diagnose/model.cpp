@@ -14,6 +14,14 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+// The members of a list with these numbers, which ascend.
+template <class T>
+void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
+  std::vector<T> out;
+  for (const std::size_t k : kept) out.push_back(std::move(list[k]));
+  list = std::move(out);
+}
+
 }  // namespace
 
 void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
@@ -49,12 +57,13 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
           {"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
     }
   }
-  const JointFit fit =
-      fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_, budget_.round,
-                  budget_.replicates, judged.tag, derived_seed(options_.seed, 700));
+  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_,
+                                   budget_.round, budget_.replicates, naming_->effect_threshold(),
+                                   judged.tag, derived_seed(options_.seed, 700));
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
+  keep_only(fit.kept, out.findings), keep_only(fit.kept, effects);
   tell_parameters(fit, effects, out);
   show(fit, before, held_out, out);
 }

@@ -292,9 +292,19 @@ EffectFit Naming::strongest_shape(const Vector& all) const {
   return out;
 }
 
+// One term has one strength: another variant of what was found is no other finding.
+bool Naming::told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const {
+  const std::vector<Effect>& effects = atlas_.plan().effects;
+  return std::any_of(found.begin(), found.end(), [&](const EffectFit& other) {
+    if (fit.effect < 0 || other.effect < 0) return fit.effect < 0 && other.effect < 0;
+    return effects[static_cast<std::size_t>(fit.effect)].paths ==
+           effects[static_cast<std::size_t>(other.effect)].paths;
+  });
+}
+
 // Of the candidates that are significant, the one that leaves least.
-std::size_t Naming::best(const Vector& all, double floor, EffectFit& out,
-                         EffectFit& strongest) const {
+std::size_t Naming::best(const Vector& all, double floor, const std::vector<EffectFit>& found,
+                         EffectFit& out, EffectFit& strongest) const {
   const Vector named = all.head(atlas_.named_numbers());
   const EffectFit shape = strongest_shape(all);
   std::size_t index = known_.size();
@@ -303,6 +313,7 @@ std::size_t Naming::best(const Vector& all, double floor, EffectFit& out,
   for (std::size_t k = 0; k < known_.size(); ++k) {
     const EffectFit one = fit(known_[k], named);
     if (one.z > strongest.z) strongest = one;
+    if (told_already(one, found)) continue;
     // A curve speaks by its own knots as well.
     const bool own =
         one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
@@ -322,7 +333,7 @@ Explanation Naming::explain(const Vector& residual) const {
   double explained = 0;
   for (int round = 0;; ++round) {
     EffectFit chosen;
-    const std::size_t k = best(all, kInexact * explained, chosen, out.left_effect);
+    const std::size_t k = best(all, kInexact * explained, out.found, chosen, out.left_effect);
     out.left_shape = strongest_shape(all);
     if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
     if (k == known_.size() || round == kMostEffects) break;

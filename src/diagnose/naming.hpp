@@ -72,8 +72,9 @@ class Naming {
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
   void calibrate(double false_alarms);
-  std::size_t best(const Eigen::VectorXd& all, double floor, EffectFit& out,
-                   EffectFit& strongest) const;
+  bool told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const;
+  std::size_t best(const Eigen::VectorXd& all, double floor, const std::vector<EffectFit>& found,
+                   EffectFit& out, EffectFit& strongest) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
 
   const Atlas& atlas_;
