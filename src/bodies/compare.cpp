@@ -78,10 +78,13 @@ Fitted best_fit(const Group& g, const Model& base, const Law& law) {
   Fitted best;
   best.likelihood = -1e300;
   for (const std::vector<double>& start : law.starts(g.typical)) {
-    for (const double pushes : {1.0, 0.03}) {
+    for (const auto& [size, pushes] : {std::pair{1e-3, 1.0}, {0.5, 0.03}, {0.3, 0.3}}) {
       Model m = base;
       m.push = std::max(m.push * pushes, m.least_push);
-      m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push));
+      m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, size));
+      const bool same =
+          !best.numbers.empty() && m.terms.back().fitted == std::vector<bool>(start.size(), false);
+      if (same) continue;  // nothing of it is fitted
       const Fitted f = fit_group(g, m);
       if (f.likelihood > best.likelihood) best = f;
     }
@@ -200,17 +203,12 @@ double error_of(const std::vector<double>& parts) {
 
 Difference difference(const std::vector<Group>& groups, const std::vector<double>& a,
                       const std::vector<double>& b) {
-  std::vector<double> blocks, wholes;
+  std::vector<double> blocks;
   std::size_t at = 0;
   for (const Group& g : groups) {
-    double whole = 0;
-    for (int k = 0; k < g.blocks; ++k, ++at)
-      blocks.push_back(a[at] - b[at]), whole += blocks.back();
-    wholes.push_back(whole);
+    for (int k = 0; k < g.blocks; ++k, ++at) blocks.push_back(a[at] - b[at]);
   }
-  // Blocks of one body may share a fault; where there are bodies enough, they are the units.
-  const double by_body = wholes.size() >= 5 ? error_of(wholes) : 0;
-  return {sum(blocks), std::max(error_of(blocks), by_body)};
+  return {sum(blocks), error_of(blocks)};
 }
 
 }  // namespace lilytank::bodies

@@ -55,4 +55,20 @@ struct Difference {
 Difference difference(const std::vector<Group>& groups, const std::vector<double>& a,
                       const std::vector<double>& b);
 
+/// Whether runs of the same bodies, fitted one by one, agree in the coefficients of the last law:
+/// squared differences from their mean by their standard errors, and how many are free.
+struct Repeats {
+  double square = 0;
+  int free = 0;
+  double factor() const;  ///< by which errors are too small (Birge's ratio); at least 1
+  double z() const;       ///< of so much disagreement by chance (Wilson and Hilferty)
+  std::string worst;      ///< group that disagrees most
+};
+Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& groups,
+                   const Outcome& outcome);
+
+/// Mean square of predictions over a quarter of a run from what the filter believed, per group
+/// (m^2).
+std::vector<double> far_errors(const std::vector<Group>& groups, const Outcome& outcome);
+
 }  // namespace lilytank::bodies

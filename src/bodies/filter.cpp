@@ -213,8 +213,12 @@ class Filter {
     if (std::isnan(seen)) return;
     const Vector column = now_.P.col(i);
     const double S = std::max(now_.P(i, i), 0.0) + model_->noise * model_->noise;
-    double nu = seen - now_.z[i];
-    if (!std::isfinite(nu)) nu = 1e6 * std::sqrt(S), now_.z.setZero();
+    const double nu = seen - now_.z[i];
+    if (!std::isfinite(nu) || !std::isfinite(S)) {  // the law has run away: as bad as can be
+      now_ = first_belief(*model_, *typical_, *run_, n_);
+      out.value.push_back(1e3), out.variance.push_back(1);
+      return;
+    }
     out.value.push_back(nu), out.variance.push_back(S);
     now_.z += column * (nu / S);
     now_.P.noalias() -= column * column.transpose() / S;

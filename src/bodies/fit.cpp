@@ -9,6 +9,8 @@ namespace lilytank::bodies {
 namespace {
 
 constexpr double kLoose = 3.0;  // deviation of the weak prior on logarithms of noise and pushes
+constexpr double kCurve = 3.0;  // of knots, in sizes of the pushes that the baseline needs
+constexpr double kWide = 100;   // of other amplitudes
 
 Innovations innovations(const Group& g, const Model& m) {
   Innovations out;
@@ -24,13 +26,31 @@ double term(double nu, double S) {
 // Gradient and information of the log-likelihood of everything but one fold.
 class Hill {
  public:
-  Hill(const Group& group, const Model& model, int without)
-      : group_(&group), model_(&model), without_(without) {}
+  /// `held`: noise and pushes stay as they are.
+  Hill(const Group& group, const Model& model, int without, bool held)
+      : group_(&group), model_(&model), without_(without), held_(held) {
+    placed_.assign(own_numbers(model), false), curved_.assign(own_numbers(model), false);
+    for (const Term& t : model.terms) {
+      for (std::size_t i = 0; i < t.value.size(); ++i) {
+        if (!t.fitted[i]) continue;
+        placed_.push_back(t.parameters[i].kind != Kind::amplitude);
+        curved_.push_back(t.law->curve());
+      }
+    }
+  }
 
+  // Weak priors: noise and pushes about their size, amplitudes about nothing; knots of a curve
+  // that no sample touches must be somewhere.
+  double deviation(std::size_t i) const {
+    return i < own_numbers(*model_) ? kLoose : curved_[i] ? kCurve : kWide;
+  }
+  double centre(std::size_t i) const {
+    return i < own_numbers(*model_) ? group_->penalty_at[i] : 0.0;
+  }
   double prior(const std::vector<double>& q) const {
     double sum = 0;
-    for (std::size_t i = 0; i < own_numbers(*model_); ++i) {
-      sum -= std::pow((q[i] - group_->penalty_at[i]) / kLoose, 2) / 2;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      if (!placed_[i]) sum -= std::pow((q[i] - centre(i)) / deviation(i), 2) / 2;
     }
     return sum;
   }
@@ -62,6 +82,11 @@ class Hill {
     base_ = here;
     slopes_.clear();
     for (std::size_t i = 0; i < q.size(); ++i) {
+      if (held_ && i < own_numbers(*model_)) {
+        slopes_.push_back({std::vector<double>(here.value.size(), 0.0),
+                           std::vector<double>(here.value.size(), 0.0)});
+        continue;
+      }
       std::vector<double> moved = q;
       const double h = i < own_numbers(*model_) ? 1e-3 : 1e-4;
       moved[i] += h;
@@ -89,18 +114,26 @@ class Hill {
         }
       }
     }
-    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(own_numbers(*model_)); ++i) {
+    for (Eigen::Index i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      g[i] -= (q[at] - group_->penalty_at[at]) / (kLoose * kLoose);
-      I(i, i) += 1 / (kLoose * kLoose);
+      if (placed_[at]) continue;
+      const double weight = 1 / (deviation(at) * deviation(at));
+      g[i] -= (q[at] - centre(at)) * weight, I(i, i) += weight;
     }
     I = Eigen::MatrixXd(I.selfadjointView<Eigen::Lower>());
+    if (held_) {
+      for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(own_numbers(*model_)); ++i) {
+        g[i] = 0, I.row(i).setZero(), I.col(i).setZero(), I(i, i) = 1;
+      }
+    }
   }
 
  private:
   const Group* group_;
   const Model* model_;
   int without_;
+  bool held_;
+  std::vector<bool> placed_, curved_;
   Innovations base_;
   std::vector<Innovations> slopes_;
 };
@@ -165,8 +198,8 @@ double Fitted::held_out_sum() const {
   return sum;
 }
 
-Fitted fit_group(const Group& group, const Model& from) {
-  Hill hill(group, from, -1);
+Fitted fit_group(const Group& group, const Model& from, bool held) {
+  Hill hill(group, from, -1, held);
   const Top top = climb(hill, packed(from), 30);
   Fitted out;
   out.model = unpacked(from, top.q), out.numbers = top.q;
@@ -180,9 +213,11 @@ Fitted fit_group(const Group& group, const Model& from) {
 }
 
 void leave_folds_out(const Group& g, Fitted& fitted) {
+  // What noise and pushes are is not at stake: they stay, or every fold would be trusted by how
+  // well the few others happen to agree.
   fitted.held_out.assign(static_cast<std::size_t>(g.blocks), 0);
   for (int fold = 0; fold < g.folds; ++fold) {
-    Hill hill(g, fitted.model, fold);
+    Hill hill(g, fitted.model, fold, true);
     const Top without = climb(hill, fitted.numbers, 4);
     for (std::size_t k = 0; k < g.fold.size(); ++k) {
       if (g.fold[k] == fold) {
@@ -211,8 +246,9 @@ Group make_group(const BodyExperiment& e, const std::string& name,
         static_cast<int>(kBlocks * static_cast<double>(samples) / static_cast<double>(all)));
     for (std::size_t k = 0; k < samples; ++k) {
       const int part = static_cast<int>(k * static_cast<std::size_t>(parts) / samples);
-      const int quarter = static_cast<int>(k * kQuarters / samples);
-      const int fold = marked ? (run.held_out ? 0 : -1) : n == 1 ? quarter : r % kMostFolds;
+      const int fold = marked   ? (run.held_out ? 0 : -1)
+                       : n == 1 ? part % kQuarters
+                                : r % kMostFolds;
       for (std::size_t i = 0; i < row; ++i) {
         if (std::isnan(run.position[k * row + i])) continue;
         g.fold.push_back(fold), g.block.push_back(block + part);
@@ -251,7 +287,8 @@ Model first_model(const BodyExperiment& e, const Group& g) {
   m.push = std::max(bend / (dt * dt) / 3, 0.1 * g.typical.speed / g.typical.duration);
   m.least_push = 1e-7 * m.push, m.most_push = 1e4 * m.push;
   m.memory = 10 * dt, m.least_memory = 0.2 * dt,
-  m.most_memory = std::max(g.typical.duration, 20 * dt);
+  m.most_memory = std::max(g.typical.duration / 20, 2 * dt);
+  m.memory = std::min(m.memory, m.most_memory);
   return m;
 }
 

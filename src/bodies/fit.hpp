@@ -19,8 +19,8 @@ struct Group {
   std::vector<double> penalty_at;  ///< centre of the weak prior of own numbers, as packed
 };
 
-/// Folds: runs marked held out; else whole runs where there are several; else quarters of the time.
-/// Within, blocks of time.
+/// Folds: runs marked held out; else whole runs where there are several; else every fourth block of
+/// time.
 Group make_group(const BodyExperiment& experiment, const std::string& name,
                  const std::vector<const BodyRun*>& runs);
 
@@ -34,8 +34,8 @@ struct Fitted {
 };
 
 /// Goes uphill from the model's numbers by Fisher's scoring: numeric derivatives, Levenberg's
-/// damping.
-Fitted fit_group(const Group& group, const Model& from);
+/// damping. `held`: noise and pushes stay as they are.
+Fitted fit_group(const Group& group, const Model& from, bool held = false);
 
 /// Leaves out one fold after the other, fits the rest again and scores what was left out.
 void leave_folds_out(const Group& group, Fitted& fitted);

@@ -117,7 +117,7 @@ double unit_size(const Term& term, std::size_t which, const std::vector<const Bo
 }  // namespace
 
 Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
-             const std::vector<const BodyRun*>& runs, double push) {
+             const std::vector<const BodyRun*>& runs, double push, double size) {
   Term t{&law, law.parameters(typical), start, {}, {}};
   t.scale.assign(start.size(), 1), t.fitted.assign(start.size(), true);
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -129,7 +129,7 @@ Term term_of(const Law& law, const Typical& typical, const std::vector<double>& 
     t.scale[i] = unit > 0 ? push / unit : 1;
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (t.parameters[i].kind == Kind::amplitude) t.value[i] = 0.1 * t.scale[i];
+    if (t.parameters[i].kind == Kind::amplitude) t.value[i] = size * t.scale[i];
   }
   return t;
 }

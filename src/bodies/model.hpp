@@ -40,9 +40,10 @@ std::size_t own_numbers(const Model& model);
 /// Accelerations at [body][dimension].
 void accelerate(const Model& model, const Scene& scene, double* out);
 
-/// A term of a law with one of its starts; `push` (m/s^2) is a size for its acceleration.
+/// A term of a law with one of its starts; `push` (m/s^2) is a size for its acceleration,
+/// `size` the share of it at which amplitudes start.
 Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
-             const std::vector<const BodyRun*>& runs, double push);
+             const std::vector<const BodyRun*>& runs, double push, double size = 1e-3);
 
 /// Sizes that occur in some runs.
 Typical typical_of(const BodyExperiment& experiment, const std::vector<const BodyRun*>& runs);
