@@ -75,21 +75,22 @@ Model baseline_model(const BodyExperiment& e, Group& g) {
 // Of several starts the one that fits best: also one with small pushes, so that a law need not
 // first compete with pushes that have taken its place.
 Fitted best_fit(const Group& g, const Model& base, const Law& law) {
+  constexpr int kFirst = 4;  // steps after which only the best start goes on
   Fitted best;
   best.likelihood = -1e300;
   for (const std::vector<double>& start : law.starts(g.typical)) {
-    for (const auto& [size, pushes] : {std::pair{1e-3, 1.0}, {0.5, 0.03}, {0.3, 0.3}}) {
+    for (const auto& [size, pushes] : {std::pair{1e-3, 1.0}, {0.5, 0.03}}) {
       Model m = base;
       m.push = std::max(m.push * pushes, m.least_push);
       m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, size));
       const bool same =
           !best.numbers.empty() && m.terms.back().fitted == std::vector<bool>(start.size(), false);
       if (same) continue;  // nothing of it is fitted
-      const Fitted f = fit_group(g, m);
+      const Fitted f = fit_group(g, m, false, kFirst);
       if (f.likelihood > best.likelihood) best = f;
     }
   }
-  return best;
+  return fit_group(g, best.model);
 }
 
 }  // namespace

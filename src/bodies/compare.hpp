@@ -18,6 +18,7 @@ struct Outcome {
   std::vector<Fitted> fits;      ///< one a group
   std::vector<double> by_block;  ///< held-out log-likelihood, groups after each other
   double gain = 0;               ///< over the baseline, nat
+  std::vector<double> shaken;    ///< as by_block, beside a bias of every run; empty: not done
 };
 
 struct Job {
@@ -66,6 +67,14 @@ struct Repeats {
 };
 Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& groups,
                    const Outcome& outcome);
+
+/// Fits an outcome once more with an unknown acceleration that lasts a whole run, as wrong scales,
+/// clocks and releases give: laws that only such a fault could tell apart are then not told apart.
+void shake(const std::vector<Group>& groups, Outcome& outcome);
+
+/// rms over the recorded motion of what two outcomes' accelerations differ by, in units of the
+/// pushes that the first still needs: below 1 neither fit says which of them it is.
+double unlike(const std::vector<Group>& groups, const Outcome& a, const Outcome& b);
 
 /// Mean square of predictions over a quarter of a run from what the filter believed, per group
 /// (m^2).

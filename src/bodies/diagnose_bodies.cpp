@@ -68,6 +68,13 @@ std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const Diagnosi
     c.pairs.push_back(fit_candidate(c.groups, c.baseline, *from, pair));
   }
   sort_best_first(c.pairs);
+  // A bias can be known only from several runs.
+  if (e.runs.size() > 3) {
+    for (std::vector<Outcome>* all : {&c.singles, &c.pairs}) {
+      for (std::size_t k = 0; k < all->size() && k < 6 && !job.stopped(); ++k)
+        shake(c.groups, (*all)[k]);
+    }
+  }
   const int nulls = std::max(9, static_cast<int>(std::lround(4.9 * options.minutes)));
   job.progress = [&](double share) { tell(0.6 + 0.39 * share, "simulated baselines"); };
   c.nulls = null_gains(e, c.groups, c.baseline, nulls, job);

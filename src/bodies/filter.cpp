@@ -9,7 +9,7 @@
 namespace lilytank::bodies {
 namespace {
 
-constexpr int kMost = 24;  // states: positions, velocities, pushes of up to eight coordinates
+constexpr int kMost = 32;  // states: positions, velocities, pushes, biases of eight coordinates
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
 
@@ -56,7 +56,7 @@ class Mover {
   // z: positions, velocities, pushes at sample k; moved to sample k + 1.
   void move(std::size_t k, Vector& z) const {
     const double T = run_->time[k + 1] - run_->time[k];
-    const int parts = pairs_ ? 4 : 1;
+    const int parts = pairs_ ? 2 : 1;
     for (int i = 0; i < parts; ++i) step(k, run_->time[k] + T * i / parts, T / parts, z);
   }
 
@@ -86,6 +86,7 @@ class Mover {
       }
       slopes(k, time + part * h, x, v, a);
       for (int i = 0; i < n; ++i) a[i] += z[2 * n + i] * decay;
+      for (int i = 3 * n; i < z.size(); ++i) a[i - 3 * n] += z[i];
     };
     at(0, nullptr, nullptr, a1, w[0]);
     at(0.5, w[0], a1, a2, w[1]);
@@ -130,7 +131,8 @@ struct Belief {
 
 // From the first samples: where they are, and the velocity between them, both hardly trusted.
 Belief first_belief(const Model& model, const Typical& typical, const BodyRun& run, int n) {
-  Belief out{Vector::Zero(3 * n), Matrix::Zero(3 * n, 3 * n)};
+  const int states = (model.bias > 0 ? 4 : 3) * n;
+  Belief out{Vector::Zero(states), Matrix::Zero(states, states)};
   const auto row = static_cast<std::size_t>(n);
   const std::size_t to = std::min<std::size_t>(4, run.samples() - 1);
   for (int i = 0; i < n; ++i) {
@@ -147,6 +149,7 @@ Belief first_belief(const Model& model, const Typical& typical, const BodyRun& r
     out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * model.noise * model.noise;
     out.P(n + i, n + i) = typical.speed * typical.speed;
     out.P(2 * n + i, 2 * n + i) = model.push * model.push;
+    if (model.bias > 0) out.P(3 * n + i, 3 * n + i) = model.bias * model.bias;
   }
   return out;
 }
@@ -160,7 +163,7 @@ class Filter {
         mover_(model, typical, run),
         n_(mover_.coordinates()),
         now_(first_belief(model, typical, run, n_)) {
-    F_.setIdentity(3 * n_, 3 * n_);
+    F_.setIdentity(now_.z.size(), now_.z.size());
   }
 
   void run(Innovations& out, Believed* believed) {
@@ -191,6 +194,9 @@ class Filter {
     const double to_x = u < 1e-3 ? T * T / 2 * (1 - u / 3) : (u - 1 + e) / (b * b);
     for (int i = 0; i < n_; ++i) {
       F_(i, 2 * n_ + i) = to_x, F_(n_ + i, 2 * n_ + i) = to_v, F_(2 * n_ + i, 2 * n_ + i) = e;
+    }
+    if (model_->bias > 0) {
+      for (int i = 0; i < n_; ++i) F_(i, 3 * n_ + i) = T * T / 2, F_(n_ + i, 3 * n_ + i) = T;
     }
     const Matrix half = F_ * now_.P;
     now_.P.noalias() = half * F_.transpose();

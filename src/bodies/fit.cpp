@@ -198,9 +198,9 @@ double Fitted::held_out_sum() const {
   return sum;
 }
 
-Fitted fit_group(const Group& group, const Model& from, bool held) {
+Fitted fit_group(const Group& group, const Model& from, bool held, int rounds) {
   Hill hill(group, from, -1, held);
-  const Top top = climb(hill, packed(from), 30);
+  const Top top = climb(hill, packed(from), rounds);
   Fitted out;
   out.model = unpacked(from, top.q), out.numbers = top.q;
   out.likelihood = top.height - hill.prior(top.q);
@@ -218,7 +218,7 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
   fitted.held_out.assign(static_cast<std::size_t>(g.blocks), 0);
   for (int fold = 0; fold < g.folds; ++fold) {
     Hill hill(g, fitted.model, fold, true);
-    const Top without = climb(hill, fitted.numbers, 4);
+    const Top without = climb(hill, fitted.numbers, 3);
     for (std::size_t k = 0; k < g.fold.size(); ++k) {
       if (g.fold[k] == fold) {
         fitted.held_out[static_cast<std::size_t>(g.block[k])] +=

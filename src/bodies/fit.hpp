@@ -34,8 +34,8 @@ struct Fitted {
 };
 
 /// Goes uphill from the model's numbers by Fisher's scoring: numeric derivatives, Levenberg's
-/// damping. `held`: noise and pushes stay as they are.
-Fitted fit_group(const Group& group, const Model& from, bool held = false);
+/// damping. `held`: noise and pushes stay as they are; `rounds`: steps at most.
+Fitted fit_group(const Group& group, const Model& from, bool held = false, int rounds = 16);
 
 /// Leaves out one fold after the other, fits the rest again and scores what was left out.
 void leave_folds_out(const Group& group, Fitted& fitted);

@@ -21,13 +21,14 @@ double kept(double log_value, double low, double high) {
 }  // namespace
 
 std::size_t own_numbers(const Model& model) {
-  return model.noise_fitted ? 3 : 2;
+  return 2u + (model.noise_fitted ? 1u : 0u) + (model.bias > 0 ? 1u : 0u);
 }
 
 std::vector<double> packed(const Model& m) {
   std::vector<double> out;
   if (m.noise_fitted) out.push_back(std::log(m.noise));
   out.push_back(std::log(m.push)), out.push_back(std::log(m.memory));
+  if (m.bias > 0) out.push_back(std::log(m.bias));
   for (const Term& t : m.terms) {
     for (std::size_t i = 0; i < t.value.size(); ++i) {
       if (t.fitted[i]) out.push_back(encoded(t.parameters[i].kind, t.value[i], t.scale[i]));
@@ -42,6 +43,7 @@ Model unpacked(const Model& model, const std::vector<double>& numbers) {
   if (m.noise_fitted) m.noise = kept(numbers[at++], m.least_noise, 1e300);
   m.push = kept(numbers[at++], m.least_push, m.most_push);
   m.memory = kept(numbers[at++], m.least_memory, m.most_memory);
+  if (m.bias > 0) m.bias = kept(numbers[at++], m.least_push, m.most_push);
   for (Term& t : m.terms) {
     for (std::size_t i = 0; i < t.value.size(); ++i) {
       if (t.fitted[i]) t.value[i] = decoded(t.parameters[i].kind, numbers[at++], t.scale[i]);

@@ -25,13 +25,15 @@ struct Model {
   std::vector<Term> terms;
   double noise = 0, push = 0, memory = 1;
   bool noise_fitted = false;
+  double bias =
+      0;  ///< deviation of an acceleration that lasts a whole run, m/s^2; 0: there is none
   double restitution = -1;  ///< of contacts between bodies; negative: they pass each other
   double least_noise = 0, least_push = 0, most_push = 0;
   double least_memory = 0, most_memory = 0;
 };
 
-/// The fitted numbers: log noise (if fitted), log push, log memory, then those of the terms:
-/// amplitudes and places by their scale, positive ones as logarithms.
+/// The fitted numbers: log noise (if fitted), log push, log memory, log bias (if there is one),
+/// then those of the terms: amplitudes and places by their scale, positive ones as logarithms.
 std::vector<double> packed(const Model& model);
 Model unpacked(const Model& model, const std::vector<double>& numbers);
 /// How many come before those of the terms.

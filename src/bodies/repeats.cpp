@@ -73,6 +73,52 @@ Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
   return out;
 }
 
+void shake(const std::vector<Group>& groups, Outcome& outcome) {
+  outcome.shaken.clear();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Group g = groups[i];
+    Model m = outcome.fits[i].model;
+    const std::size_t before = own_numbers(m);
+    m.bias = m.push;
+    g.penalty_at.insert(g.penalty_at.begin() + static_cast<std::ptrdiff_t>(before),
+                        std::log(m.push));
+    Fitted f = fit_group(g, m, false, 6);
+    leave_folds_out(g, f);
+    outcome.shaken.insert(outcome.shaken.end(), f.held_out.begin(), f.held_out.end());
+  }
+}
+
+double unlike(const std::vector<Group>& groups, const Outcome& a, const Outcome& b) {
+  double apart = 0, pushes = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Model &ma = a.fits[i].model, &mb = b.fits[i].model;
+    const Typical& t = groups[i].typical;
+    for (const BodyRun* run : groups[i].runs) {
+      Believed at;
+      Innovations in;
+      filter_run(ma, t, *run, in, &at);
+      const std::size_t n = run->samples(), row = run->position.size() / n,
+                        drivers = run->drivers.size() / n;
+      std::vector<double> fa(row), fb(row);
+      for (std::size_t k = 0; k < n; ++k) {
+        const Scene s{static_cast<int>(run->bodies.size()),
+                      t.dimensions,
+                      run->mass.data(),
+                      run->radius.data(),
+                      drivers > 0 ? &run->drivers[k * drivers] : nullptr,
+                      run->time[k],
+                      &at.x[k * row],
+                      &at.v[k * row]};
+        accelerate(ma, s, fa.data()), accelerate(mb, s, fb.data());
+        for (std::size_t c = 0; c < row; ++c) {
+          apart += (fa[c] - fb[c]) * (fa[c] - fb[c]), pushes += ma.push * ma.push;
+        }
+      }
+    }
+  }
+  return std::sqrt(apart / std::max(pushes, 1e-300));
+}
+
 std::vector<double> far_errors(const std::vector<Group>& groups, const Outcome& outcome) {
   std::vector<double> out;
   for (std::size_t i = 0; i < groups.size(); ++i) {
