@@ -26,14 +26,22 @@ double Comparison::chance(double gain) const {
   return over > 0 ? (over + 1) / (n + 1) : std::exp(-std::max(0.0, gain - most)) / (n + 1);
 }
 
+namespace {
+
+std::multiset<std::string_view> variables_of(const Candidate& candidate) {
+  std::multiset<std::string_view> out;
+  for (const Law* law : candidate.laws) out.insert(law->variable());
+  return out;
+}
+
+}  // namespace
+
 bool Comparison::apart(const Outcome& better, const Outcome& worse) const {
   Difference d = difference(groups, better.by_block, worse.by_block);
   d.error *= repeats.factor();
   if (!d.told_apart()) return false;
   // Laws of one variable: what no law explains must be less than what they differ by.
-  const bool alike =
-      better.candidate.laws.size() == worse.candidate.laws.size() &&
-      better.candidate.laws.back()->variable() == worse.candidate.laws.back()->variable();
+  const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
   if (alike && unlike(groups, better, worse) < 1) return false;
   if (better.shaken.empty() || worse.shaken.empty()) return true;
   Difference still = difference(groups, better.shaken, worse.shaken);

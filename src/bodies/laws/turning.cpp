@@ -46,6 +46,8 @@ class Rotation final : public Law {
  public:
   std::string_view name() const override { return "rotation"; }
   std::string_view equation() const override { return "F = m w (v_y, -v_x), w free"; }
+  /// It fits whatever turns; the laws beside it say why.
+  bool curve() const override { return true; }
   std::string_view variable() const override { return "turn"; }
   std::string_view split() const override { return kSplit; }
   bool possible(const Typical& t) const override { return t.dimensions == 2; }
