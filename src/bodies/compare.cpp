@@ -83,9 +83,6 @@ Fitted best_fit(const Group& g, const Model& base, const Law& law) {
       Model m = base;
       m.push = std::max(m.push * pushes, m.least_push);
       m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, size));
-      const bool same =
-          !best.numbers.empty() && m.terms.back().fitted == std::vector<bool>(start.size(), false);
-      if (same) continue;  // nothing of it is fitted
       const Fitted f = fit_group(g, m, false, kFirst);
       if (f.likelihood > best.likelihood) best = f;
     }

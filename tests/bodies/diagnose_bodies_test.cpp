@@ -129,16 +129,18 @@ TEST(DiagnoseBodies, seesThatBodiesActAtADistance) {
   EXPECT_TRUE(has(all, "pair_dipoles") || has(all, "pair_power_law"));
 }
 
-// Where the tide's period is not the latitude's, the two are told apart; at 74.5 degrees not.
+// Where the tide's period is not the latitude's, the two are told apart; at 74.5 degrees it is.
 TEST(DiagnoseBodies, turningIsCoriolisOnlyWhereTheTideIsElsewhere) {
   for (const bool alike : {false, true}) {
     BodyExperiment e;
     e.name = "drift", e.dimensions = 2, e.noise = 5;
-    e.turning = 2 * 7.292115e-5 * std::sin((alike ? 74.5 : 50) * 3.14159265358979 / 180);
+    e.turning = alike ? 2 * 3.14159265358979 / (12.4206 * 3600) : 1.117e-4;  // or 50 degrees
     const Acceleration force = [&](const double*, const double* v, double* a) {
       a[0] = e.turning * v[1], a[1] = -e.turning * v[0];
     };
-    e.runs.push_back(run_of(force, {0, 0}, {0.3, 0.1}, 1800, 150, 5, 5, 1));
+    // Twice: one circle alone might be a spring's.
+    e.runs.push_back(run_of(force, {0, 0}, {0.3, 0.1}, 1800, 80, 5, 5, 1));
+    e.runs.push_back(run_of(force, {0, 0}, {-0.1, -0.2}, 1800, 80, 5, 6, 1));
     const Diagnosis d = diagnosis_of(e);
     ASSERT_EQ(d.verdict, Verdict::missing);
     std::vector<std::string> all = d.findings.front().alternatives;
