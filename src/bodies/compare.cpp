@@ -38,7 +38,7 @@ std::vector<Group> groups_of(const BodyExperiment& e) {
 
 namespace {
 
-void gather(Outcome& out) {
+void gather(LawTrial& out) {
   out.by_block.clear();
   for (const Fitted& f : out.fits) {
     out.by_block.insert(out.by_block.end(), f.held_out.begin(), f.held_out.end());
@@ -51,8 +51,8 @@ double sum(const std::vector<double>& v) {
   return out;
 }
 
-Model baseline_model(const BodyExperiment& e, Group& g) {
-  Model m = first_model(e, g);
+BodyModel baseline_model(const BodyExperiment& e, Group& g) {
+  BodyModel m = first_model(e, g);
   g.penalty_at = packed(m);
   for (const BaselineLaw& one : e.baseline) {
     if (one.law == "contact") {
@@ -74,13 +74,13 @@ Model baseline_model(const BodyExperiment& e, Group& g) {
 
 // Of several starts the one that fits best: also one with small pushes, so that a law need not
 // first compete with pushes that have taken its place.
-Fitted best_fit(const Group& g, const Model& base, const Law& law) {
+Fitted best_fit(const Group& g, const BodyModel& base, const Law& law) {
   constexpr int kFirst = 4;  // steps after which only the best start goes on
   Fitted best;
   best.likelihood = -1e300;
   for (const std::vector<double>& start : law.starts(g.typical)) {
     for (const auto& [size, pushes] : {std::pair{1e-3, 1.0}, {0.5, 0.03}}) {
-      Model m = base;
+      BodyModel m = base;
       m.push = std::max(m.push * pushes, m.least_push);
       m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, size));
       const Fitted f = fit_group(g, m, false, kFirst);
@@ -92,8 +92,8 @@ Fitted best_fit(const Group& g, const Model& base, const Law& law) {
 
 }  // namespace
 
-Outcome fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
-  Outcome out;
+LawTrial fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
+  LawTrial out;
   for (Group& g : groups) {
     Fitted f = fit_group(g, baseline_model(e, g));
     leave_folds_out(g, f);
@@ -117,9 +117,9 @@ std::vector<Candidate> single_laws(const BodyExperiment& e, const std::vector<Gr
   return out;
 }
 
-Outcome fit_candidate(const std::vector<Group>& groups, const Outcome& baseline,
-                      const Outcome& from, const Candidate& candidate) {
-  Outcome out;
+LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
+                       const LawTrial& from, const Candidate& candidate) {
+  LawTrial out;
   out.candidate = candidate;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Fitted f = best_fit(groups[i], from.fits[i].model, *candidate.laws.back());
@@ -135,7 +135,7 @@ namespace {
 
 // The experiment as the fitted baseline makes it up, at most so many samples of it.
 BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups,
-                       const Outcome& baseline, std::uint64_t seed, std::size_t most) {
+                       const LawTrial& baseline, std::uint64_t seed, std::size_t most) {
   BodyExperiment out = e;
   std::size_t all = 0;
   for (const BodyRun& r : e.runs) all += r.samples();
@@ -161,14 +161,14 @@ BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups
 }  // namespace
 
 std::vector<double> null_gains(const BodyExperiment& e, const std::vector<Group>& groups,
-                               const Outcome& baseline, int number, const Job& job) {
+                               const LawTrial& baseline, int number, const Job& job) {
   constexpr std::size_t kMost = 1500;  // samples
   std::vector<double> out;
   for (int r = 0; r < number && !job.stopped(); ++r) {
     const BodyExperiment drawn =
         made_up(e, groups, baseline, derived_seed(job.seed, static_cast<std::uint64_t>(r)), kMost);
     std::vector<Group> own = groups_of(drawn);
-    const Outcome base = fit_baseline(drawn, own);
+    const LawTrial base = fit_baseline(drawn, own);
     double best = -1e300;
     for (const Candidate& c : single_laws(drawn, own)) {
       if (job.stopped()) break;

@@ -13,7 +13,7 @@ struct Candidate {
 };
 
 /// A baseline, or a baseline with a candidate, fitted to all groups.
-struct Outcome {
+struct LawTrial {
   Candidate candidate;
   std::vector<Fitted> fits;      ///< one a group
   std::vector<double> by_block;  ///< held-out log-likelihood, groups after each other
@@ -32,20 +32,20 @@ struct Job {
 std::vector<Group> groups_of(const BodyExperiment& experiment);
 
 /// The baseline of the experiment, fitted. Throws InputError where it cannot be had.
-Outcome fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
+LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
 
 /// Laws alone that the recordings can have and the baseline does not.
 std::vector<Candidate> single_laws(const BodyExperiment& experiment,
                                    const std::vector<Group>& groups);
 
 /// The candidate added to `from` (a baseline, or an outcome that has all but its last law).
-Outcome fit_candidate(const std::vector<Group>& groups, const Outcome& baseline,
-                      const Outcome& from, const Candidate& candidate);
+LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
+                       const LawTrial& from, const Candidate& candidate);
 
 /// Best gains of single laws in experiments that the fitted baseline makes up, sorted. Large
 /// recordings are cut: what chance gives hangs on the number of coefficients, not of samples.
 std::vector<double> null_gains(const BodyExperiment& experiment, const std::vector<Group>& groups,
-                               const Outcome& baseline, int number, const Job& job);
+                               const LawTrial& baseline, int number, const Job& job);
 
 /// By how much `a` is better than `b` (nat), with its standard error from what blocks and runs
 /// differ in.
@@ -66,18 +66,18 @@ struct Repeats {
   std::string worst;      ///< group that disagrees most
 };
 Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& groups,
-                   const Outcome& outcome);
+                   const LawTrial& outcome);
 
 /// Fits an outcome once more with an unknown acceleration that lasts a whole run, as wrong scales,
 /// clocks and releases give: laws that only such a fault could tell apart are then not told apart.
-void shake(const std::vector<Group>& groups, Outcome& outcome);
+void shake(const std::vector<Group>& groups, LawTrial& outcome);
 
 /// rms over the recorded motion of what two outcomes' accelerations differ by, in units of the
 /// pushes that the first still needs: below 1 neither fit says which of them it is.
-double unlike(const std::vector<Group>& groups, const Outcome& a, const Outcome& b);
+double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b);
 
 /// Mean square of predictions over a quarter of a run from what the filter believed, per group
 /// (m^2).
-std::vector<double> far_errors(const std::vector<Group>& groups, const Outcome& outcome);
+std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial& outcome);
 
 }  // namespace lilytank::bodies

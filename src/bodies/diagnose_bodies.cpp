@@ -7,9 +7,9 @@ namespace lilytank {
 namespace bodies {
 namespace {
 
-void sort_best_first(std::vector<Outcome>& all) {
+void sort_best_first(std::vector<LawTrial>& all) {
   std::stable_sort(all.begin(), all.end(),
-                   [](const Outcome& a, const Outcome& b) { return a.gain > b.gain; });
+                   [](const LawTrial& a, const LawTrial& b) { return a.gain > b.gain; });
 }
 
 // Two laws of force together; curves stand alone, and laws that turn velocities say the same thing.
@@ -20,11 +20,11 @@ bool together(const Law& a, const Law& b) {
 }
 
 // Pairs of the strongest laws with all others.
-std::vector<std::pair<const Outcome*, Candidate>> pairs_of(const std::vector<Outcome>& singles) {
+std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<LawTrial>& singles) {
   constexpr std::size_t kStrongest = 3;
-  std::vector<std::pair<const Outcome*, Candidate>> out;
-  std::vector<const Outcome*> named;
-  for (const Outcome& o : singles) {
+  std::vector<std::pair<const LawTrial*, Candidate>> out;
+  std::vector<const LawTrial*> named;
+  for (const LawTrial& o : singles) {
     if (!o.candidate.curve()) named.push_back(&o);
   }
   for (std::size_t i = 0; i < std::min(kStrongest, named.size()); ++i) {
@@ -70,7 +70,7 @@ std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const Diagnosi
   sort_best_first(c.pairs);
   // A bias can be known only from several runs.
   if (e.runs.size() > 3) {
-    for (std::vector<Outcome>* all : {&c.singles, &c.pairs}) {
+    for (std::vector<LawTrial>* all : {&c.singles, &c.pairs}) {
       for (std::size_t k = 0; k < all->size() && k < 6 && !job.stopped(); ++k)
         shake(c.groups, (*all)[k]);
     }

@@ -41,7 +41,7 @@ Gathered gathered(double push, double b, double T) {
 // Moves positions, velocities and pushes of one run.
 class Mover {
  public:
-  Mover(const Model& model, const Typical& typical, const BodyRun& run)
+  Mover(const BodyModel& model, const Typical& typical, const BodyRun& run)
       : model_(&model),
         run_(&run),
         dimensions_(typical.dimensions),
@@ -117,7 +117,7 @@ class Mover {
     }
   }
 
-  const Model* model_;
+  const BodyModel* model_;
   const BodyRun* run_;
   int dimensions_, n_;
   std::size_t drivers_ = 0;
@@ -130,7 +130,7 @@ struct Belief {
 };
 
 // From the first samples: where they are, and the velocity between them, both hardly trusted.
-Belief first_belief(const Model& model, const Typical& typical, const BodyRun& run, int n) {
+Belief first_belief(const BodyModel& model, const Typical& typical, const BodyRun& run, int n) {
   const int states = (model.bias > 0 ? 4 : 3) * n;
   Belief out{Vector::Zero(states), Matrix::Zero(states, states)};
   const auto row = static_cast<std::size_t>(n);
@@ -156,7 +156,7 @@ Belief first_belief(const Model& model, const Typical& typical, const BodyRun& r
 
 class Filter {
  public:
-  Filter(const Model& model, const Typical& typical, const BodyRun& run)
+  Filter(const BodyModel& model, const Typical& typical, const BodyRun& run)
       : model_(&model),
         typical_(&typical),
         run_(&run),
@@ -166,7 +166,7 @@ class Filter {
     F_.setIdentity(now_.z.size(), now_.z.size());
   }
 
-  void run(Innovations& out, Believed* believed) {
+  void run(BodyResiduals& out, Believed* believed) {
     for (std::size_t k = 0; k < run_->samples(); ++k) {
       if (k > 0) advance(k - 1);
       for (int i = 0; i < n_; ++i) update(k, i, out);
@@ -213,7 +213,7 @@ class Filter {
     P(v, a) += g.va, P(a, v) += g.va;
   }
 
-  void update(std::size_t k, int i, Innovations& out) {
+  void update(std::size_t k, int i, BodyResiduals& out) {
     const double seen =
         run_->position[k * static_cast<std::size_t>(n_) + static_cast<std::size_t>(i)];
     if (std::isnan(seen)) return;
@@ -237,7 +237,7 @@ class Filter {
     b.deviation.push_back(std::sqrt(std::max(0.0, now_.P(2 * n_, 2 * n_))));
   }
 
-  const Model* model_;
+  const BodyModel* model_;
   const Typical* typical_;
   const BodyRun* run_;
   Mover mover_;
@@ -250,12 +250,12 @@ class Filter {
 
 }  // namespace
 
-void filter_run(const Model& model, const Typical& typical, const BodyRun& run, Innovations& out,
-                Believed* believed) {
+void filter_run(const BodyModel& model, const Typical& typical, const BodyRun& run,
+                BodyResiduals& out, Believed* believed) {
   Filter(model, typical, run).run(out, believed);
 }
 
-std::vector<double> predicted(const Model& model, const Typical& typical, const BodyRun& run,
+std::vector<double> predicted(const BodyModel& model, const Typical& typical, const BodyRun& run,
                               const Believed& believed, std::size_t from, std::size_t to) {
   const Mover mover(model, typical, run);
   const int n = mover.coordinates();
@@ -268,7 +268,7 @@ std::vector<double> predicted(const Model& model, const Typical& typical, const 
   return {z.data(), z.data() + n};
 }
 
-BodyRun simulated(const Model& model, const Typical& typical, const BodyRun& run,
+BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun& run,
                   std::uint64_t seed, std::uint32_t number) {
   const Mover mover(model, typical, run);
   const int n = mover.coordinates();

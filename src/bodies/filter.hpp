@@ -4,8 +4,8 @@
 
 namespace lilytank::bodies {
 
-/// Innovations (m) and their variances, one for every seen coordinate, in the order of the runs.
-struct Innovations {
+/// BodyResiduals (m) and their variances, one for every seen coordinate, in the order of the runs.
+struct BodyResiduals {
   std::vector<double> value, variance;
 };
 
@@ -17,15 +17,15 @@ struct Believed {
 
 /// Extended Kalman filter: between samples the mean is integrated (Runge and Kutta, fourth order)
 /// and the covariance goes with its derivative. Appends to `out`; `believed` may be null.
-void filter_run(const Model& model, const Typical& typical, const BodyRun& run, Innovations& out,
-                Believed* believed = nullptr);
+void filter_run(const BodyModel& model, const Typical& typical, const BodyRun& run,
+                BodyResiduals& out, Believed* believed = nullptr);
 
 /// Positions at a later sample by the model without pushes, from a belief at `from`; [coordinate].
-std::vector<double> predicted(const Model& model, const Typical& typical, const BodyRun& run,
+std::vector<double> predicted(const BodyModel& model, const Typical& typical, const BodyRun& run,
                               const Believed& believed, std::size_t from, std::size_t to);
 
 /// The run's samples as this model would have given them, pushes and noise drawn.
-BodyRun simulated(const Model& model, const Typical& typical, const BodyRun& run,
+BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun& run,
                   std::uint64_t seed, std::uint32_t number);
 
 }  // namespace lilytank::bodies

@@ -12,8 +12,8 @@ constexpr double kLoose = 3.0;  // deviation of the weak prior on logarithms of 
 constexpr double kCurve = 3.0;  // of knots, in sizes of the pushes that the baseline needs
 constexpr double kWide = 100;   // of other amplitudes
 
-Innovations innovations(const Group& g, const Model& m) {
-  Innovations out;
+BodyResiduals innovations(const Group& g, const BodyModel& m) {
+  BodyResiduals out;
   out.value.reserve(g.fold.size()), out.variance.reserve(g.fold.size());
   for (const BodyRun* run : g.runs) filter_run(m, g.typical, *run, out);
   return out;
@@ -27,7 +27,7 @@ double term(double nu, double S) {
 class Hill {
  public:
   /// `held`: noise and pushes stay as they are.
-  Hill(const Group& group, const Model& model, int without, bool held)
+  Hill(const Group& group, const BodyModel& model, int without, bool held)
       : group_(&group), model_(&model), without_(without), held_(held) {
     placed_.assign(own_numbers(model), false), curved_.assign(own_numbers(model), false);
     for (const Term& t : model.terms) {
@@ -55,7 +55,7 @@ class Hill {
     return sum;
   }
 
-  double height(const Innovations& in, const std::vector<double>& q) const {
+  double height(const BodyResiduals& in, const std::vector<double>& q) const {
     double sum = prior(q);
     for (std::size_t k = 0; k < in.value.size(); ++k) {
       if (group_->fold[k] != without_ || without_ < 0) sum += term(in.value[k], in.variance[k]);
@@ -63,7 +63,7 @@ class Hill {
     return std::isfinite(sum) ? sum : -1e300;
   }
 
-  Innovations at(const std::vector<double>& q) const {
+  BodyResiduals at(const std::vector<double>& q) const {
     return innovations(*group_, unpacked(*model_, q));
   }
 
@@ -78,7 +78,7 @@ class Hill {
   }
 
   // Derivatives are taken over all samples once; any fold's share follows from them.
-  void derive(const std::vector<double>& q, const Innovations& here) {
+  void derive(const std::vector<double>& q, const BodyResiduals& here) {
     base_ = here;
     slopes_.clear();
     for (std::size_t i = 0; i < q.size(); ++i) {
@@ -90,7 +90,7 @@ class Hill {
       std::vector<double> moved = q;
       const double h = i < own_numbers(*model_) ? 1e-3 : 1e-4;
       moved[i] += h;
-      Innovations in = at(moved);
+      BodyResiduals in = at(moved);
       for (std::size_t k = 0; k < in.value.size(); ++k) {
         in.value[k] = (in.value[k] - here.value[k]) / h;
         in.variance[k] = (in.variance[k] - here.variance[k]) / h;
@@ -106,10 +106,10 @@ class Hill {
       if (without_ >= 0 && group_->fold[k] == without_) continue;
       const double S = base_.variance[k], nu = base_.value[k];
       for (Eigen::Index i = 0; i < n; ++i) {
-        const Innovations& a = slopes_[static_cast<std::size_t>(i)];
+        const BodyResiduals& a = slopes_[static_cast<std::size_t>(i)];
         g[i] += -nu * a.value[k] / S + 0.5 * a.variance[k] / S * (nu * nu / S - 1);
         for (Eigen::Index j = 0; j <= i; ++j) {
-          const Innovations& b = slopes_[static_cast<std::size_t>(j)];
+          const BodyResiduals& b = slopes_[static_cast<std::size_t>(j)];
           I(i, j) += a.value[k] * b.value[k] / S + 0.5 * a.variance[k] * b.variance[k] / (S * S);
         }
       }
@@ -130,17 +130,17 @@ class Hill {
 
  private:
   const Group* group_;
-  const Model* model_;
+  const BodyModel* model_;
   int without_;
   bool held_;
   std::vector<bool> placed_, curved_;
-  Innovations base_;
-  std::vector<Innovations> slopes_;
+  BodyResiduals base_;
+  std::vector<BodyResiduals> slopes_;
 };
 
 struct Top {
   std::vector<double> q;
-  Innovations in;
+  BodyResiduals in;
   double height = 0;
   Eigen::MatrixXd information;
 };
@@ -177,7 +177,7 @@ Top climb(Hill& hill, std::vector<double> q, int most) {
       if (!(promise > kEnough)) break;
       std::vector<double> moved = top.q;
       for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += step[static_cast<Eigen::Index>(i)];
-      Innovations in = hill.at(moved);
+      BodyResiduals in = hill.at(moved);
       const double height = hill.height(in, moved);
       better = height > top.height;
       damping = better ? damping / 5 : damping * 6;
@@ -198,7 +198,7 @@ double Fitted::held_out_sum() const {
   return sum;
 }
 
-Fitted fit_group(const Group& group, const Model& from, bool held, int rounds) {
+Fitted fit_group(const Group& group, const BodyModel& from, bool held, int rounds) {
   Hill hill(group, from, -1, held);
   const Top top = climb(hill, packed(from), rounds);
   Fitted out;
@@ -261,8 +261,8 @@ Group make_group(const BodyExperiment& e, const std::string& name,
   return g;
 }
 
-Model first_model(const BodyExperiment& e, const Group& g) {
-  Model m;
+BodyModel first_model(const BodyExperiment& e, const Group& g) {
+  BodyModel m;
   std::vector<double> steps, bends;
   for (const BodyRun* run : g.runs) {
     const std::size_t row = run->position.size() / run->samples();

@@ -25,7 +25,7 @@ Group make_group(const BodyExperiment& experiment, const std::string& name,
                  const std::vector<const BodyRun*>& runs);
 
 struct Fitted {
-  Model model;
+  BodyModel model;
   std::vector<double> numbers;    ///< as packed
   std::vector<double> deviation;  ///< their standard errors (of the packed numbers)
   double likelihood = 0;          ///< log, of everything that was fitted
@@ -35,12 +35,12 @@ struct Fitted {
 
 /// Goes uphill from the model's numbers by Fisher's scoring: numeric derivatives, Levenberg's
 /// damping. `held`: noise and pushes stay as they are; `rounds`: steps at most.
-Fitted fit_group(const Group& group, const Model& from, bool held = false, int rounds = 16);
+Fitted fit_group(const Group& group, const BodyModel& from, bool held = false, int rounds = 16);
 
 /// Leaves out one fold after the other, fits the rest again and scores what was left out.
 void leave_folds_out(const Group& group, Fitted& fitted);
 
 /// A first model of the baseline's terms: noise, pushes and their memory by size.
-Model first_model(const BodyExperiment& experiment, const Group& group);
+BodyModel first_model(const BodyExperiment& experiment, const Group& group);
 
 }  // namespace lilytank::bodies

@@ -37,7 +37,7 @@ std::vector<Point> points_of(const Comparison& c, const std::string& variable) {
     for (const BodyRun* run : c.groups[i].runs) {
       if (variable == "pair" && run->bodies.size() < 2) continue;
       Believed b;
-      Innovations in;
+      BodyResiduals in;
       filter_run(c.baseline.fits[i].model, c.groups[i].typical, *run, in, &b);
       for (std::size_t k = 4; k < run->samples(); ++k) {
         const std::size_t bodies = variable == "pair" ? 2 : run->bodies.size();

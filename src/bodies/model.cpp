@@ -20,11 +20,11 @@ double kept(double log_value, double low, double high) {
 
 }  // namespace
 
-std::size_t own_numbers(const Model& model) {
+std::size_t own_numbers(const BodyModel& model) {
   return 2u + (model.noise_fitted ? 1u : 0u) + (model.bias > 0 ? 1u : 0u);
 }
 
-std::vector<double> packed(const Model& m) {
+std::vector<double> packed(const BodyModel& m) {
   std::vector<double> out;
   if (m.noise_fitted) out.push_back(std::log(m.noise));
   out.push_back(std::log(m.push)), out.push_back(std::log(m.memory));
@@ -37,8 +37,8 @@ std::vector<double> packed(const Model& m) {
   return out;
 }
 
-Model unpacked(const Model& model, const std::vector<double>& numbers) {
-  Model m = model;
+BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers) {
+  BodyModel m = model;
   std::size_t at = 0;
   if (m.noise_fitted) m.noise = kept(numbers[at++], m.least_noise, 1e300);
   m.push = kept(numbers[at++], m.least_push, m.most_push);
@@ -52,7 +52,7 @@ Model unpacked(const Model& model, const std::vector<double>& numbers) {
   return m;
 }
 
-void accelerate(const Model& model, const Scene& s, double* out) {
+void accelerate(const BodyModel& model, const Scene& s, double* out) {
   const int n = s.bodies * s.dimensions;
   std::fill(out, out + n, 0.0);
   for (const Term& t : model.terms) t.law->add(s, t.value, out);

@@ -21,7 +21,7 @@ struct Term {
 /// Pushes are an acceleration with a memory: an Ornstein-Uhlenbeck process of deviation `push`
 /// (m/s^2) and correlation time `memory` (s) [Singer, IEEE Trans. AES 6, 1970], alike for every
 /// coordinate.
-struct Model {
+struct BodyModel {
   std::vector<Term> terms;
   double noise = 0, push = 0, memory = 1;
   bool noise_fitted = false;
@@ -34,13 +34,13 @@ struct Model {
 
 /// The fitted numbers: log noise (if fitted), log push, log memory, log bias (if there is one),
 /// then those of the terms: amplitudes and places by their scale, positive ones as logarithms.
-std::vector<double> packed(const Model& model);
-Model unpacked(const Model& model, const std::vector<double>& numbers);
+std::vector<double> packed(const BodyModel& model);
+BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers);
 /// How many come before those of the terms.
-std::size_t own_numbers(const Model& model);
+std::size_t own_numbers(const BodyModel& model);
 
 /// Accelerations at [body][dimension].
-void accelerate(const Model& model, const Scene& scene, double* out);
+void accelerate(const BodyModel& model, const Scene& scene, double* out);
 
 /// A term of a law with one of its starts; `push` (m/s^2) is a size for its acceleration,
 /// `size` the share of it at which amplitudes start.

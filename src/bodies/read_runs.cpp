@@ -20,7 +20,7 @@ int column(const Table& table, const NamedAt& wanted) {
                                      did_you_mean(wanted.name, table.names()) + "; it has " + list);
 }
 
-double of_body(const BodyNumbers& numbers, std::size_t index, const std::string& body,
+double of_body(const BodyFigures& numbers, std::size_t index, const std::string& body,
                double standard, const std::string& what) {
   if (!numbers.by_name.empty()) {
     const auto found = numbers.by_name.find(body);

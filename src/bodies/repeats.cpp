@@ -19,7 +19,7 @@ double Repeats::z() const {
 namespace {
 
 // The amplitudes of the last term in the packed numbers.
-std::vector<std::size_t> last_amplitudes(const Model& m) {
+std::vector<std::size_t> last_amplitudes(const BodyModel& m) {
   std::vector<std::size_t> out;
   std::size_t at = own_numbers(m);
   for (const Term& t : m.terms) {
@@ -35,14 +35,14 @@ std::vector<std::size_t> last_amplitudes(const Model& m) {
 }  // namespace
 
 Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
-                   const Outcome& outcome) {
+                   const LawTrial& outcome) {
   Repeats out;
   double worst = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Group& g = groups[i];
     if (g.runs.size() < 2) continue;
     // Everything but the coefficients stays: noise of a single run would be another question.
-    Model joint = outcome.fits[i].model;
+    BodyModel joint = outcome.fits[i].model;
     for (std::size_t k = 0; k + 1 < joint.terms.size(); ++k) {
       joint.terms[k].fitted.assign(joint.terms[k].fitted.size(), false);
     }
@@ -73,11 +73,11 @@ Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
   return out;
 }
 
-void shake(const std::vector<Group>& groups, Outcome& outcome) {
+void shake(const std::vector<Group>& groups, LawTrial& outcome) {
   outcome.shaken.clear();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Group g = groups[i];
-    Model m = outcome.fits[i].model;
+    BodyModel m = outcome.fits[i].model;
     const std::size_t before = own_numbers(m);
     m.bias = m.push;
     g.penalty_at.insert(g.penalty_at.begin() + static_cast<std::ptrdiff_t>(before),
@@ -88,14 +88,14 @@ void shake(const std::vector<Group>& groups, Outcome& outcome) {
   }
 }
 
-double unlike(const std::vector<Group>& groups, const Outcome& a, const Outcome& b) {
+double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b) {
   double apart = 0, pushes = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const Model &ma = a.fits[i].model, &mb = b.fits[i].model;
+    const BodyModel &ma = a.fits[i].model, &mb = b.fits[i].model;
     const Typical& t = groups[i].typical;
     for (const BodyRun* run : groups[i].runs) {
       Believed at;
-      Innovations in;
+      BodyResiduals in;
       filter_run(ma, t, *run, in, &at);
       const std::size_t n = run->samples(), row = run->position.size() / n,
                         drivers = run->drivers.size() / n;
@@ -119,14 +119,14 @@ double unlike(const std::vector<Group>& groups, const Outcome& a, const Outcome&
   return std::sqrt(apart / std::max(pushes, 1e-300));
 }
 
-std::vector<double> far_errors(const std::vector<Group>& groups, const Outcome& outcome) {
+std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial& outcome) {
   std::vector<double> out;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     double sum = 0;
     int count = 0;
     for (const BodyRun* run : groups[i].runs) {
       Believed b;
-      Innovations in;
+      BodyResiduals in;
       filter_run(outcome.fits[i].model, groups[i].typical, *run, in, &b);
       const std::size_t n = run->samples(), row = run->position.size() / n,
                         far = std::max<std::size_t>(1, n / 4);

@@ -36,7 +36,7 @@ std::multiset<std::string_view> variables_of(const Candidate& candidate) {
 
 }  // namespace
 
-bool Comparison::apart(const Outcome& better, const Outcome& worse) const {
+bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
   Difference d = difference(groups, better.by_block, worse.by_block);
   d.error *= repeats.factor();
   if (!d.told_apart()) return false;
@@ -49,15 +49,15 @@ bool Comparison::apart(const Outcome& better, const Outcome& worse) const {
   return still.told_apart();
 }
 
-const Outcome* Comparison::pair() const {
+const LawTrial* Comparison::pair() const {
   if (pairs.empty() || singles.empty()) return nullptr;
   const Difference d = difference(groups, pairs.front().by_block, singles.front().by_block);
   const bool more = d.value > std::max(2.0, threshold()) && d.told_apart();
   return more ? &pairs.front() : nullptr;
 }
 
-const Outcome& Comparison::best() const {
-  const Outcome* two = pair();
+const LawTrial& Comparison::best() const {
+  const LawTrial* two = pair();
   return two != nullptr ? *two : singles.front();
 }
 
@@ -75,7 +75,7 @@ std::string unit_for(const BodyExperiment& e, std::string unit) {
   return unit;
 }
 
-void add_parameters(const Comparison& c, const Outcome& o, std::size_t law, DiagnosisFinding& f) {
+void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
     const std::size_t first = fit.model.terms.size() - o.candidate.laws.size();
@@ -107,31 +107,32 @@ void add_parameters(const Comparison& c, const Outcome& o, std::size_t law, Diag
 }
 
 // Interval of a gain by resampling blocks (2.5 % and 97.5 % of their normal approximation).
-void add_gain(const Comparison& c, const Outcome& o, const Outcome& without, DiagnosisFinding& f) {
+void add_gain(const Comparison& c, const LawTrial& o, const LawTrial& without,
+              DiagnosisFinding& f) {
   const Difference d = difference(c.groups, o.by_block, without.by_block);
   f.gain = d.value, f.gain_low = d.value - 1.96 * d.error, f.gain_high = d.value + 1.96 * d.error;
   f.z = std::sqrt(2 * std::max(0.0, d.value));
   f.confidence = 1 - std::min(1.0, c.chance(d.value));
 }
 
-const Outcome* single_of(const Comparison& c, const Law* law) {
-  for (const Outcome& o : c.singles) {
+const LawTrial* single_of(const Comparison& c, const Law* law) {
+  for (const LawTrial& o : c.singles) {
     if (o.candidate.laws.front() == law) return &o;
   }
   return nullptr;
 }
 
 // Other outcomes of as many laws that predict as well.
-std::vector<const Outcome*> as_good(const Comparison& c, const Outcome& best) {
-  std::vector<const Outcome*> out;
-  for (const Outcome& o : best.candidate.laws.size() == 1 ? c.singles : c.pairs) {
+std::vector<const LawTrial*> as_good(const Comparison& c, const LawTrial& best) {
+  std::vector<const LawTrial*> out;
+  for (const LawTrial& o : best.candidate.laws.size() == 1 ? c.singles : c.pairs) {
     const bool other = &o != &best && !o.candidate.curve();
     if (other && o.gain > c.threshold() && !c.apart(best, o)) out.push_back(&o);
   }
   return out;
 }
 
-std::string strongest_bodies(const Comparison& c, const Outcome& o) {
+std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   if (c.groups.size() < 2) return "";
   std::vector<std::pair<double, std::string>> by;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
@@ -165,7 +166,7 @@ void tell_range(const Comparison& c, const std::string& variable, DiagnosisFindi
                                                       : c.experiment->unit;
 }
 
-void tell_unnamed(const Outcome& best, DiagnosisFinding& f) {
+void tell_unnamed(const LawTrial& best, DiagnosisFinding& f) {
   f.effect = "unnamed";
   f.text = "no law of the library predicts as well as a free " +
            std::string(best.candidate.laws.back()->equation() == "" ? "curve" : "law") + " over " +
@@ -173,8 +174,8 @@ void tell_unnamed(const Outcome& best, DiagnosisFinding& f) {
 }
 
 // The law that stands for a group: one with a name, before curves that do no better.
-const Outcome& head_of(const Comparison& c) {
-  const Outcome& best = c.best();
+const LawTrial& head_of(const Comparison& c) {
+  const LawTrial& best = c.best();
   if (!best.candidate.curve()) return best;
   const auto others = as_good(c, best);
   return others.empty() ? best : *others.front();
@@ -182,8 +183,8 @@ const Outcome& head_of(const Comparison& c) {
 
 std::vector<DiagnosisFinding> findings(const Comparison& c) {
   std::vector<DiagnosisFinding> out;
-  const Outcome& head = head_of(c);
-  const std::vector<const Outcome*> others = as_good(c, head);
+  const LawTrial& head = head_of(c);
+  const std::vector<const LawTrial*> others = as_good(c, head);
   const std::size_t laws = head.candidate.laws.size();
   for (std::size_t k = 0; k < laws; ++k) {
     const Law& law = *head.candidate.laws[k];
@@ -191,11 +192,11 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
     f.effect = law.name(), f.equation = law.equation(), f.split = law.split();
     tell_range(c, std::string(law.variable()), f);
     f.text = strongest_bodies(c, head);
-    const Outcome* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
+    const LawTrial* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
     add_gain(c, head, without != nullptr ? *without : c.baseline, f);
     add_parameters(c, head, k, f);
     std::set<std::string> names;
-    for (const Outcome* o : others) {
+    for (const LawTrial* o : others) {
       // A pair's other laws stand for the one of ours that they do not share.
       for (const Law* l : o->candidate.laws) {
         const auto& own = head.candidate.laws;
@@ -238,7 +239,7 @@ void warn_of_pushes(const Comparison& c, Diagnosis& d) {
 }
 
 void warn(const Comparison& c, Diagnosis& d) {
-  const Outcome& best = c.best();
+  const LawTrial& best = c.best();
   warn_of_pushes(c, d);
   if (c.repeats.z() > 3) {
     d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
@@ -250,7 +251,7 @@ void warn(const Comparison& c, Diagnosis& d) {
                          "law it is cannot be told from fits that differ by less");
   }
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const Model& m = best.fits[i].model;
+    const BodyModel& m = best.fits[i].model;
     for (const Term& t : m.terms) {
       const bool drag = t.law->variable() == "slip" && !t.law->curve();
       if (drag && t.value[0] < 0 && t.fitted[0] && c.groups.size() == 1) {
@@ -298,7 +299,7 @@ void add_moved(const Comparison& c, Diagnosis& d) {
 
 // An amplitude that gains what chance does not: half a square of deviations, less its own cost.
 void add_detectable(const Comparison& c, Diagnosis& d) {
-  for (const Outcome& o : c.singles) {
+  for (const LawTrial& o : c.singles) {
     const Term& t = o.fits.front().model.terms.back();
     if (t.parameters[0].kind != Kind::amplitude || t.law->curve()) continue;
     double least = 1e300;
@@ -326,8 +327,8 @@ Diagnosis told(const Comparison& c) {
   }
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
-  const Outcome& best = c.best();
-  for (const Outcome& o : c.singles) {
+  const LawTrial& best = c.best();
+  for (const LawTrial& o : c.singles) {
     d.ranking.emplace_back(o.candidate.name(), std::sqrt(2 * std::max(0.0, o.gain)));
   }
   for (std::size_t k = 0; k < c.pairs.size() && k < 5; ++k) {

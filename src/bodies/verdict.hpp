@@ -8,9 +8,9 @@ namespace lilytank::bodies {
 struct Comparison {
   const BodyExperiment* experiment = nullptr;
   std::vector<Group> groups;
-  Outcome baseline;
-  std::vector<Outcome> singles;               ///< best first
-  std::vector<Outcome> pairs;                 ///< best first
+  LawTrial baseline;
+  std::vector<LawTrial> singles;              ///< best first
+  std::vector<LawTrial> pairs;                ///< best first
   std::vector<double> nulls;                  ///< best gains by chance, sorted
   Repeats repeats;                            ///< of the best outcome
   std::vector<double> far_before, far_after;  ///< mean squares of far predictions, m^2
@@ -22,9 +22,9 @@ struct Comparison {
   /// Probability of such a gain by chance: a share of the nulls, and beyond them by likelihood.
   double chance(double gain) const;
   /// The pair that is reported; null where one law, or none, does.
-  const Outcome* pair() const;
-  const Outcome& best() const;
-  bool apart(const Outcome& better, const Outcome& worse) const;
+  const LawTrial* pair() const;
+  const LawTrial& best() const;
+  bool apart(const LawTrial& better, const LawTrial& worse) const;
 };
 
 Diagnosis told(const Comparison& comparison);

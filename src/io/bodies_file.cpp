@@ -117,8 +117,8 @@ class Reader {
     return out;
   }
 
-  BodyNumbers numbers(const TomlFields& f, const std::string& key, const std::string& unit) const {
-    BodyNumbers out;
+  BodyFigures numbers(const TomlFields& f, const std::string& key, const std::string& unit) const {
+    BodyFigures out;
     out.place = f.place(key);
     const auto one = [&](const toml::node& node, const std::string& path) {
       const SourcePlace at = place_of(node.source(), file_);

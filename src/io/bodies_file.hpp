@@ -15,7 +15,7 @@ struct NamedAt {
 };
 
 /// Numbers of bodies: one for all, one a column in wide tables, or by name.
-struct BodyNumbers {
+struct BodyFigures {
   std::vector<double> values;
   std::map<std::string, double> by_name;
   SourcePlace place;
@@ -28,7 +28,7 @@ struct BodyTable {
   SourcePlace place;
   NamedAt time, body, run;
   std::vector<NamedAt> x, y, drivers;
-  BodyNumbers mass, radius;
+  BodyFigures mass, radius;
   double scale = 1;  ///< m (or the experiment's unit) for 1 in the columns of positions
   bool together = false, held_out = false;
 };
