@@ -149,6 +149,11 @@ namespace {
 BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups,
                        const LawTrial& baseline, std::uint64_t seed, std::size_t most) {
   BodyExperiment out = e;
+  // A filter cannot follow a bounce that comes a little sooner than it thinks. Where the recorded
+  // bodies never touch, those that are made up pass each other.
+  const bool touch = std::any_of(groups.begin(), groups.end(),
+                                 [](const Group& g) { return g.typical.nearest <= 0; });
+  if (!touch) std::erase_if(out.baseline, [](const BaselineLaw& l) { return l.law == "contact"; });
   std::size_t all = 0;
   for (const BodyRun& r : e.runs) all += r.samples();
   for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -163,8 +168,9 @@ BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups
           to.time.resize(n), to.position.resize(n * row), to.drivers.resize(n * d);
         }
       }
-      to = simulated(baseline.fits[i].model, groups[i].typical, to, seed,
-                     static_cast<std::uint32_t>(at));
+      BodyModel truth = baseline.fits[i].model;
+      if (!touch) truth.restitution = -1;
+      to = simulated(truth, groups[i].typical, to, seed, static_cast<std::uint32_t>(at));
     }
   }
   return out;
