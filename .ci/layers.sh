@@ -80,7 +80,8 @@ layer study study jobs io analysis text
 layer optimize optimize study synthesis io analysis text
 layer calibrate calibrate study io analysis text
 layer diagnose diagnose calibrate study forces io analysis text
-layer cli cli diagnose calibrate optimize study jobs recording flow synthesis io analysis text
+layer bodies bodies recording io analysis text
+layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

@@ -12,10 +12,11 @@ namespace {
 namespace fs = std::filesystem;
 
 double scale_of(const FoundCurve& c) {
-  return c.value_unit == "N m" ? 1e6 : 1e3;
+  return c.value_unit == "N m" ? 1e6 : c.value_unit == "N" ? 1e3 : 1;
 }
 std::string unit_of(const FoundCurve& c) {
-  return c.value_unit == "N m" ? "torque (\u00b5N m)" : "force (mN)";
+  if (c.value_unit == "N m") return "torque (\u00b5N m)";
+  return c.value_unit == "N" ? "force (mN)" : "acceleration (" + c.value_unit + ")";
 }
 
 // One curve with the band in which nothing would lie.

@@ -97,6 +97,7 @@ struct Diagnosis {
   double strongest_left = 0;  ///< z of what is left after the findings
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
+  std::string bodies = "Lilies";  ///< what was recorded; "bodies": by diagnose_bodies
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found
   std::string flow_csv;

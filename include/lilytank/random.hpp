@@ -32,6 +32,7 @@ enum class Stream : std::uint32_t {
   phase = 19,      ///< of a module's vortex shedding
   state_noise = 20,  ///< the random force that depends on the state
   kick = 21,         ///< when and how hard a module is knocked
+  bodies = 22,       ///< pushes and noise of simulated recordings of point bodies
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below

@@ -5,12 +5,40 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
+#include "lilytank/bodies.hpp"
 #include "lilytank/diagnosis.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
 
 namespace lilytank::cli {
+namespace {
+
+int show(const std::optional<Diagnosis>& found, const std::string& dir) {
+  if (!found) {
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
+    return Exit::stopped;
+  }
+  write_diagnosis(*found, dir);
+#ifdef LILYTANK_HAS_RENDER
+  draw_diagnosis(*found, diagnosis_text(*found), dir);
+#else
+  std::cerr
+      << "no report.html: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  std::cout << diagnosis_text(*found) << std::flush;
+  std::cerr << "results in " << dir << "\n";
+  return Exit::done;
+}
+
+std::string directory_of(const VerbOptions& options, const std::string& name) {
+  const std::string out =
+      options.text("out", (std::filesystem::path("out") / ("diagnose-" + name)).string());
+  if (out.empty()) options.refuse("--out is empty");
+  return out;
+}
+
+}  // namespace
 
 int diagnose_verb(const Arguments& arguments) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
@@ -29,38 +57,30 @@ int diagnose_verb(const Arguments& arguments) {
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank diagnose EXPERIMENT.toml");
   }
-  // Recordings have no steps: those of the simulations must be short enough not to show.
-  std::vector<std::string> sets{"run.dt='5 ms'"};
-  for (const std::string& one : options.list("set")) sets.push_back(one);
-  const Experiment experiment = load_experiment(options.positional(), sets);
   DiagnosisOptions job;
   job.minutes = options.number("budget", job.minutes, 1, 1e4, "");
   job.hold_out = static_cast<int>(options.whole("hold-out", job.hold_out, 0, 1000));
   job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
   job.force = options.has("force");
-  job.out = options.text("out",
-                         (std::filesystem::path("out") / ("diagnose-" + experiment.name)).string());
-  if (job.out.empty()) options.refuse("--out is empty");
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
-  const auto found = diagnose(experiment, job);
-  progress.clear();
-  if (!found) {
-    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
-    return Exit::stopped;
+  std::optional<Diagnosis> found;
+  if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
+    const BodyExperiment experiment = load_body_experiment(options.positional()[0]);
+    job.out = directory_of(options, experiment.name);
+    found = diagnose_bodies(experiment, job);
+  } else {
+    // Recordings have no steps: those of the simulations must be short enough not to show.
+    std::vector<std::string> sets{"run.dt='5 ms'"};
+    for (const std::string& one : options.list("set")) sets.push_back(one);
+    const Experiment experiment = load_experiment(options.positional(), sets);
+    job.out = directory_of(options, experiment.name);
+    found = diagnose(experiment, job);
   }
-  write_diagnosis(*found, job.out);
-#ifdef LILYTANK_HAS_RENDER
-  draw_diagnosis(*found, diagnosis_text(*found), job.out);
-#else
-  std::cerr
-      << "no report.html: this program was built without the renderer (Cairo was not found)\n";
-#endif
-  std::cout << diagnosis_text(*found) << std::flush;
-  std::cerr << "results in " << job.out << "\n";
-  return Exit::done;
+  progress.clear();
+  return show(found, job.out);
 }
 
 }  // namespace lilytank::cli

@@ -52,7 +52,8 @@ void tell_fit(const Diagnosis& d, std::string& out) {
                g.before > 2 ? digits(100 * g.removed()) + " %" : "-"});
   }
   out += table.text();
-  out += "  Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) + " after, floor " +
+  out += (d.bodies == "Lilies" ? "  Eq. 9: " : "  a quarter of a run ahead: ") +
+         digits(d.msd_before) + " before, " + digits(d.msd_after) + " after, floor " +
          digits(d.msd_floor) + " m^2; share removed " + digits(100 * d.msd_removed) + " % [" +
          digits(100 * d.msd_low) + ", " + digits(100 * d.msd_high) + "]\n";
   const DiagnosisFinding& f = d.findings.front();
@@ -65,8 +66,8 @@ void tell_fit(const Diagnosis& d, std::string& out) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out =
       "diagnosis of " + d.name + ": " + name_of(d.verdict) + ", " + headline(d) + "\n";
-  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) +
-         " Lilies, " + digits(d.seconds) + " s in all\n";
+  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) + " " +
+         d.bodies + ", " + digits(d.seconds) + " s in all\n";
   if (!d.checks.empty()) out += "\nWhat the checks of the recordings found\n";
   for (const std::string& check : d.checks) out += "  " + check + "\n";
   for (const DiagnosisFinding& f : d.findings) tell(f, out);

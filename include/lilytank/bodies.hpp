@@ -1,0 +1,60 @@
+// Recordings of point bodies that are not our tank's, in one or two dimensions, and what a simple
+// model of them leaves out. docs/bodies.md.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lilytank/diagnosis.hpp"
+#include "lilytank/error.hpp"
+
+namespace lilytank {
+
+/// What was recorded of bodies that move together, or of one alone. A sample is a row of all of
+/// them; a position that was not seen is NaN.
+struct BodyRun {
+  std::string name;
+  std::vector<std::string> bodies;   ///< their names
+  std::vector<double> mass, radius;  ///< of each, kg and m; without masses 1: forces are per mass
+  std::vector<double> time;          ///< s, rising
+  std::vector<double> position;      ///< [sample][body][dimension]
+  std::vector<double> drivers;       ///< [sample][driver]
+  bool held_out = false;
+  std::size_t samples() const { return time.size(); }
+};
+
+/// A law that the simple model has: its numbers are given, or fitted where `fit` is set.
+struct BaselineLaw {
+  std::string law;
+  double value = 0;
+  bool fit = false;
+  SourcePlace place;
+};
+
+struct BodyExperiment {
+  std::string name;
+  int dimensions = 1;
+  std::string unit = "m";       ///< of a position
+  double noise = 0;             ///< deviation of a position; 0: it is estimated
+  bool different = false;       ///< every body has coefficients of its own
+  bool masses = false;          ///< masses are known
+  std::vector<double> periods;  ///< s, of forces that are periodic in time
+  double turning = 0;  ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
+  int latitude = -1;   ///< the driver that is a latitude in degrees; -1: none is
+  std::vector<BaselineLaw> baseline;
+  std::vector<std::string> drivers;
+  std::vector<BodyRun> runs;
+};
+
+/// Whether a file is an experiment of point bodies: [experiment] body = "point". False for files
+/// that cannot be read or are no TOML, which other readers refuse.
+bool is_body_experiment(const std::string& file);
+
+/// Reads an experiment and its tables. Throws InputError with file, line, column and value.
+BodyExperiment load_body_experiment(const std::string& file);
+
+/// Carries a diagnosis through; nothing if it was stopped. Of the options it takes false_alarms,
+/// minutes (which scales the simulated nulls), seed, stop and progress. Throws InputError.
+std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& experiment,
+                                         const DiagnosisOptions& options);
+
+}  // namespace lilytank

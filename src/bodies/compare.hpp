@@ -1,0 +1,83 @@
+// Candidate laws beside the baseline: how much better each predicts what it has not seen, and what
+// chance alone would give.
+#pragma once
+#include "bodies/fit.hpp"
+
+namespace lilytank::bodies {
+
+/// One or two laws that are added to the baseline.
+struct Candidate {
+  std::vector<const Law*> laws;
+  std::string name() const;  ///< "dry_friction + quadratic_drag"
+  bool curve() const;
+};
+
+/// A baseline, or a baseline with a candidate, fitted to all groups.
+struct LawTrial {
+  Candidate candidate;
+  std::vector<Fitted> fits;      ///< one a group
+  std::vector<double> by_block;  ///< held-out log-likelihood, groups after each other
+  double gain = 0;               ///< over the baseline, nat
+  std::vector<double> shaken;    ///< as by_block, beside a bias of every run; empty: not done
+};
+
+struct Job {
+  std::uint64_t seed = 1;
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(double share)> progress;
+  bool stopped() const { return stop != nullptr && stop->load(); }
+};
+
+/// Runs that share coefficients: all, or those of one body.
+std::vector<Group> groups_of(const BodyExperiment& experiment);
+
+/// The baseline of the experiment, fitted. Throws InputError where it cannot be had.
+LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
+
+/// Laws alone that the recordings can have and the baseline does not.
+std::vector<Candidate> single_laws(const BodyExperiment& experiment,
+                                   const std::vector<Group>& groups);
+
+/// The candidate added to `from` (a baseline, or an outcome that has all but its last law).
+LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
+                       const LawTrial& from, const Candidate& candidate);
+
+/// Best gains of single laws in experiments that the fitted baseline makes up, sorted. Large
+/// recordings are cut: what chance gives hangs on the number of coefficients, not of samples.
+std::vector<double> null_gains(const BodyExperiment& experiment, const std::vector<Group>& groups,
+                               const LawTrial& baseline, int number, const Job& job);
+
+/// By how much `a` is better than `b` (nat), with its standard error from what blocks and runs
+/// differ in.
+struct Difference {
+  double value = 0, error = 0;
+  bool told_apart() const;  ///< by two standard errors and two nat
+};
+Difference difference(const std::vector<Group>& groups, const std::vector<double>& a,
+                      const std::vector<double>& b);
+
+/// Whether runs of the same bodies, fitted one by one, agree in the coefficients of the last law:
+/// squared differences from their mean by their standard errors, and how many are free.
+struct Repeats {
+  double square = 0;
+  int free = 0;
+  double factor() const;  ///< by which errors are too small (Birge's ratio); at least 1
+  double z() const;       ///< of so much disagreement by chance (Wilson and Hilferty)
+  std::string worst;      ///< group that disagrees most
+};
+Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& groups,
+                   const LawTrial& outcome);
+
+/// Fits an outcome once more with an unknown acceleration that lasts a whole run, as wrong scales,
+/// clocks and releases give: laws that only such a fault could tell apart are then not told apart.
+void shake(const std::vector<Group>& groups, LawTrial& outcome);
+
+/// rms over the recorded motion of what two outcomes' accelerations differ by, in units of the
+/// pushes that the first still needs: below 1 neither fit says which of them it is.
+double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b);
+
+/// Mean square of predictions over a quarter of a run from what the filter believed, per group
+/// (m^2).
+std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial& outcome);
+
+}  // namespace lilytank::bodies

@@ -1,0 +1,198 @@
+#include "bodies/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lilytank::bodies {
+namespace {
+
+double encoded(Kind kind, double value, double scale) {
+  return kind == Kind::positive ? std::log(value) : value / scale;
+}
+
+double decoded(Kind kind, double number, double scale) {
+  return kind == Kind::positive ? std::exp(std::clamp(number, -60.0, 60.0)) : number * scale;
+}
+
+double kept(double log_value, double low, double high) {
+  return std::clamp(std::exp(std::clamp(log_value, -100.0, 100.0)), low, high);
+}
+
+}  // namespace
+
+std::size_t own_numbers(const BodyModel& model) {
+  return 2u + (model.noise_fitted ? 1u : 0u) + (model.bias > 0 ? 1u : 0u);
+}
+
+std::vector<double> packed(const BodyModel& m) {
+  std::vector<double> out;
+  if (m.noise_fitted) out.push_back(std::log(m.noise));
+  out.push_back(std::log(m.push)), out.push_back(std::log(m.memory));
+  if (m.bias > 0) out.push_back(std::log(m.bias));
+  for (const Term& t : m.terms) {
+    for (std::size_t i = 0; i < t.value.size(); ++i) {
+      if (t.fitted[i]) out.push_back(encoded(t.parameters[i].kind, t.value[i], t.scale[i]));
+    }
+  }
+  return out;
+}
+
+BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers) {
+  BodyModel m = model;
+  std::size_t at = 0;
+  if (m.noise_fitted) m.noise = kept(numbers[at++], m.least_noise, 1e300);
+  m.push = kept(numbers[at++], m.least_push, m.most_push);
+  m.memory = kept(numbers[at++], m.least_memory, m.most_memory);
+  if (m.bias > 0) m.bias = kept(numbers[at++], m.least_push, m.most_push);
+  for (Term& t : m.terms) {
+    for (std::size_t i = 0; i < t.value.size(); ++i) {
+      if (t.fitted[i]) t.value[i] = decoded(t.parameters[i].kind, numbers[at++], t.scale[i]);
+    }
+  }
+  return m;
+}
+
+void accelerate(const BodyModel& model, const Scene& s, double* out) {
+  const int n = s.bodies * s.dimensions;
+  std::fill(out, out + n, 0.0);
+  for (const Term& t : model.terms) t.law->add(s, t.value, out);
+  for (int i = 0; i < n; ++i) out[i] /= s.mass[i / s.dimensions];
+}
+
+namespace {
+
+// Velocities over a few samples, so that noise does not make them; NaN where there are none.
+double speed_at(const BodyRun& run, std::size_t k, std::size_t body, int dimensions,
+                double* velocity) {
+  const std::size_t to = std::min(k + 3, run.samples() - 1),
+                    nd = static_cast<std::size_t>(dimensions);
+  const std::size_t row = run.bodies.size() * nd;
+  double square = 0;
+  for (std::size_t d = 0; d < nd; ++d) {
+    const std::size_t i = body * nd + d;
+    velocity[d] =
+        (run.position[to * row + i] - run.position[k * row + i]) / (run.time[to] - run.time[k]);
+    square += velocity[d] * velocity[d];
+  }
+  return std::sqrt(square);
+}
+
+// rms over the samples of the acceleration that a law with one amplitude at 1 gives.
+double unit_size(const Term& term, std::size_t which, const std::vector<const BodyRun*>& runs,
+                 int dimensions) {
+  Term only = term;
+  for (std::size_t i = 0; i < only.value.size(); ++i) {
+    if (only.parameters[i].kind == Kind::amplitude) only.value[i] = i == which ? 1 : 0;
+  }
+  double sum = 0;
+  std::size_t count = 0;
+  std::vector<double> v, force;
+  for (const BodyRun* run : runs) {
+    const std::size_t row = run->bodies.size() * static_cast<std::size_t>(dimensions);
+    const std::size_t step = std::max<std::size_t>(1, run->samples() / 400);
+    v.assign(row, 0), force.assign(row, 0);
+    for (std::size_t k = 0; k + 4 < run->samples(); k += step) {
+      for (std::size_t b = 0; b < run->bodies.size(); ++b) {
+        speed_at(*run, k, b, dimensions, &v[b * static_cast<std::size_t>(dimensions)]);
+      }
+      const Scene s{static_cast<int>(run->bodies.size()),
+                    dimensions,
+                    run->mass.data(),
+                    run->radius.data(),
+                    run->drivers.empty()
+                        ? nullptr
+                        : &run->drivers[k * (run->drivers.size() / run->samples())],
+                    run->time[k],
+                    &run->position[k * row],
+                    v.data()};
+      std::fill(force.begin(), force.end(), 0.0);
+      only.law->add(s, only.value, force.data());
+      for (std::size_t i = 0; i < row; ++i) {
+        const double a = force[i] / run->mass[i / static_cast<std::size_t>(dimensions)];
+        if (std::isfinite(a)) sum += a * a, ++count;
+      }
+    }
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
+}  // namespace
+
+Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
+             const std::vector<const BodyRun*>& runs, double push, double size) {
+  Term t{&law, law.parameters(typical), start, {}, {}};
+  t.scale.assign(start.size(), 1), t.fitted.assign(start.size(), true);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Kind kind = t.parameters[i].kind;
+    t.fitted[i] = kind != Kind::fixed;
+    if (kind == Kind::place) t.scale[i] = std::max(1e-9, typical.high - typical.low);
+    if (kind != Kind::amplitude) continue;
+    const double unit = unit_size(t, i, runs, typical.dimensions);
+    t.scale[i] = unit > 0 ? push / unit : 1;
+  }
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (t.parameters[i].kind == Kind::amplitude) t.value[i] = size * t.scale[i];
+  }
+  return t;
+}
+
+namespace {
+
+void take_gaps(const BodyRun& run, int dimensions, std::vector<double>& gaps) {
+  const auto nd = static_cast<std::size_t>(dimensions);
+  const std::size_t row = run.bodies.size() * nd;
+  for (std::size_t k = 0; k < run.samples(); ++k) {
+    for (std::size_t a = 0; a < run.bodies.size(); ++a) {
+      for (std::size_t b = a + 1; b < run.bodies.size(); ++b) {
+        double square = 0;
+        for (std::size_t d = 0; d < nd; ++d) {
+          const double u = run.position[k * row + b * nd + d] - run.position[k * row + a * nd + d];
+          square += u * u;
+        }
+        const double gap = std::sqrt(square) - run.radius[a] - run.radius[b];
+        if (std::isfinite(gap)) gaps.push_back(gap);
+      }
+    }
+  }
+}
+
+void take_motion(const BodyRun& run, Typical& t, std::vector<double>& speeds) {
+  const auto nd = static_cast<std::size_t>(t.dimensions);
+  double v[2];
+  for (std::size_t k = 0; k + 4 < run.samples(); ++k) {
+    for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+      const double speed = speed_at(run, k, b, t.dimensions, v);
+      if (std::isfinite(speed)) speeds.push_back(speed);
+      for (std::size_t d = 0; d < nd; ++d) {
+        const double x = run.position[(k * run.bodies.size() + b) * nd + d];
+        if (std::isfinite(x)) t.low = std::min(t.low, x), t.high = std::max(t.high, x);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& runs) {
+  Typical t;
+  t.dimensions = e.dimensions, t.drivers = static_cast<int>(e.drivers.size());
+  t.turning = e.turning, t.latitude = e.latitude;
+  t.low = 1e300, t.high = -1e300, t.duration = 0;
+  std::vector<double> speeds, gaps;
+  for (const BodyRun* run : runs) {
+    t.bodies = std::max(t.bodies, static_cast<int>(run->bodies.size()));
+    t.duration = std::max(t.duration, run->time.back() - run->time.front());
+    take_motion(*run, t, speeds), take_gaps(*run, e.dimensions, gaps);
+  }
+  double sum = 0;
+  for (const double v : speeds) sum += v * v;
+  std::sort(speeds.begin(), speeds.end()), std::sort(gaps.begin(), gaps.end());
+  t.speed =
+      speeds.empty() ? 1 : std::max(1e-12, std::sqrt(sum / static_cast<double>(speeds.size())));
+  t.fastest = speeds.empty() ? 1 : std::max(1e-12, speeds[speeds.size() * 99 / 100]);
+  if (!gaps.empty()) t.nearest = gaps.front(), t.middle = gaps[gaps.size() / 2];
+  t.centre[0] = t.centre[1] = (t.low + t.high) / 2;
+  return t;
+}
+
+}  // namespace lilytank::bodies

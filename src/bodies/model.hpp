@@ -1,0 +1,53 @@
+// A model of point bodies: terms of the library, the tracker's noise, and random pushes for all
+// that no term says. Its fitted numbers as one vector.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bodies/law.hpp"
+#include "lilytank/bodies.hpp"
+
+namespace lilytank::bodies {
+
+struct Term {
+  const Law* law = nullptr;
+  std::vector<LawParameter> parameters;
+  std::vector<double> value;
+  std::vector<double> scale;  ///< of each number: a typical size
+  std::vector<bool> fitted;
+};
+
+/// Pushes are an acceleration with a memory: an Ornstein-Uhlenbeck process of deviation `push`
+/// (m/s^2) and correlation time `memory` (s) [Singer, IEEE Trans. AES 6, 1970], alike for every
+/// coordinate.
+struct BodyModel {
+  std::vector<Term> terms;
+  double noise = 0, push = 0, memory = 1;
+  bool noise_fitted = false;
+  double bias =
+      0;  ///< deviation of an acceleration that lasts a whole run, m/s^2; 0: there is none
+  double restitution = -1;  ///< of contacts between bodies; negative: they pass each other
+  double least_noise = 0, least_push = 0, most_push = 0;
+  double least_memory = 0, most_memory = 0;
+};
+
+/// The fitted numbers: log noise (if fitted), log push, log memory, log bias (if there is one),
+/// then those of the terms: amplitudes and places by their scale, positive ones as logarithms.
+std::vector<double> packed(const BodyModel& model);
+BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers);
+/// How many come before those of the terms.
+std::size_t own_numbers(const BodyModel& model);
+
+/// Accelerations at [body][dimension].
+void accelerate(const BodyModel& model, const Scene& scene, double* out);
+
+/// A term of a law with one of its starts; `push` (m/s^2) is a size for its acceleration,
+/// `size` the share of it at which amplitudes start.
+Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
+             const std::vector<const BodyRun*>& runs, double push, double size = 1e-3);
+
+/// Sizes that occur in some runs.
+Typical typical_of(const BodyExperiment& experiment, const std::vector<const BodyRun*>& runs);
+
+}  // namespace lilytank::bodies

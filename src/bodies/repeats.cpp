@@ -1,0 +1,146 @@
+// What one run says and another does not: signs of faults of the measurement.
+#include <algorithm>
+#include <cmath>
+
+#include "bodies/compare.hpp"
+
+namespace lilytank::bodies {
+
+double Repeats::factor() const {
+  return free > 0 ? std::max(1.0, std::sqrt(square / free)) : 1;
+}
+
+double Repeats::z() const {
+  if (free == 0) return 0;
+  const double v = 2.0 / (9 * free);
+  return (std::cbrt(square / free) - (1 - v)) / std::sqrt(v);
+}
+
+namespace {
+
+// The amplitudes of the last term in the packed numbers.
+std::vector<std::size_t> last_amplitudes(const BodyModel& m) {
+  std::vector<std::size_t> out;
+  std::size_t at = own_numbers(m);
+  for (const Term& t : m.terms) {
+    for (std::size_t i = 0; i < t.value.size(); ++i) {
+      if (!t.fitted[i]) continue;
+      if (&t == &m.terms.back() && t.parameters[i].kind == Kind::amplitude) out.push_back(at);
+      ++at;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
+                   const LawTrial& outcome) {
+  Repeats out;
+  double worst = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Group& g = groups[i];
+    if (g.runs.size() < 2) continue;
+    // Everything but the coefficients stays: noise of a single run would be another question.
+    BodyModel joint = outcome.fits[i].model;
+    for (std::size_t k = 0; k + 1 < joint.terms.size(); ++k) {
+      joint.terms[k].fitted.assign(joint.terms[k].fitted.size(), false);
+    }
+    for (std::size_t k = 0; k < joint.terms.back().fitted.size(); ++k) {
+      if (joint.terms.back().parameters[k].kind != Kind::amplitude) {
+        joint.terms.back().fitted[k] = false;
+      }
+    }
+    const std::vector<std::size_t> at = last_amplitudes(joint);
+    std::vector<double> weight(at.size(), 0), mean(at.size(), 0), square(at.size(), 0);
+    for (const BodyRun* run : g.runs) {
+      Group one = make_group(e, g.name, {run});
+      one.typical = g.typical, one.penalty_at = packed(joint);
+      one.penalty_at.resize(own_numbers(joint));
+      const Fitted f = fit_group(one, joint, true);
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const double w = 1 / std::pow(std::max(f.deviation[at[k]], 1e-12), 2);
+        const double value = f.numbers[at[k]];
+        weight[k] += w, mean[k] += w * value, square[k] += w * value * value;
+      }
+    }
+    double here = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) here += square[k] - mean[k] * mean[k] / weight[k];
+    const int free = static_cast<int>(at.size() * (g.runs.size() - 1));
+    out.square += here, out.free += free;
+    if (free > 0 && here / free > worst) worst = here / free, out.worst = g.name;
+  }
+  return out;
+}
+
+void shake(const std::vector<Group>& groups, LawTrial& outcome) {
+  outcome.shaken.clear();
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    Group g = groups[i];
+    BodyModel m = outcome.fits[i].model;
+    const std::size_t before = own_numbers(m);
+    m.bias = m.push;
+    g.penalty_at.insert(g.penalty_at.begin() + static_cast<std::ptrdiff_t>(before),
+                        std::log(m.push));
+    Fitted f = fit_group(g, m, false, 6);
+    leave_folds_out(g, f);
+    outcome.shaken.insert(outcome.shaken.end(), f.held_out.begin(), f.held_out.end());
+  }
+}
+
+double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b) {
+  double apart = 0, pushes = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const BodyModel &ma = a.fits[i].model, &mb = b.fits[i].model;
+    const Typical& t = groups[i].typical;
+    for (const BodyRun* run : groups[i].runs) {
+      Believed at;
+      BodyResiduals in;
+      filter_run(ma, t, *run, in, &at);
+      const std::size_t n = run->samples(), row = run->position.size() / n,
+                        drivers = run->drivers.size() / n;
+      std::vector<double> fa(row), fb(row);
+      for (std::size_t k = 0; k < n; ++k) {
+        const Scene s{static_cast<int>(run->bodies.size()),
+                      t.dimensions,
+                      run->mass.data(),
+                      run->radius.data(),
+                      drivers > 0 ? &run->drivers[k * drivers] : nullptr,
+                      run->time[k],
+                      &at.x[k * row],
+                      &at.v[k * row]};
+        accelerate(ma, s, fa.data()), accelerate(mb, s, fb.data());
+        for (std::size_t c = 0; c < row; ++c) {
+          apart += (fa[c] - fb[c]) * (fa[c] - fb[c]), pushes += ma.push * ma.push;
+        }
+      }
+    }
+  }
+  return std::sqrt(apart / std::max(pushes, 1e-300));
+}
+
+std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial& outcome) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    double sum = 0;
+    int count = 0;
+    for (const BodyRun* run : groups[i].runs) {
+      Believed b;
+      BodyResiduals in;
+      filter_run(outcome.fits[i].model, groups[i].typical, *run, in, &b);
+      const std::size_t n = run->samples(), row = run->position.size() / n,
+                        far = std::max<std::size_t>(1, n / 4);
+      for (std::size_t k = far; k + far < n; k += std::max<std::size_t>(1, far / 4)) {
+        const auto there = predicted(outcome.fits[i].model, groups[i].typical, *run, b, k, k + far);
+        for (std::size_t c = 0; c < row; ++c) {
+          const double error = there[c] - run->position[(k + far) * row + c];
+          if (std::isfinite(error)) sum += error * error, ++count;
+        }
+      }
+    }
+    out.push_back(count > 0 ? sum / count : 0);
+  }
+  return out;
+}
+
+}  // namespace lilytank::bodies

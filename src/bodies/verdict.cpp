@@ -1,0 +1,355 @@
+#include "bodies/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bodies/maps.hpp"
+#include "text/number.hpp"
+
+namespace lilytank::bodies {
+
+double Comparison::threshold() const {
+  if (nulls.empty()) return 5;
+  const auto n = static_cast<double>(nulls.size());
+  const auto over = static_cast<std::size_t>(std::floor(false_alarms * (n + 1)));
+  // Too few nulls for the share: their largest, and what a likelihood ratio costs beyond it.
+  if (over == 0) return std::max(0.0, nulls.back()) + std::log(1 / (false_alarms * (n + 1)));
+  return std::max(0.0, nulls[nulls.size() - over]);
+}
+
+double Comparison::chance(double gain) const {
+  const auto n = static_cast<double>(nulls.size());
+  const auto over =
+      static_cast<double>(nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), gain));
+  const double most = nulls.empty() ? 0 : std::max(0.0, nulls.back());
+  return over > 0 ? (over + 1) / (n + 1) : std::exp(-std::max(0.0, gain - most)) / (n + 1);
+}
+
+namespace {
+
+std::multiset<std::string_view> variables_of(const Candidate& candidate) {
+  std::multiset<std::string_view> out;
+  for (const Law* law : candidate.laws) out.insert(law->variable());
+  return out;
+}
+
+}  // namespace
+
+bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
+  Difference d = difference(groups, better.by_block, worse.by_block);
+  d.error *= repeats.factor();
+  if (!d.told_apart()) return false;
+  // Laws of one variable: what no law explains must be less than what they differ by.
+  const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
+  if (alike && unlike(groups, better, worse) < 1) return false;
+  if (better.shaken.empty() || worse.shaken.empty()) return true;
+  Difference still = difference(groups, better.shaken, worse.shaken);
+  still.error *= repeats.factor();
+  return still.told_apart();
+}
+
+const LawTrial* Comparison::pair() const {
+  if (pairs.empty() || singles.empty()) return nullptr;
+  const Difference d = difference(groups, pairs.front().by_block, singles.front().by_block);
+  const bool more = d.value > std::max(2.0, threshold()) && d.told_apart();
+  return more ? &pairs.front() : nullptr;
+}
+
+const LawTrial& Comparison::best() const {
+  const LawTrial* two = pair();
+  return two != nullptr ? *two : singles.front();
+}
+
+namespace {
+
+// Units of a law's parameter for the experiment's: forces are per mass where masses are unknown.
+std::string unit_for(const BodyExperiment& e, std::string unit) {
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from, at + to.size())) {
+      unit.replace(at, from.size(), to);
+    }
+  };
+  replace("m", e.unit);
+  replace("N", e.masses ? "N" : "(" + e.unit + "/s^2)");
+  return unit;
+}
+
+void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const Fitted& fit = o.fits[i];
+    const std::size_t first = fit.model.terms.size() - o.candidate.laws.size();
+    std::size_t at = own_numbers(fit.model);
+    for (std::size_t k = 0; k < fit.model.terms.size(); ++k) {
+      const Term& t = fit.model.terms[k];
+      for (std::size_t p = 0; p < t.value.size(); ++p) {
+        const bool own = k == first + law;
+        const double deviation = t.fitted[p] ? fit.deviation[at] * c.repeats.factor() : 0;
+        const double number = t.fitted[p] ? fit.numbers[at++] : 0;
+        if (!own) continue;
+        FoundParameter out;
+        out.name =
+            t.parameters[p].name + (c.groups[i].name.empty() ? "" : " of " + c.groups[i].name);
+        out.path = std::string(t.law->name()) + "." + t.parameters[p].name;
+        out.value = out.low = out.high = t.value[p];
+        out.unit = unit_for(*c.experiment, t.parameters[p].unit);
+        if (t.fitted[p]) {
+          const bool log = t.parameters[p].kind == Kind::positive;
+          const auto end = [&](double by) {
+            return log ? std::exp(number + by * deviation) : (number + by * deviation) * t.scale[p];
+          };
+          out.low = end(-1.96), out.high = end(1.96);
+        }
+        if (t.fitted[p] || c.groups.size() == 1) f.parameters.push_back(out);
+      }
+    }
+  }
+}
+
+// Interval of a gain by resampling blocks (2.5 % and 97.5 % of their normal approximation).
+void add_gain(const Comparison& c, const LawTrial& o, const LawTrial& without,
+              DiagnosisFinding& f) {
+  const Difference d = difference(c.groups, o.by_block, without.by_block);
+  f.gain = d.value, f.gain_low = d.value - 1.96 * d.error, f.gain_high = d.value + 1.96 * d.error;
+  f.z = std::sqrt(2 * std::max(0.0, d.value));
+  f.confidence = 1 - std::min(1.0, c.chance(d.value));
+}
+
+const LawTrial* single_of(const Comparison& c, const Law* law) {
+  for (const LawTrial& o : c.singles) {
+    if (o.candidate.laws.front() == law) return &o;
+  }
+  return nullptr;
+}
+
+// Other outcomes of as many laws that predict as well.
+std::vector<const LawTrial*> as_good(const Comparison& c, const LawTrial& best) {
+  std::vector<const LawTrial*> out;
+  for (const LawTrial& o : best.candidate.laws.size() == 1 ? c.singles : c.pairs) {
+    const bool other = &o != &best && !o.candidate.curve();
+    if (other && o.gain > c.threshold() && !c.apart(best, o)) out.push_back(&o);
+  }
+  return out;
+}
+
+std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
+  if (c.groups.size() < 2) return "";
+  std::vector<std::pair<double, std::string>> by;
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    by.emplace_back(o.fits[i].held_out_sum() - c.baseline.fits[i].held_out_sum(), c.groups[i].name);
+  }
+  std::sort(by.rbegin(), by.rend());
+  std::string seen, none;
+  for (const auto& [gain, name] : by) {
+    std::string& to = gain > 2 ? seen : none;
+    to += (to.empty() ? "" : ", ") + name;
+  }
+  return "seen in " + (seen.empty() ? "no body alone" : seen) +
+         (none.empty() ? "" : "; not in " + none);
+}
+
+void tell_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
+  f.variable = variable.empty() ? "position" : variable;
+  double low = 1e300, high = -1e300;
+  for (const Group& g : c.groups) {
+    const Typical& t = g.typical;
+    const bool slip = variable == "slip" || variable == "turn", pair = variable == "pair";
+    low = std::min(low, slip || variable == "time" ? 0 : pair ? t.nearest : t.low);
+    high = std::max(high, slip                 ? t.fastest
+                          : pair               ? t.middle
+                          : variable == "time" ? t.duration
+                                               : t.high);
+  }
+  f.from = low, f.to = high;
+  f.unit = variable == "time"                         ? "s"
+           : variable == "slip" || variable == "turn" ? c.experiment->unit + "/s"
+                                                      : c.experiment->unit;
+}
+
+void tell_unnamed(const LawTrial& best, DiagnosisFinding& f) {
+  f.effect = "unnamed";
+  f.text = "no law of the library predicts as well as a free " +
+           std::string(best.candidate.laws.back()->equation() == "" ? "curve" : "law") + " over " +
+           f.variable + (f.text.empty() ? "" : "; " + f.text);
+}
+
+// The law that stands for a group: one with a name, before curves that do no better.
+const LawTrial& head_of(const Comparison& c) {
+  const LawTrial& best = c.best();
+  if (!best.candidate.curve()) return best;
+  const auto others = as_good(c, best);
+  return others.empty() ? best : *others.front();
+}
+
+std::vector<DiagnosisFinding> findings(const Comparison& c) {
+  std::vector<DiagnosisFinding> out;
+  const LawTrial& head = head_of(c);
+  const std::vector<const LawTrial*> others = as_good(c, head);
+  const std::size_t laws = head.candidate.laws.size();
+  for (std::size_t k = 0; k < laws; ++k) {
+    const Law& law = *head.candidate.laws[k];
+    DiagnosisFinding f;
+    f.effect = law.name(), f.equation = law.equation(), f.split = law.split();
+    tell_range(c, std::string(law.variable()), f);
+    f.text = strongest_bodies(c, head);
+    const LawTrial* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
+    add_gain(c, head, without != nullptr ? *without : c.baseline, f);
+    add_parameters(c, head, k, f);
+    std::set<std::string> names;
+    for (const LawTrial* o : others) {
+      // A pair's other laws stand for the one of ours that they do not share.
+      for (const Law* l : o->candidate.laws) {
+        const auto& own = head.candidate.laws;
+        const bool shared = std::find(own.begin(), own.end(), l) != own.end();
+        const bool beside =
+            laws == 1 || std::find(o->candidate.laws.begin(), o->candidate.laws.end(),
+                                   own[1 - k]) != o->candidate.laws.end();
+        if (!shared && beside) names.insert(std::string(l->name()));
+      }
+    }
+    f.alternatives.assign(names.begin(), names.end());
+    if (law.curve()) tell_unnamed(head, f);
+    f.curve = map_of(c, f.variable);
+    out.push_back(std::move(f));
+  }
+  std::stable_sort(out.begin(), out.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
+  return out;
+}
+
+// Bodies that are let go in known fields should not be pushed about: what is left then is the
+// measurement's, or a law's that is not in the library.
+void warn_of_pushes(const Comparison& c, Diagnosis& d) {
+  double left = 0, had = 0;
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    left += std::pow(c.best().fits[i].model.push, 2),
+        had += std::pow(c.baseline.fits[i].model.push, 2);
+  }
+  const auto n = static_cast<double>(c.groups.size());
+  double far = 0, floor = 0;
+  for (std::size_t i = 0; i < c.far_after.size(); ++i) {
+    far += c.far_after[i], floor += std::pow(c.best().fits[i].model.noise, 2);
+  }
+  if (far < 5 * floor) return;
+  d.warnings.push_back(
+      "irregular accelerations of " + significant(std::sqrt(left / n), 2) + " " +
+      c.experiment->unit + "/s^2 rms are left (" + significant(std::sqrt(had / n), 2) +
+      " without the findings): where nothing pushes these bodies at random, suspect the "
+      "measurement "
+      "(release, clock, scale); laws that differ by less along this motion are not told apart");
+}
+
+void warn(const Comparison& c, Diagnosis& d) {
+  const LawTrial& best = c.best();
+  warn_of_pushes(c, d);
+  if (c.repeats.z() > 3) {
+    d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
+                         std::string(best.candidate.laws.back()->name()) + " by " +
+                         significant(c.repeats.factor(), 2) + " times their errors" +
+                         (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
+                         ": suspect the measurement (release, clock, scale); intervals are widened "
+                         "by that, and which "
+                         "law it is cannot be told from fits that differ by less");
+  }
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const BodyModel& m = best.fits[i].model;
+    for (const Term& t : m.terms) {
+      const bool drag = t.law->variable() == "slip" && !t.law->curve();
+      if (drag && t.value[0] < 0 && t.fitted[0] && c.groups.size() == 1) {
+        d.warnings.push_back(std::string(t.law->name()) +
+                             " comes out negative, which no drag is: how the loss is shared out "
+                             "between these laws is not identified");
+      }
+    }
+  }
+}
+
+void add_fit(const Comparison& c, Diagnosis& d) {
+  double before = 0, after = 0, floor = 0;
+  for (std::size_t i = 0; i < c.far_before.size(); ++i) {
+    const double noise = std::pow(c.best().fits[i].model.noise, 2);
+    const std::string name = c.groups[i].name.empty() ? "all bodies" : c.groups[i].name;
+    d.held_out.push_back({name, c.far_before[i] / noise, c.far_after[i] / noise});
+    const auto n = static_cast<double>(c.far_before.size());
+    before += c.far_before[i] / n, after += c.far_after[i] / n, floor += noise / n;
+  }
+  d.msd_before = before, d.msd_after = after, d.msd_floor = floor;
+  d.msd_removed = before > floor ? std::clamp((before - after) / (before - floor), -1.0, 1.0) : 0;
+  d.msd_low = d.msd_high = d.msd_removed;
+}
+
+void add_moved(const Comparison& c, Diagnosis& d) {
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const Fitted &a = c.baseline.fits[i], &b = c.best().fits[i];
+    std::size_t at = own_numbers(a.model);
+    for (std::size_t k = 0; k < a.model.terms.size(); ++k) {
+      const Term &t = a.model.terms[k], &u = b.model.terms[k];
+      for (std::size_t p = 0; p < t.value.size(); ++p) {
+        if (!t.fitted[p]) continue;
+        const double s = t.scale[p] * b.deviation[at];
+        d.parameters.push_back({std::string(t.law->name()) + "." + t.parameters[p].name +
+                                    (c.groups[i].name.empty() ? "" : " of " + c.groups[i].name),
+                                unit_for(*c.experiment, t.parameters[p].unit), t.value[p],
+                                t.scale[p] * a.deviation[at], u.value[p], u.value[p] - 1.96 * s,
+                                u.value[p] + 1.96 * s});
+        ++at;
+      }
+    }
+  }
+}
+
+// An amplitude that gains what chance does not: half a square of deviations, less its own cost.
+void add_detectable(const Comparison& c, Diagnosis& d) {
+  for (const LawTrial& o : c.singles) {
+    const Term& t = o.fits.front().model.terms.back();
+    if (t.parameters[0].kind != Kind::amplitude || t.law->curve()) continue;
+    double least = 1e300;
+    for (const Fitted& f : o.fits) {
+      const Term& own = f.model.terms.back();
+      std::size_t at = f.numbers.size();
+      for (const bool fitted : own.fitted) at -= fitted ? 1 : 0;
+      least = std::min(least, own.scale[0] * f.deviation[at]);
+    }
+    d.detectable.push_back({std::string(t.law->name()), t.parameters[0].name,
+                            least * std::sqrt(2 * (c.threshold() + 1)),
+                            unit_for(*c.experiment, t.parameters[0].unit)});
+  }
+}
+
+}  // namespace
+
+Diagnosis told(const Comparison& c) {
+  Diagnosis d;
+  d.name = c.experiment->name, d.bodies = "bodies";
+  d.recordings = static_cast<int>(c.experiment->runs.size());
+  for (const BodyRun& r : c.experiment->runs) {
+    d.modules = std::max(d.modules, static_cast<int>(r.bodies.size()));
+    d.seconds += r.time.back();
+  }
+  d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
+  d.shape_threshold = d.effect_threshold;
+  const LawTrial& best = c.best();
+  for (const LawTrial& o : c.singles) {
+    d.ranking.emplace_back(o.candidate.name(), std::sqrt(2 * std::max(0.0, o.gain)));
+  }
+  for (std::size_t k = 0; k < c.pairs.size() && k < 5; ++k) {
+    d.ranking.emplace_back(c.pairs[k].candidate.name(),
+                           std::sqrt(2 * std::max(0.0, c.pairs[k].gain)));
+  }
+  std::stable_sort(d.ranking.begin(), d.ranking.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  add_detectable(c, d);
+  add_moved(c, d);
+  d.maps = maps_of(c);
+  if (!(best.gain > c.threshold())) {
+    d.verdict = Verdict::complete;
+    return d;
+  }
+  const Difference sure = difference(c.groups, best.by_block, c.baseline.by_block);
+  d.verdict = sure.value > 1.645 * sure.error ? Verdict::missing : Verdict::undecided;
+  d.findings = findings(c);
+  add_fit(c, d);
+  warn(c, d);
+  return d;
+}
+
+}  // namespace lilytank::bodies

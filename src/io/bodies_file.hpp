@@ -1,0 +1,45 @@
+// Experiments of point bodies as their files say them; tables are not read here.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lilytank/bodies.hpp"
+
+namespace lilytank {
+
+/// A name with the place where the file says it.
+struct NamedAt {
+  std::string name;
+  SourcePlace place;
+};
+
+/// Numbers of bodies: one for all, one a column in wide tables, or by name.
+struct BodyFigures {
+  std::vector<double> values;
+  std::map<std::string, double> by_name;
+  SourcePlace place;
+  bool given() const { return !values.empty() || !by_name.empty(); }
+};
+
+/// A [[recording]].
+struct BodyTable {
+  std::string file;
+  SourcePlace place;
+  NamedAt time, body, run;
+  std::vector<NamedAt> x, y, drivers;
+  BodyFigures mass, radius;
+  double scale = 1;  ///< m (or the experiment's unit) for 1 in the columns of positions
+  bool together = false, held_out = false;
+};
+
+struct BodyFile {
+  BodyExperiment experiment;  ///< without runs
+  std::vector<BodyTable> tables;
+  NamedAt latitude;
+};
+
+/// Throws InputError. `laws` are the words that [baseline] may have besides contact.
+BodyFile read_body_file(const std::string& file, const std::vector<std::string>& laws);
+
+}  // namespace lilytank

@@ -1,0 +1,216 @@
+// Does the finder for point bodies name what was planted, keep quiet where nothing was, and say so
+// where data cannot tell?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "lilytank/bodies.hpp"
+#include "lilytank/random.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+using Acceleration = std::function<void(const double* x, const double* v, double* a)>;
+
+// A run of bodies with these accelerations, seen with noise.
+BodyRun run_of(const Acceleration& force, std::vector<double> x, std::vector<double> v, double dt,
+               int samples, double noise, std::uint64_t seed, std::size_t bodies) {
+  constexpr int kParts = 50;
+  BodyRun run;
+  run.name = "run " + std::to_string(seed);
+  run.mass.assign(bodies, 1), run.radius.assign(bodies, 0);
+  for (std::size_t b = 0; b < bodies; ++b) run.bodies.push_back("body");
+  std::vector<double> a(x.size());
+  for (int k = 0; k < samples; ++k) {
+    run.time.push_back(k * dt);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      run.position.push_back(x[i] + noise * normal_pair({seed, Stream::camera, k,
+                                                         static_cast<std::uint32_t>(i), 0})[0]);
+    }
+    for (int part = 0; part < kParts; ++part) {
+      // Midpoint rule.
+      const double h = dt / kParts;
+      std::vector<double> xm = x, vm = v;
+      force(x.data(), v.data(), a.data());
+      for (std::size_t i = 0; i < x.size(); ++i) xm[i] += h / 2 * v[i], vm[i] += h / 2 * a[i];
+      force(xm.data(), vm.data(), a.data());
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] += h * vm[i], v[i] += h * a[i];
+    }
+  }
+  return run;
+}
+
+// Three falls from rest, from a little throw and from a harder one.
+BodyExperiment falls(double linear, double quadratic, double noise, std::uint64_t seed) {
+  BodyExperiment e;
+  e.name = "falls", e.noise = noise;
+  e.baseline = {{"gravity", 9.81, false, {}}};
+  const Acceleration force = [=](const double*, const double* v, double* a) {
+    a[0] = -9.81 - linear * v[0] - quadratic * std::fabs(v[0]) * v[0];
+  };
+  for (int r = 0; r < 3; ++r) {
+    e.runs.push_back(run_of(force, {50}, {-6.0 * r}, 0.08, 28, noise,
+                            100 * seed + static_cast<std::uint64_t>(r), 1));
+  }
+  return e;
+}
+
+Diagnosis diagnosis_of(const BodyExperiment& e, double false_alarms = 0.05) {
+  DiagnosisOptions options;
+  options.minutes = 2, options.false_alarms = false_alarms;
+  return diagnose_bodies(e, options).value();
+}
+
+bool has(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+TEST(DiagnoseBodies, namesQuadraticDragWhereNoiseIsSmall) {
+  const Diagnosis d = diagnosis_of(falls(0, 0.02, 1e-3, 1));
+  ASSERT_EQ(d.verdict, Verdict::missing);
+  ASSERT_EQ(d.findings.size(), 1u);
+  const DiagnosisFinding& f = d.findings.front();
+  EXPECT_EQ(f.effect, "quadratic_drag");
+  EXPECT_FALSE(has(f.alternatives, "linear_drag"));
+  EXPECT_LT(f.parameters.at(0).low, 0.0202);
+  EXPECT_GT(f.parameters.at(0).high, 0.0198);
+  EXPECT_GT(f.gain, 20);
+}
+
+TEST(DiagnoseBodies, namesLinearDragWhereNoiseIsSmall) {
+  const Diagnosis d = diagnosis_of(falls(0.25, 0, 1e-3, 2));
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings.front().effect, "linear_drag");
+  EXPECT_FALSE(has(d.findings.front().alternatives, "quadratic_drag"));
+}
+
+TEST(DiagnoseBodies, tellsBothDragsWhereNoiseHidesTheDifference) {
+  const Diagnosis d = diagnosis_of(falls(0, 0.008, 0.15, 3));
+  ASSERT_FALSE(d.findings.empty());
+  std::vector<std::string> all = d.findings.front().alternatives;
+  all.push_back(d.findings.front().effect);
+  EXPECT_TRUE(has(all, "linear_drag"));
+  EXPECT_TRUE(has(all, "quadratic_drag"));
+}
+
+// Forty complete experiments at five per cent: seven alarms or more have a probability of 0.3 %.
+TEST(DiagnoseBodies, keepsItsRateOfFalseAlarms) {
+  int alarms = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    BodyExperiment e = falls(0, 0, 0.02, 50 + seed);
+    for (BodyRun& run : e.runs) {
+      run.time.resize(14), run.position.resize(14);
+    }
+    if (diagnosis_of(e).verdict != Verdict::complete) ++alarms;
+  }
+  EXPECT_LE(alarms, 6);
+}
+
+TEST(DiagnoseBodies, seesThatBodiesActAtADistance) {
+  BodyExperiment e;
+  e.name = "gliders", e.noise = 1e-3, e.baseline = {{"contact", 1, false, {}}};
+  const Acceleration force = [](const double* x, const double*, double* a) {
+    const double f = 4e-7 / std::pow(x[1] - x[0], 4);
+    a[0] = -f, a[1] = f;
+  };
+  for (std::uint64_t r = 0; r < 2; ++r) {
+    e.runs.push_back(run_of(force, {0, 0.3}, {0.2 + 0.1 * static_cast<double>(r), -0.1}, 0.03, 60,
+                            1e-3, 7 + r, 2));
+  }
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.findings.front().variable, "pair");
+  std::vector<std::string> all = d.findings.front().alternatives;
+  all.push_back(d.findings.front().effect);
+  EXPECT_TRUE(has(all, "pair_dipoles") || has(all, "pair_power_law"));
+}
+
+// Where the tide's period is not the latitude's, the two are told apart; at 74.5 degrees it is.
+TEST(DiagnoseBodies, turningIsCoriolisOnlyWhereTheTideIsElsewhere) {
+  for (const bool alike : {false, true}) {
+    BodyExperiment e;
+    e.name = "drift", e.dimensions = 2, e.noise = 5;
+    e.turning = alike ? 2 * 3.14159265358979 / (12.4206 * 3600) : 1.117e-4;  // or 50 degrees
+    const Acceleration force = [&](const double*, const double* v, double* a) {
+      a[0] = e.turning * v[1], a[1] = -e.turning * v[0];
+    };
+    // Twice: one circle alone might be a spring's.
+    e.runs.push_back(run_of(force, {0, 0}, {0.3, 0.1}, 1800, 80, 5, 5, 1));
+    e.runs.push_back(run_of(force, {0, 0}, {-0.1, -0.2}, 1800, 80, 5, 6, 1));
+    const Diagnosis d = diagnosis_of(e);
+    ASSERT_EQ(d.verdict, Verdict::missing);
+    std::vector<std::string> all = d.findings.front().alternatives;
+    all.push_back(d.findings.front().effect);
+    EXPECT_TRUE(has(all, "coriolis")) << diagnosis_text(d);
+    EXPECT_EQ(has(all, "tide"), alike) << diagnosis_text(d);
+  }
+}
+
+TEST(DiagnoseBodies, sameSeedSameReport) {
+  const BodyExperiment e = falls(0, 0.02, 0.02, 4);
+  EXPECT_EQ(diagnosis_json(diagnosis_of(e)), diagnosis_json(diagnosis_of(e)));
+}
+
+TEST(DiagnoseBodies, realGlidersActAtADistanceByALawThatIsNotIdentified) {
+  const Diagnosis d = diagnosis_of(
+      load_body_experiment(LILYTANK_SOURCE_DIR "/scenarios/experiments/real/gliders.toml"));
+  ASSERT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.findings.front().variable, "pair");
+  EXPECT_GE(d.findings.front().alternatives.size(), 2u);
+}
+
+TEST(DiagnoseBodies, realDropsHaveDragByALawThatIsNotIdentified) {
+  const Diagnosis d = diagnosis_of(
+      load_body_experiment(LILYTANK_SOURCE_DIR "/scenarios/experiments/real/drops.toml"));
+  ASSERT_EQ(d.verdict, Verdict::missing);
+  const DiagnosisFinding& f = d.findings.front();
+  EXPECT_EQ(f.variable, "slip");
+  EXPECT_TRUE(has(f.alternatives, "quadratic_drag") || f.effect == "quadratic_drag");
+  EXPECT_NE(f.text.find("Whiffle_Ball_1"), std::string::npos);
+  EXPECT_GT(f.text.find("Bowling_Ball"), f.text.find("not in"));
+  ASSERT_FALSE(d.warnings.empty());
+  EXPECT_NE(d.warnings.front().find("suspect the measurement"), std::string::npos);
+}
+
+TEST(BodyExperiment, refusesWhatItCannotUseInOneLineWithThePlace) {
+  const TemporaryDirectory here;
+  const std::string head = "[experiment]\nbody = \"point\"\n";
+  const std::string rec = "[[recording]]\nfile = \"t.csv\"\ntime = \"t\"\nx = \"h\"\n";
+  const struct {
+    std::string toml, message;
+  } cases[] = {
+      {head + "[baseline]\ngravty = 9.81\n" + rec, "did you mean 'gravity'"},
+      {head + "[baseline]\ngravity = \"free\"\n" + rec, "neither a number nor \"fit\""},
+      {head + "[[recording]]\nfile = \"t.csv\"\ntime = \"t\"\nx = \"hh\"\n",
+       "t.csv has no column 'hh'"},
+      {head + "noise = \"2 s\"\n" + rec, "noise"},
+      {head, "there is no [[recording]]"},
+      {"[experiment]\nbody = \"point\"\ndimensions = 3\n" + rec, "dimensions"},
+      {head + rec + "mass = -1\n", "mass"},
+      {head + rec + "hold = 1\n", "unknown key"},
+  };
+  {
+    std::ofstream table(here.path("t.csv"));
+    table << "t,h\n";
+    for (int k = 0; k < 12; ++k) table << 0.1 * k << "," << k * k << "\n";
+  }
+  for (const auto& c : cases) {
+    std::ofstream(here.path("e.toml")) << c.toml;
+    try {
+      load_body_experiment(here.path("e.toml"));
+      ADD_FAILURE() << c.toml;
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find(c.message), std::string::npos) << what;
+      EXPECT_NE(what.find("e.toml:"), std::string::npos) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lilytank
