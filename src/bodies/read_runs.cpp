@@ -116,10 +116,26 @@ class TableReader {
     std::copy(here.begin(), here.end(), to.begin() + static_cast<std::ptrdiff_t>(b * nd));
   }
 
+  // Leaves one row in `every`.
+  void thin(Rows& r) const {
+    const auto every = static_cast<std::size_t>(t_->every);
+    if (every == 1) return;
+    const std::size_t drivers = drivers_.size();
+    std::size_t to = 0;
+    for (std::size_t from = 0; from < r.time.size(); from += every, ++to) {
+      r.time[to] = r.time[from], r.cells[to] = r.cells[from];
+      for (std::size_t d = 0; d < drivers; ++d) {
+        r.drivers[to * drivers + d] = r.drivers[from * drivers + d];
+      }
+    }
+    r.time.resize(to), r.cells.resize(to), r.drivers.resize(to * drivers);
+  }
+
   // Cuts a run where it was not recorded for long.
   void finish(Rows& r, std::vector<BodyRun>& out) const {
     constexpr double kLongest = 8;  // of the usual step
     constexpr std::size_t kLeast = 8;
+    thin(r);
     const std::size_t row = r.bodies.size() * static_cast<std::size_t>(e_->dimensions);
     const std::size_t n = r.time.size(), drivers = drivers_.size();
     std::vector<double> steps;

@@ -153,7 +153,7 @@ class Reader {
   void recording(const toml::table& from) {
     const TomlFields f(from, "recording", file_,
                        {"file", "time", "body", "run", "x", "y", "mass", "radius", "drivers",
-                        "scale", "together", "held_out"});
+                        "scale", "every", "together", "held_out"});
     f.need("file", "the table of the positions");
     f.need("time", "the name of the column of times, in seconds");
     f.need("x", "the name of the column of positions, or one a body");
@@ -179,6 +179,7 @@ class Reader {
     if (f.has("radius")) t.radius = numbers(f, "radius", "m");
     if (f.has("drivers")) t.drivers = names(f, "drivers");
     if (f.has("scale")) t.scale = number(f, "scale", out_.experiment.unit, 1e-12);
+    if (f.has("every")) t.every = static_cast<int>(f.whole("every", 1, 1000000));
     if (f.has("together")) t.together = f.flag("together");
     if (f.has("held_out")) t.held_out = f.flag("held_out");
     out_.tables.push_back(std::move(t));

@@ -30,6 +30,7 @@ struct BodyTable {
   std::vector<NamedAt> x, y, drivers;
   BodyFigures mass, radius;
   double scale = 1;  ///< m (or the experiment's unit) for 1 in the columns of positions
+  int every = 1;     ///< one row in so many is taken, of each run
   bool together = false, held_out = false;
 };
 
