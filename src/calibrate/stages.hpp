@@ -47,6 +47,9 @@ class Stages {
   /// Clipped to the bounds.
   std::vector<double> from_scale(const Eigen::VectorXd& point) const;
   FitBounds bounds() const;
+  /// How many simulated experiments are still to come, for the progress, by whoever knows better
+  /// than a calibration's usual course.
+  void expect(double experiments) { expected_ = spent_ + experiments; }
   int simulations() const { return simulations_; }
   /// A piece's share of an experiment.
   double piece_cost() const { return piece_cost_; }

@@ -65,11 +65,20 @@ Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& optio
       setup_(set_up(experiment, calibration_of(experiment, options, budget_))),
       stages_(begin(setup_, options)) {}
 
-void Diagnoser::prepare() {
+double Diagnoser::model_cost() const {
+  return 2 * budget_.round + budget_.replicates + 2 * budget_.comparisons;
+}
+
+void Diagnoser::prepare(double after) {
   maps_.emplace(stages_.flow_maps());
   CalibrationResult searched;
   const Vector first = stages_.to_scale(stages_.search(searched));
   const FitBounds bounds = stages_.bounds();
+  double effects = 0;
+  for (const Effect& e : effect_catalogue(setup_.model)) {
+    effects += budget_.experiments * static_cast<double>(e.paths.size());
+  }
+  stages_.expect(2 * budget_.centre + budget_.nulls + effects + after);
   // Points about the answer before, until the answer stays among them.
   Centre now{first, {}, false};
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
@@ -101,7 +110,7 @@ Judged Diagnoser::judge(Judged j, Diagnosis& out) {
 }
 
 void Diagnoser::run(Diagnosis& out) {
-  prepare();
+  prepare(model_cost());
   out.flow_csv = setup_.corrected_csv(*maps_->best());
   const Judged judged = judge(setup_.training, out);
   model_and_show(judged, setup_.held_out.empty() ? setup_.training : setup_.held_out, out);

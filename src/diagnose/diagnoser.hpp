@@ -30,8 +30,11 @@ class Diagnoser {
  public:
   Diagnoser(const Experiment& experiment, const DiagnosisOptions& options);
 
-  /// Flow, baseline, nulls and fingerprints; kept in the directory. Throws Stopped, InputError.
-  void prepare();
+  /// Flow, baseline, nulls and fingerprints; kept in the directory. `after`: simulated experiments
+  /// that follow, for the progress. Throws Stopped, InputError.
+  void prepare(double after = 0);
+  /// Simulated experiments of a model that is fitted and shown.
+  double model_cost() const;
   /// Which effects recordings of the same kind as the experiment's ask for: verdict, findings,
   /// maps, ranking, smallest sizes.
   Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);

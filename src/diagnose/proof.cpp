@@ -245,7 +245,8 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   DiagnosisOptions job = options.diagnosis;
   job.hold_out = 0;
   Diagnoser diagnoser(open, job);
-  diagnoser.prepare();
+  // A quarter of the worlds asks for some thirty further experiments.
+  diagnoser.prepare(8.5 * options.worlds + options.modelled * diagnoser.model_cost());
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
     const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
                                   derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
