@@ -20,8 +20,9 @@ constexpr int kMostEffects = 3;
 constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
 constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
                                    // are known to some per cent only
-constexpr double kPrice = 4;       // of an amplitude, in squared distance
-constexpr double kMostSize = 6;    // sizes beyond which a fingerprint is no guide
+constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
+constexpr double kPrice = 4;          // of an amplitude, in squared distance
+constexpr double kMostSize = 6;       // sizes beyond which a fingerprint is no guide
 // How far from its own amplitudes a fingerprint about found ones holds.
 constexpr double kNear = 0.5, kNearLeast = 0.4;
 constexpr double kEulerGamma = 0.57721566490153286;
@@ -302,6 +303,24 @@ bool Naming::told_already(const EffectFit& fit, const std::vector<EffectFit>& fo
   });
 }
 
+// Whether a curve that was found can do what this effect does: a constant torque beside a torque
+// over headings would only share out the curve's mean.
+bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) const {
+  for (const EffectFit& f : found) {
+    if (f.shape < 0 || of.effect < 0) continue;
+    const auto curve = std::find_if(known_.begin(), known_.end(),
+                                    [&](const Known& k) { return k.shape == f.shape; });
+    if (curve == known_.end()) continue;
+    const Matrix& basis = curve->all.first;
+    Matrix normal = basis.transpose() * basis;
+    normal.diagonal().array() += 1e-6 * (1 + normal.diagonal().maxCoeff());
+    const Matrix& own = of.all.first;
+    const Matrix left = own - basis * normal.ldlt().solve(basis.transpose() * own);
+    if (left.squaredNorm() < kBeyondCurve * own.squaredNorm()) return true;
+  }
+  return false;
+}
+
 // Of the candidates that are significant, the one that leaves least.
 std::size_t Naming::best(const Vector& all, double floor, const std::vector<EffectFit>& found,
                          EffectFit& out, EffectFit& strongest) const {
@@ -313,7 +332,7 @@ std::size_t Naming::best(const Vector& all, double floor, const std::vector<Effe
   for (std::size_t k = 0; k < known_.size(); ++k) {
     const EffectFit one = fit(known_[k], named);
     if (one.z > strongest.z) strongest = one;
-    if (told_already(one, found)) continue;
+    if (told_already(one, found) || within_curve(known_[k], found)) continue;
     // A curve speaks by its own knots as well.
     const bool own =
         one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);

@@ -73,6 +73,7 @@ class Naming {
   double z_of(double gain, double scale, Eigen::Index freedom) const;
   void calibrate(double false_alarms);
   bool told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const;
+  bool within_curve(const Known& of, const std::vector<EffectFit>& found) const;
   std::size_t best(const Eigen::VectorXd& all, double floor, const std::vector<EffectFit>& found,
                    EffectFit& out, EffectFit& strongest) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
