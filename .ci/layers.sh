@@ -80,7 +80,7 @@ layer study study jobs io analysis text
 layer optimize optimize study synthesis io analysis text
 layer calibrate calibrate study io analysis text
 layer diagnose diagnose calibrate study forces io analysis text
-layer bodies bodies recording io analysis text
+layer bodies bodies study recording io analysis text
 layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io analysis text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"

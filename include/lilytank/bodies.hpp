@@ -20,6 +20,11 @@ struct BodyRun {
   std::vector<double> drivers;       ///< [sample][driver]
   bool held_out = false;
   std::size_t samples() const { return time.size(); }
+  std::size_t coordinates() const { return position.size() / time.size(); }  ///< of a sample
+  /// A sample's drivers; null where there are none.
+  const double* drivers_at(std::size_t sample) const {
+    return drivers.empty() ? nullptr : &drivers[sample * (drivers.size() / time.size())];
+  }
 };
 
 /// A law that the simple model has: its numbers are given, or fitted where `fit` is set.
@@ -33,13 +38,12 @@ struct BaselineLaw {
 struct BodyExperiment {
   std::string name;
   int dimensions = 1;
-  std::string unit = "m";       ///< of a position
-  double noise = 0;             ///< deviation of a position; 0: it is estimated
-  bool different = false;       ///< every body has coefficients of its own
-  bool masses = false;          ///< masses are known
-  std::vector<double> periods;  ///< s, of forces that are periodic in time
-  double turning = 0;  ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
-  int latitude = -1;   ///< the driver that is a latitude in degrees; -1: none is
+  std::string unit = "m";  ///< of a position
+  double noise = 0;        ///< deviation of a position; 0: it is estimated
+  bool different = false;  ///< every body has coefficients of its own
+  bool masses = false;     ///< masses are known
+  double turning = 0;      ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
+  int latitude = -1;       ///< the driver that is a latitude in degrees; -1: none is
   std::vector<BaselineLaw> baseline;
   std::vector<std::string> drivers;
   std::vector<BodyRun> runs;
@@ -52,8 +56,9 @@ bool is_body_experiment(const std::string& file);
 /// Reads an experiment and its tables. Throws InputError with file, line, column and value.
 BodyExperiment load_body_experiment(const std::string& file);
 
-/// Carries a diagnosis through; nothing if it was stopped. Of the options it takes false_alarms,
-/// minutes (which scales the simulated nulls), seed, stop and progress. Throws InputError.
+/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`; nothing if
+/// it was stopped. `minutes` scales the simulated baselines; hold_out does not count. Throws
+/// InputError.
 std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& experiment,
                                          const DiagnosisOptions& options);
 

@@ -87,7 +87,6 @@ struct Diagnosis {
   std::vector<Detectable> detectable;
   std::vector<MovedParameter> parameters;
   std::vector<GroupFit> held_out;
-  double removed() const;  ///< of all groups' mismatch beyond chance, the share that is removed
   double msd_before = 0, msd_after = 0, msd_floor = 0;  ///< m^2, Eq. 9 of held-out recordings
   double msd_removed = 0, msd_low = 0, msd_high = 0;
   std::vector<FoundCurve> maps;  ///< every shape's curve of what the baseline leaves
@@ -97,10 +96,12 @@ struct Diagnosis {
   double strongest_left = 0;  ///< z of what is left after the findings
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
-  std::string bodies = "Lilies";  ///< what was recorded; "bodies": by diagnose_bodies
+  bool tank = true;  ///< of Lilies in a tank; false: of point bodies, by diagnose_bodies
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found
   std::string flow_csv;
+  /// Of all groups' mismatch beyond chance on held-out recordings, the share that is removed.
+  double removed() const;
 };
 
 /// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. Nothing if

@@ -11,13 +11,19 @@ namespace lilytank {
 
 struct ProofOptions {
   int worlds = 100;
-  double minutes = 4;       ///< of a recording; an experiment has three, and three of balls
-  bool known_flow = false;  ///< no balls: the diagnosis is given the true flow
-  int modelled =
-      10;  ///< worlds with a named effect whose model is fitted and shown as well, at most
+  double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
+  bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
+  int modelled = 10;           ///< worlds of named effects whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the fingerprint of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
+};
+
+/// A 95 % interval of a model that was fitted, and the truth.
+struct ProofInterval {
+  std::string path;
+  double truth = 0, value = 0, low = 0, high = 0;
+  bool holds() const { return low <= truth && truth <= high; }
 };
 
 /// One sealed experiment: its key, and what was said of it.
@@ -31,9 +37,9 @@ struct ProofWorld {
   std::vector<std::string> alternatives;  ///< told with it
   std::string variable;                   ///< of the finding
   double z = 0;
-  /// Of those that were modelled: how many 95 % intervals there were, how many hold the truth, and
-  /// the share of the mismatch that the model removes on recordings that had no part in it.
-  int intervals = 0, covered = 0;
+  /// Of those that were modelled: their intervals, and the share of the mismatch that the model
+  /// removes on recordings that had no part in it.
+  std::vector<ProofInterval> intervals;
   double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
   /// What simpler methods make of the same recordings: the effect that a sparse regression of
   /// differentiated positions finds strongest ("" for none), and how far the MSD is off.
@@ -57,5 +63,7 @@ std::optional<Proof> prove(const ProofOptions& options);
 std::string proof_text(const Proof& proof);
 /// One row a world.
 std::string proof_csv(const Proof& proof);
+/// One row an interval.
+std::string proof_intervals_csv(const Proof& proof);
 
 }  // namespace lilytank

@@ -46,6 +46,12 @@ Estimate wilson(std::int64_t successes, std::int64_t n, double level) {
   return {p, successes == 0 ? 0 : centre - half, successes == n ? 1 : centre + half};
 }
 
+double chi_squared_z(double square, int freedom) {
+  if (freedom == 1) return std::sqrt(square);
+  const double part = 2.0 / (9.0 * freedom);
+  return (std::cbrt(square / freedom) - (1 - part)) / std::sqrt(part);
+}
+
 Estimate poisson_rate(std::int64_t events, double exposure, double level) {
   assert(events >= 0 && exposure >= 0 && 0 < level && level < 1);
   if (!(exposure > 0)) return {kUnknown, 0, kInfinity};

@@ -178,23 +178,25 @@ BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups
 
 }  // namespace
 
-std::vector<double> null_gains(const BodyExperiment& e, const std::vector<Group>& groups,
-                               const LawTrial& baseline, int number, const Job& job) {
+std::optional<std::vector<double>> null_gains(const BodyExperiment& e,
+                                              const std::vector<Group>& groups,
+                                              const LawTrial& baseline, int number,
+                                              std::uint64_t seed, const KeptRows& kept) {
   constexpr std::size_t kMost = 1500;  // samples
-  std::vector<double> out;
-  for (int r = 0; r < number && !job.stopped(); ++r) {
+  const auto rows = kept_rows(kept, number, [&](int r) {
     const BodyExperiment drawn =
-        made_up(e, groups, baseline, derived_seed(job.seed, static_cast<std::uint64_t>(r)), kMost);
+        made_up(e, groups, baseline, derived_seed(seed, static_cast<std::uint64_t>(r)), kMost);
     std::vector<Group> own = groups_of(drawn);
     const LawTrial base = fit_baseline(drawn, own);
     double best = -1e300;
     for (const Candidate& c : single_laws(drawn, own)) {
-      if (job.stopped()) break;
       best = std::max(best, fit_candidate(own, base, base, c).gain);
     }
-    out.push_back(best);
-    if (job.progress) job.progress(static_cast<double>(r + 1) / number);
-  }
+    return std::vector<double>{best};
+  });
+  if (!rows) return std::nullopt;
+  std::vector<double> out;
+  for (const std::vector<double>& row : *rows) out.push_back(row.front());
   std::sort(out.begin(), out.end());
   return out;
 }
@@ -217,13 +219,9 @@ double error_of(const std::vector<double>& parts) {
 
 }  // namespace
 
-Difference difference(const std::vector<Group>& groups, const std::vector<double>& a,
-                      const std::vector<double>& b) {
-  std::vector<double> blocks;
-  std::size_t at = 0;
-  for (const Group& g : groups) {
-    for (int k = 0; k < g.blocks; ++k, ++at) blocks.push_back(a[at] - b[at]);
-  }
+Difference difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> blocks(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) blocks[k] = a[k] - b[k];
   return {sum(blocks), error_of(blocks)};
 }
 

@@ -2,6 +2,7 @@
 // chance alone would give.
 #pragma once
 #include "bodies/fit.hpp"
+#include "study/kept_rows.hpp"
 
 namespace lilytank::bodies {
 
@@ -21,13 +22,6 @@ struct LawTrial {
   std::vector<double> shaken;    ///< as by_block, beside a bias of every run; empty: not done
 };
 
-struct Job {
-  std::uint64_t seed = 1;
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(double share)> progress;
-  bool stopped() const { return stop != nullptr && stop->load(); }
-};
-
 /// Runs that share coefficients: all, or those of one body.
 std::vector<Group> groups_of(const BodyExperiment& experiment);
 
@@ -43,18 +37,20 @@ LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baselin
                        const LawTrial& from, const Candidate& candidate);
 
 /// Best gains of single laws in experiments that the fitted baseline makes up, sorted. Large
-/// recordings are cut: what chance gives hangs on the number of coefficients, not of samples.
-std::vector<double> null_gains(const BodyExperiment& experiment, const std::vector<Group>& groups,
-                               const LawTrial& baseline, int number, const Job& job);
+/// recordings are cut: what chance gives hangs on the number of coefficients, not of samples. Kept
+/// as they come; nothing if it was stopped.
+std::optional<std::vector<double>> null_gains(const BodyExperiment& experiment,
+                                              const std::vector<Group>& groups,
+                                              const LawTrial& baseline, int number,
+                                              std::uint64_t seed, const KeptRows& kept);
 
-/// By how much `a` is better than `b` (nat), with its standard error from what blocks and runs
-/// differ in.
+/// By how much `a` is better than `b` (nat), both by block, with its standard error from what
+/// blocks differ in.
 struct Difference {
   double value = 0, error = 0;
   bool told_apart() const;  ///< by two standard errors and two nat
 };
-Difference difference(const std::vector<Group>& groups, const std::vector<double>& a,
-                      const std::vector<double>& b);
+Difference difference(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Whether runs of the same bodies, fitted one by one, agree in the coefficients of the last law:
 /// squared differences from their mean by their standard errors, and how many are free.

@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "bodies/verdict.hpp"
+#include "lilytank/state.hpp"
+#include "study/kept_rows.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace bodies {
@@ -36,49 +41,106 @@ std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<La
   return out;
 }
 
+std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& options) {
+  Fnv hash;
+  hash.add("1 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
+  hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.different), double(e.masses),
+                               e.turning, double(e.latitude), options.minutes});
+  for (const BaselineLaw& law : e.baseline) {
+    hash.add(law.law + " " + shortest(law.value) + (law.fit ? " fit" : ""));
+  }
+  for (const BodyRun& run : e.runs) {
+    hash.add(run.name + (run.held_out ? " held out" : ""));
+    for (const auto* of : {&run.mass, &run.radius, &run.time, &run.position, &run.drivers}) {
+      hash.add(*of);
+    }
+  }
+  return hash.value();
+}
+
+// Fits laws one after the other; false if it was stopped.
+class Trials {
+ public:
+  Trials(const BodyExperiment& e, const DiagnosisOptions& options, Comparison& c)
+      : experiment_(e), options_(options), c_(c) {}
+  bool run() {
+    tell(0.01, "baseline");
+    c_.baseline = fit_baseline(experiment_, c_.groups);
+    return singles() && pairs() && nulls();
+  }
+
+ private:
+  void tell(double done, const std::string& stage) const {
+    if (options_.progress) options_.progress(done, stage);
+  }
+  bool stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+
+  bool singles() {
+    const std::vector<Candidate> laws = single_laws(experiment_, c_.groups);
+    if (laws.empty()) {
+      throw InputError("the baseline has every law that these recordings can have");
+    }
+    for (const Candidate& law : laws) {
+      if (stopped()) return false;
+      tell(0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
+           law.name());
+      c_.singles.push_back(fit_candidate(c_.groups, c_.baseline, c_.baseline, law));
+    }
+    sort_best_first(c_.singles);
+    return true;
+  }
+
+  bool pairs() {
+    const auto pairs = pairs_of(c_.singles);
+    for (const auto& [from, pair] : pairs) {
+      if (stopped()) return false;
+      tell(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
+           pair.name());
+      c_.pairs.push_back(fit_candidate(c_.groups, c_.baseline, *from, pair));
+    }
+    sort_best_first(c_.pairs);
+    // A bias can be known only from several runs.
+    if (experiment_.runs.size() < 4) return true;
+    for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
+      for (std::size_t k = 0; k < all->size() && k < 6 && !stopped(); ++k) {
+        shake(c_.groups, (*all)[k]);
+      }
+    }
+    return true;
+  }
+
+  bool nulls() {
+    const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.minutes)));
+    KeptRows kept;
+    if (!options_.out.empty()) {
+      kept.file = (std::filesystem::path(options_.out) / "work" / "nulls.rows").string();
+    }
+    kept.identity = identity_of(experiment_, options_);
+    kept.threads = options_.threads, kept.stop = options_.stop;
+    kept.progress = [&](int done, int all) {
+      tell(0.6 + 0.39 * done / all,
+           "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));
+    };
+    auto gains = null_gains(experiment_, c_.groups, c_.baseline, number, options_.seed, kept);
+    if (gains) c_.nulls = std::move(*gains);
+    return gains.has_value();
+  }
+
+  const BodyExperiment& experiment_;
+  const DiagnosisOptions& options_;
+  Comparison& c_;
+};
+
 }  // namespace
 }  // namespace bodies
 
 std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
   using namespace bodies;
-  const auto tell = [&](double done, const std::string& stage) {
-    if (options.progress) options.progress(done, stage);
-  };
-  Job job{options.seed, options.stop, {}};
+  claim_directory(options.out, options.force, "diagnosis", hex(identity_of(e, options)));
   Comparison c;
-  c.experiment = &e, c.false_alarms = options.false_alarms, c.seed = options.seed;
+  c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);
-  tell(0.01, "baseline");
-  c.baseline = fit_baseline(e, c.groups);
-  const std::vector<Candidate> laws = single_laws(e, c.groups);
-  for (const Candidate& law : laws) {
-    if (job.stopped()) return std::nullopt;
-    tell(0.05 + 0.25 * static_cast<double>(c.singles.size()) / static_cast<double>(laws.size()),
-         law.name());
-    c.singles.push_back(fit_candidate(c.groups, c.baseline, c.baseline, law));
-  }
-  if (c.singles.empty())
-    throw InputError("the baseline has every law that these recordings can have");
-  sort_best_first(c.singles);
-  const auto pairs = pairs_of(c.singles);
-  for (const auto& [from, pair] : pairs) {
-    if (job.stopped()) return std::nullopt;
-    tell(0.3 + 0.3 * static_cast<double>(c.pairs.size()) / static_cast<double>(pairs.size()),
-         pair.name());
-    c.pairs.push_back(fit_candidate(c.groups, c.baseline, *from, pair));
-  }
-  sort_best_first(c.pairs);
-  // A bias can be known only from several runs.
-  if (e.runs.size() > 3) {
-    for (std::vector<LawTrial>* all : {&c.singles, &c.pairs}) {
-      for (std::size_t k = 0; k < all->size() && k < 6 && !job.stopped(); ++k)
-        shake(c.groups, (*all)[k]);
-    }
-  }
-  const int nulls = std::max(9, static_cast<int>(std::lround(4.9 * options.minutes)));
-  job.progress = [&](double share) { tell(0.6 + 0.39 * share, "simulated baselines"); };
-  c.nulls = null_gains(e, c.groups, c.baseline, nulls, job);
-  if (job.stopped()) return std::nullopt;
+  if (!Trials(e, options, c).run()) return std::nullopt;
   c.repeats = repeats_of(e, c.groups, c.best());
   c.far_before = far_errors(c.groups, c.baseline), c.far_after = far_errors(c.groups, c.best());
   return told(c);

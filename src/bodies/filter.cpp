@@ -46,7 +46,6 @@ class Mover {
         run_(&run),
         dimensions_(typical.dimensions),
         n_(static_cast<int>(run.bodies.size()) * typical.dimensions) {
-    drivers_ = run.drivers.size() / std::max<std::size_t>(1, run.samples());
     for (const Term& t : model.terms) {
       if (t.law->variable() == "pair") pairs_ = true;
     }
@@ -62,19 +61,11 @@ class Mover {
 
  private:
   void slopes(std::size_t k, double time, const double* x, const double* v, double* a) const {
-    const Scene s{n_ / dimensions_,
-                  dimensions_,
-                  run_->mass.data(),
-                  run_->radius.data(),
-                  drivers_ > 0 ? &run_->drivers[k * drivers_] : nullptr,
-                  time,
-                  x,
-                  v};
-    accelerate(*model_, s, a);
+    accelerate(*model_, scene_of(*run_, dimensions_, k, time, x, v), a);
   }
 
   void step(std::size_t k, double time, double h, Vector& z) const {
-    double x[kMost], v[kMost], a1[kMost], a2[kMost], a3[kMost], a4[kMost], w[4][kMost];
+    double x[kMost] = {}, v[kMost] = {}, a1[kMost], a2[kMost], a3[kMost], a4[kMost], w[4][kMost];
     const double half = std::exp(-h / 2 / model_->memory), full = half * half;
     const int n = n_;
     const auto at = [&](double part, const double* dx, const double* dv, double* a, double* keep) {
@@ -120,7 +111,6 @@ class Mover {
   const BodyModel* model_;
   const BodyRun* run_;
   int dimensions_, n_;
-  std::size_t drivers_ = 0;
   bool pairs_ = false;
 };
 

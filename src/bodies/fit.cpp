@@ -240,7 +240,7 @@ Group make_group(const BodyExperiment& e, const std::string& name,
   int block = 0;
   for (int r = 0; r < n; ++r) {
     const BodyRun& run = *runs[static_cast<std::size_t>(r)];
-    const std::size_t samples = run.samples(), row = run.position.size() / samples;
+    const std::size_t samples = run.samples(), row = run.coordinates();
     const int parts = std::max(
         n == 1 ? kQuarters : 2,
         static_cast<int>(kBlocks * static_cast<double>(samples) / static_cast<double>(all)));
@@ -265,7 +265,7 @@ BodyModel first_model(const BodyExperiment& e, const Group& g) {
   BodyModel m;
   std::vector<double> steps, bends;
   for (const BodyRun* run : g.runs) {
-    const std::size_t row = run->position.size() / run->samples();
+    const std::size_t row = run->coordinates();
     for (std::size_t k = 2; k < run->samples(); ++k) {
       steps.push_back(run->time[k] - run->time[k - 1]);
       for (std::size_t i = 0; i < row; ++i) {

@@ -52,6 +52,18 @@ BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers) {
   return m;
 }
 
+Scene scene_of(const BodyRun& run, int dimensions, std::size_t sample, double time, const double* x,
+               const double* v) {
+  return {static_cast<int>(run.bodies.size()),
+          dimensions,
+          run.mass.data(),
+          run.radius.data(),
+          run.drivers_at(sample),
+          time,
+          x,
+          v};
+}
+
 void accelerate(const BodyModel& model, const Scene& s, double* out) {
   const int n = s.bodies * s.dimensions;
   std::fill(out, out + n, 0.0);
@@ -88,23 +100,15 @@ double unit_size(const Term& term, std::size_t which, const std::vector<const Bo
   std::size_t count = 0;
   std::vector<double> v, force;
   for (const BodyRun* run : runs) {
-    const std::size_t row = run->bodies.size() * static_cast<std::size_t>(dimensions);
+    const std::size_t row = run->coordinates();
     const std::size_t step = std::max<std::size_t>(1, run->samples() / 400);
     v.assign(row, 0), force.assign(row, 0);
     for (std::size_t k = 0; k + 4 < run->samples(); k += step) {
       for (std::size_t b = 0; b < run->bodies.size(); ++b) {
         speed_at(*run, k, b, dimensions, &v[b * static_cast<std::size_t>(dimensions)]);
       }
-      const Scene s{static_cast<int>(run->bodies.size()),
-                    dimensions,
-                    run->mass.data(),
-                    run->radius.data(),
-                    run->drivers.empty()
-                        ? nullptr
-                        : &run->drivers[k * (run->drivers.size() / run->samples())],
-                    run->time[k],
-                    &run->position[k * row],
-                    v.data()};
+      const Scene s =
+          scene_of(*run, dimensions, k, run->time[k], &run->position[k * row], v.data());
       std::fill(force.begin(), force.end(), 0.0);
       only.law->add(s, only.value, force.data());
       for (std::size_t i = 0; i < row; ++i) {

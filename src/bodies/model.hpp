@@ -39,6 +39,11 @@ BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers);
 /// How many come before those of the terms.
 std::size_t own_numbers(const BodyModel& model);
 
+/// A run's bodies with the drivers of one of its samples, at positions and velocities of
+/// [body][dimension].
+Scene scene_of(const BodyRun& run, int dimensions, std::size_t sample, double time, const double* x,
+               const double* v);
+
 /// Accelerations at [body][dimension].
 void accelerate(const BodyModel& model, const Scene& scene, double* out);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bodies/compare.hpp"
+#include "lilytank/statistics.hpp"
 
 namespace lilytank::bodies {
 
@@ -11,9 +12,7 @@ double Repeats::factor() const {
 }
 
 double Repeats::z() const {
-  if (free == 0) return 0;
-  const double v = 2.0 / (9 * free);
-  return (std::cbrt(square / free) - (1 - v)) / std::sqrt(v);
+  return free > 0 ? chi_squared_z(square, free) : 0;
 }
 
 namespace {
@@ -97,18 +96,11 @@ double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTria
       Believed at;
       BodyResiduals in;
       filter_run(ma, t, *run, in, &at);
-      const std::size_t n = run->samples(), row = run->position.size() / n,
-                        drivers = run->drivers.size() / n;
+      const std::size_t row = run->coordinates();
       std::vector<double> fa(row), fb(row);
-      for (std::size_t k = 0; k < n; ++k) {
-        const Scene s{static_cast<int>(run->bodies.size()),
-                      t.dimensions,
-                      run->mass.data(),
-                      run->radius.data(),
-                      drivers > 0 ? &run->drivers[k * drivers] : nullptr,
-                      run->time[k],
-                      &at.x[k * row],
-                      &at.v[k * row]};
+      for (std::size_t k = 0; k < run->samples(); ++k) {
+        const Scene s =
+            scene_of(*run, t.dimensions, k, run->time[k], &at.x[k * row], &at.v[k * row]);
         accelerate(ma, s, fa.data()), accelerate(mb, s, fb.data());
         for (std::size_t c = 0; c < row; ++c) {
           apart += (fa[c] - fb[c]) * (fa[c] - fb[c]), pushes += ma.push * ma.push;
@@ -128,7 +120,7 @@ std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial&
       Believed b;
       BodyResiduals in;
       filter_run(outcome.fits[i].model, groups[i].typical, *run, in, &b);
-      const std::size_t n = run->samples(), row = run->position.size() / n,
+      const std::size_t n = run->samples(), row = run->coordinates(),
                         far = std::max<std::size_t>(1, n / 4);
       for (std::size_t k = far; k + far < n; k += std::max<std::size_t>(1, far / 4)) {
         const auto there = predicted(outcome.fits[i].model, groups[i].typical, *run, b, k, k + far);

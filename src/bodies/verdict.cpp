@@ -8,6 +8,9 @@
 #include "text/number.hpp"
 
 namespace lilytank::bodies {
+namespace {
+constexpr std::size_t kPairsTold = 5;
+}  // namespace
 
 double Comparison::threshold() const {
   if (nulls.empty()) return 5;
@@ -37,21 +40,21 @@ std::multiset<std::string_view> variables_of(const Candidate& candidate) {
 }  // namespace
 
 bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
-  Difference d = difference(groups, better.by_block, worse.by_block);
+  Difference d = difference(better.by_block, worse.by_block);
   d.error *= repeats.factor();
   if (!d.told_apart()) return false;
   // Laws of one variable: what no law explains must be less than what they differ by.
   const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
   if (alike && unlike(groups, better, worse) < 1) return false;
   if (better.shaken.empty() || worse.shaken.empty()) return true;
-  Difference still = difference(groups, better.shaken, worse.shaken);
+  Difference still = difference(better.shaken, worse.shaken);
   still.error *= repeats.factor();
   return still.told_apart();
 }
 
 const LawTrial* Comparison::pair() const {
   if (pairs.empty() || singles.empty()) return nullptr;
-  const Difference d = difference(groups, pairs.front().by_block, singles.front().by_block);
+  const Difference d = difference(pairs.front().by_block, singles.front().by_block);
   const bool more = d.value > std::max(2.0, threshold()) && d.told_apart();
   return more ? &pairs.front() : nullptr;
 }
@@ -109,7 +112,7 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
 // Interval of a gain by resampling blocks (2.5 % and 97.5 % of their normal approximation).
 void add_gain(const Comparison& c, const LawTrial& o, const LawTrial& without,
               DiagnosisFinding& f) {
-  const Difference d = difference(c.groups, o.by_block, without.by_block);
+  const Difference d = difference(o.by_block, without.by_block);
   f.gain = d.value, f.gain_low = d.value - 1.96 * d.error, f.gain_high = d.value + 1.96 * d.error;
   f.z = std::sqrt(2 * std::max(0.0, d.value));
   f.confidence = 1 - std::min(1.0, c.chance(d.value));
@@ -234,8 +237,8 @@ void warn_of_pushes(const Comparison& c, Diagnosis& d) {
       "irregular accelerations of " + significant(std::sqrt(left / n), 2) + " " +
       c.experiment->unit + "/s^2 rms are left (" + significant(std::sqrt(had / n), 2) +
       " without the findings): where nothing pushes these bodies at random, suspect the "
-      "measurement "
-      "(release, clock, scale); laws that differ by less along this motion are not told apart");
+      "measurement (release, clock, scale); laws that differ by less along this motion are not "
+      "told apart");
 }
 
 void warn(const Comparison& c, Diagnosis& d) {
@@ -247,8 +250,8 @@ void warn(const Comparison& c, Diagnosis& d) {
                          significant(c.repeats.factor(), 2) + " times their errors" +
                          (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
                          ": suspect the measurement (release, clock, scale); intervals are widened "
-                         "by that, and which "
-                         "law it is cannot be told from fits that differ by less");
+                         "by that, and which law it is cannot be told from fits that differ by "
+                         "less");
   }
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const BodyModel& m = best.fits[i].model;
@@ -315,11 +318,23 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
   }
 }
 
+// All single laws and the first pairs, by the square root of twice their gain.
+void add_ranking(const Comparison& c, Diagnosis& d) {
+  const auto add = [&](const LawTrial& o) {
+    d.ranking.emplace_back(o.candidate.name(), std::sqrt(2 * std::max(0.0, o.gain)));
+  };
+  std::for_each(c.singles.begin(), c.singles.end(), add);
+  const auto pairs = static_cast<std::ptrdiff_t>(std::min<std::size_t>(c.pairs.size(), kPairsTold));
+  std::for_each(c.pairs.begin(), c.pairs.begin() + pairs, add);
+  std::stable_sort(d.ranking.begin(), d.ranking.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+}
+
 }  // namespace
 
 Diagnosis told(const Comparison& c) {
   Diagnosis d;
-  d.name = c.experiment->name, d.bodies = "bodies";
+  d.name = c.experiment->name, d.tank = false;
   d.recordings = static_cast<int>(c.experiment->runs.size());
   for (const BodyRun& r : c.experiment->runs) {
     d.modules = std::max(d.modules, static_cast<int>(r.bodies.size()));
@@ -328,15 +343,7 @@ Diagnosis told(const Comparison& c) {
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
   const LawTrial& best = c.best();
-  for (const LawTrial& o : c.singles) {
-    d.ranking.emplace_back(o.candidate.name(), std::sqrt(2 * std::max(0.0, o.gain)));
-  }
-  for (std::size_t k = 0; k < c.pairs.size() && k < 5; ++k) {
-    d.ranking.emplace_back(c.pairs[k].candidate.name(),
-                           std::sqrt(2 * std::max(0.0, c.pairs[k].gain)));
-  }
-  std::stable_sort(d.ranking.begin(), d.ranking.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  add_ranking(c, d);
   add_detectable(c, d);
   add_moved(c, d);
   d.maps = maps_of(c);
@@ -344,7 +351,7 @@ Diagnosis told(const Comparison& c) {
     d.verdict = Verdict::complete;
     return d;
   }
-  const Difference sure = difference(c.groups, best.by_block, c.baseline.by_block);
+  const Difference sure = difference(best.by_block, c.baseline.by_block);
   d.verdict = sure.value > 1.645 * sure.error ? Verdict::missing : Verdict::undecided;
   d.findings = findings(c);
   add_fit(c, d);

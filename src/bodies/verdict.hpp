@@ -15,7 +15,6 @@ struct Comparison {
   Repeats repeats;                            ///< of the best outcome
   std::vector<double> far_before, far_after;  ///< mean squares of far predictions, m^2
   double false_alarms = 0.02;
-  std::uint64_t seed = 1;
 
   /// Gain that a share of `false_alarms` of complete experiments exceed.
   double threshold() const;

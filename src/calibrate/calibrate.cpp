@@ -33,7 +33,7 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
                                            const CalibrationOptions& options) try {
   CalibrationSetup setup = set_up(experiment, options);
-  claim_directory(setup.options, "calibration", "1 " + hex(setup.identity));
+  claim_directory(options.out, options.force, "calibration", "1 " + hex(setup.identity));
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();

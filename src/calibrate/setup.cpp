@@ -110,7 +110,7 @@ void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
     hash.add(one.name + " " + shortest(one.rate) + " " + std::to_string(one.frames));
     for (const Track& track : one.tracks) {
       for (const auto* of : {&track.x, &track.y, &track.theta}) {
-        hash.add({reinterpret_cast<const char*>(of->data()), of->size() * sizeof(double)});
+        hash.add(*of);
       }
     }
   }

@@ -46,24 +46,6 @@ std::int64_t budget_of(const CalibrationOptions& o) {
 
 }  // namespace
 
-void claim_directory(const CalibrationOptions& o, const std::string& job,
-                     const std::string& identity) {
-  if (o.out.empty()) return;
-  const fs::path mark = fs::path(o.out) / "work" / "identity";
-  const std::string mine = "lilytank " + job + " " + identity + "\n";
-  std::error_code problem;
-  if (fs::exists(mark, problem) && read_whole(mark.string()) != mine) {
-    if (!o.force) {
-      throw InputError(o.out + " holds another " + job +
-                       " (other data, options or program): choose another --out, or replace it "
-                       "with --force");
-    }
-    fs::remove_all(fs::path(o.out) / "work", problem);
-  }
-  make_directory(mark.parent_path().string());
-  write_atomically(mark.string(), mine);
-}
-
 Stages::Stages(CalibrationSetup& setup)
     : setup_(setup),
       whole_(setup.emulator(setup.shapes, Of::experiments)),

@@ -11,12 +11,6 @@
 
 namespace lilytank {
 
-/// Makes a directory one job's own, told by a file in it. `job`: "calibration"; `identity`: of all
-/// that its results depend on. What another job left is removed with options.force, and refused
-/// without. Throws InputError.
-void claim_directory(const CalibrationOptions& options, const std::string& job,
-                     const std::string& identity);
-
 /// Thrown by a stage once the stop signal is set; caught by calibrate().
 struct Stopped {};
 

@@ -14,10 +14,9 @@
 namespace lilytank::cli {
 namespace {
 
-int show(const std::optional<Diagnosis>& found, const std::string& dir, bool resumes) {
+int show(const std::optional<Diagnosis>& found, const std::string& dir) {
   if (!found) {
-    std::cerr << (resumes ? "stopped; what is done is kept, and the same command goes on\n"
-                          : "stopped; nothing is kept, the same command begins anew\n");
+    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
   write_diagnosis(*found, dir);
@@ -68,9 +67,7 @@ int diagnose_verb(const Arguments& arguments) {
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   std::optional<Diagnosis> found;
-  const bool points =
-      options.positional().size() == 1 && is_body_experiment(options.positional()[0]);
-  if (points) {
+  if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
     const BodyExperiment experiment = load_body_experiment(options.positional()[0]);
     job.out = directory_of(options, experiment.name);
     found = diagnose_bodies(experiment, job);
@@ -83,7 +80,7 @@ int diagnose_verb(const Arguments& arguments) {
     found = diagnose(experiment, job);
   }
   progress.clear();
-  return show(found, job.out, !points);
+  return show(found, job.out);
 }
 
 }  // namespace lilytank::cli

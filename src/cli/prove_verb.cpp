@@ -54,6 +54,7 @@ int prove_verb(const Arguments& arguments) {
   const std::filesystem::path dir(job.diagnosis.out);
   write_atomically((dir / "proof.txt").string(), proof_text(*proof));
   write_atomically((dir / "proof.csv").string(), proof_csv(*proof));
+  write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(*proof));
   std::cout << proof_text(*proof) << std::flush;
   std::cerr << "results in " << job.diagnosis.out << "\n";
   return Exit::done;

@@ -73,6 +73,20 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   return out;
 }
 
+// Amplitudes about found ones, in pairs opposite each other.
+Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
+  Matrix out(kAbout, amplitudes.size());
+  for (int i = 0; i < kAbout; ++i) {
+    for (Eigen::Index c = 0; c < out.cols(); ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
+    }
+  }
+  const Vector reach = kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+  out = (out * reach.asDiagonal()).rowwise() + amplitudes.transpose();
+  return out.cwiseMax(two_sided ? -1e9 : 0);
+}
+
 }  // namespace
 
 Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
@@ -156,13 +170,13 @@ LocalFit Atlas::calibrated(const Vector& summary) const {
 }
 
 Vector Atlas::residual(const Vectors& vectors) const {
-  const LocalFit fit = calibrated(vectors.summary);
-  return limited(vectors.scores - scores_->mean(fit.point));
+  return residual_at(vectors.scores, calibrated(vectors.summary).point);
 }
 
 // What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
 // ever vary must not outweigh all others.
-Vector Atlas::limited(const Vector& off) const {
+Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
+  const Vector off = scores - scores_->mean(point);
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
@@ -191,7 +205,7 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
     const Vectors v{made.numbers.row(i).head(summary_numbers()),
                     made.numbers.row(i).tail(deviation_.size())};
     const LocalFit fit = calibrated(v.summary);
-    out.residuals.row(i) = limited(v.scores - scores_->mean(fit.point)).transpose();
+    out.residuals.row(i) = residual_at(v.scores, fit.point).transpose();
     out.moved.row(i) = fit.point.transpose() - made.points.row(i).head(about.size());
   }
   return out;
@@ -235,20 +249,11 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
                                      const Effect& effect, const Vector& calibrated,
                                      const std::string& stage, std::uint64_t seed) {
   const Eigen::Index m = amplitudes.size();
-  Matrix tried(kAbout, m);
-  for (int i = 0; i < kAbout; ++i) {
-    for (Eigen::Index c = 0; c < m; ++c) {
-      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
-      tried(i, c) = i % 2 == 0 ? 2 * u - 1 : -tried(i - 1, c);  // pairs opposite each other
-    }
-  }
-  const Vector reach = kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
-  const double least = effect.two_sided ? -1e9 : 0;
-  tried = (tried * reach.asDiagonal()).rowwise() + amplitudes.transpose();
   const FitBounds bounds = stages_.bounds();
   const Vector point =
       (calibrated - from.moved(amplitudes)).cwiseMax(bounds.low).cwiseMin(bounds.high);
-  const Answers made = answers(effect, stage, point, tried.cwiseMax(least), seed);
+  const Answers made =
+      answers(effect, stage, point, about(amplitudes, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =

@@ -86,7 +86,7 @@ class Atlas {
   Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                   const Eigen::MatrixXd& amplitudes, std::uint64_t seed);
   Eigen::Index summary_numbers() const;
-  Eigen::VectorXd limited(const Eigen::VectorXd& off) const;  ///< in deviations
+  Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
   Stages& stages_;
   const FlowMaps& maps_;
   ScorePlan plan_;

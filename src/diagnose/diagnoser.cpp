@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "calibrate/design.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -18,10 +17,6 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostCentres = 4;
-constexpr double kStrong = 10;  // z above which fingerprints must be sharper than they are
-constexpr double kLeastAmplitude = 0.2, kRival = 0.5, kNear = 0.85;
-constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
-constexpr int kRivals = 3, kMostSharpened = 6;
 constexpr double kStays = 1.5;                               // deviations of the points
 constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
 
@@ -42,8 +37,7 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
 
 std::uint64_t fnv_of(const Vector& numbers) {
   Fnv hash;
-  hash.add({reinterpret_cast<const char*>(numbers.data()),
-            static_cast<std::size_t>(numbers.size()) * sizeof(double)});
+  hash.add(std::span(numbers.data(), static_cast<std::size_t>(numbers.size())));
   return hash.value();
 }
 
@@ -117,8 +111,8 @@ void Diagnoser::run(Diagnosis& out) {
 }
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
-  claim_directory(setup.options, "diagnosis",
-                  "1 " + hex(setup.identity) + " " + shortest(options.minutes));
+  claim_directory(options.out, options.force, "diagnosis",
+                  "2 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -159,92 +153,6 @@ ScorePlan Diagnoser::plan(const Vector& centre) const {
   p.shapes = shape_catalogue(setup_.model, longest);
   p.rate = setup_.training.front().rate, p.modules = std::max(modules, setup_.shapes[0].bodies);
   return p;
-}
-
-// Named effects first; a shape competes with them where they leave something.
-Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
-  Explanation e = naming.explain(residual);
-  const std::vector<EffectFit> shapes = naming.shapes(residual);
-  std::vector<int> asked;
-  if (shapes[0].z > naming.shape_threshold() && (e.found.empty() || shapes[0].z > e.found[0].z)) {
-    asked.push_back(shapes[0].shape);
-  }
-  double largest = 0;
-  for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
-  if (e.left_shape.z > std::max(naming.shape_threshold(), 0.15 * largest)) {
-    if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
-  }
-  for (const int s : asked) naming.add_shape(s, shape_fingerprint(s));
-  return asked.empty() ? e : naming.explain(residual);
-}
-
-// One effect of a size like those that were simulated explains all there is, and nothing else
-// comes near.
-bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& residual) const {
-  const EffectFit& f = e.found.front();
-  if (e.found.size() > 1 || f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kLearned) {
-    return false;
-  }
-  const std::vector<Effect>& effects = atlas_->plan().effects;
-  const std::string& name = effects[static_cast<std::size_t>(f.effect)].name;
-  const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
-  return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
-    const bool same =
-        other.effect >= 0 && effects[static_cast<std::size_t>(other.effect)].name == name;
-    return !same && other.gain > kNear * leading.front().gain;
-  });
-}
-
-// Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
-// experiments of its own strength. First those that might be it, then whatever leads.
-Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
-                                 const Vector& residual) {
-  const Vector calibrated = atlas_->calibrated(judged.observed.summary).point;
-  std::map<std::pair<int, int>, Fingerprint> known;
-  std::uint64_t asked = 0;
-  const auto sharpen = [&](const EffectFit& f) {
-    const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
-    const ScorePlan& plan = atlas_->plan();
-    const Effect effect = f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]);
-    const auto before = known.find({f.effect, f.shape});
-    const Fingerprint from = before != known.end() ? before->second
-                             : f.effect >= 0       ? atlas_->fingerprints()[id]
-                                                   : shape_fingerprint(f.shape);
-    const std::string stage = "sharp " + judged.tag + " " + std::to_string(asked) +
-                              (f.effect >= 0 ? " effect " : " shape ") + std::to_string(id);
-    const Fingerprint to = atlas_->fingerprint_about(f.amplitudes, from, effect, calibrated, stage,
-                                                     derived_seed(options_.seed, 900 + asked++));
-    known[{f.effect, f.shape}] = to;
-    naming.sharpen(f, to);
-  };
-  if (e.found.empty() || e.found[0].z < kStrong || plain(naming, e, residual)) return e;
-  const auto blunt = [&](const EffectFit& f) {
-    const bool told = known.count({f.effect, f.shape}) > 0;
-    return f.amplitudes.norm() > kLeastAmplitude && (!told || (f.at_reach && f.effect >= 0));
-  };
-  for (const EffectFit& f : naming.leading(residual, kRivals)) {
-    if (blunt(f)) sharpen(f);
-  }
-  for (int more = 0; more < kMostSharpened; ++more) {
-    e = naming.explain(residual);
-    std::vector<EffectFit> next = naming.leading(residual, kRivals);
-    next.erase(std::remove_if(next.begin() + 1, next.end(),
-                              [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
-               next.end());
-    for (const EffectFit& f : e.found) {
-      if (f.z >= kStrong) next.push_back(f);
-    }
-    const auto first = std::find_if(next.begin(), next.end(), blunt);
-    if (first == next.end()) break;
-    sharpen(*first);
-  }
-  return naming.explain(residual);
-}
-
-Fingerprint Diagnoser::shape_fingerprint(int s) {
-  return atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
-                             "shape " + std::to_string(s),
-                             derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s)));
 }
 
 }  // namespace lilytank

@@ -66,6 +66,8 @@ class Diagnoser {
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
   Fingerprint shape_fingerprint(int shape);
+  Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
+                               const Judged& judged, int number);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;

@@ -117,26 +117,28 @@ std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<Effe
 std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
                      const Matrix& covariance, double keep, Vector& point) {
   const std::vector<Eigen::Index> places = places_of(stages, effects);
+  const auto size = [&](std::size_t e) {
+    return static_cast<Eigen::Index>(effects[e].paths.size());
+  };
+  const auto off = [&](std::size_t e) {
+    Vector out = point.segment(places[e], size(e));
+    for (Eigen::Index c = 0; c < out.size(); ++c) {
+      out(c) -= effects[e].absent(stages.setup().model, static_cast<std::size_t>(c));
+    }
+    return out;
+  };
+  // An effect's own covariance, applied backwards to how far it is from nothing.
+  const auto weighed = [&](std::size_t e) -> Vector {
+    return covariance.block(places[e], places[e], size(e), size(e)).ldlt().solve(off(e));
+  };
   std::size_t weakest = effects.size();
   double least = keep * keep;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    const auto m = static_cast<Eigen::Index>(effects[e].paths.size());
-    Vector off = point.segment(places[e], m);
-    for (Eigen::Index c = 0; c < m; ++c) {
-      off(c) -= effects[e].absent(stages.setup().model, static_cast<std::size_t>(c));
-    }
-    const Matrix own = covariance.block(places[e], places[e], m, m);
-    const double distance = off.dot(own.ldlt().solve(off)) / static_cast<double>(m);
+    const double distance = off(e).dot(weighed(e)) / static_cast<double>(size(e));
     if (distance < least) least = distance, weakest = e;
   }
   if (weakest == effects.size() || effects.size() == 1) return effects.size();
-  const auto m = static_cast<Eigen::Index>(effects[weakest].paths.size());
-  Vector off = point.segment(places[weakest], m);
-  for (Eigen::Index c = 0; c < m; ++c) {
-    off(c) -= effects[weakest].absent(stages.setup().model, static_cast<std::size_t>(c));
-  }
-  const Matrix own = covariance.block(places[weakest], places[weakest], m, m);
-  point -= covariance.middleCols(places[weakest], m) * own.ldlt().solve(off);
+  point -= covariance.middleCols(places[weakest], size(weakest)) * weighed(weakest);
   return weakest;
 }
 
@@ -169,6 +171,34 @@ FitBounds bounds_of(const JointFit& fit) {
     bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
   }
   return bounds;
+}
+
+// The answer less the mean error of its replicates' answers, with their deviation.
+void tell(const LocalModel& model, const std::vector<std::vector<double>>& rows,
+          const Vector& point, JointFit& fit) {
+  std::vector<Vector> estimates;
+  FitBounds free;
+  free.reach = 5;
+  const Matrix told =
+      design_of(point.transpose().replicate(static_cast<Eigen::Index>(rows.size()), 1), rows)
+          .numbers;
+  for (Eigen::Index i = 0; i < told.rows(); ++i) {
+    estimates.push_back(model.fit(told.row(i).transpose(), free).point);
+  }
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    double mean = 0, square = 0;
+    for (const Vector& e : estimates) mean += e(k) / static_cast<double>(estimates.size());
+    for (const Vector& e : estimates) square += (e(k) - mean) * (e(k) - mean);
+    const double deviation =
+        std::sqrt(square / std::max<double>(1, static_cast<double>(estimates.size()) - 1));
+    const FitParameter& p = fit.parameters[i];
+    const double middle = point(k) - (mean - point(k));
+    const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
+    fit.value.push_back(within(middle));
+    fit.low.push_back(within(middle - kStudent * deviation));
+    fit.high.push_back(within(middle + kStudent * deviation));
+  }
 }
 
 }  // namespace
@@ -217,28 +247,8 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     if (!fit.settled) centre = answer.point;
   }
   const Matrix points = answer.point.transpose().replicate(replicates, 1);
-  const auto rows = joint->simulate("joint " + tag + " replicates", points, derived_seed(seed, 99));
-  std::vector<Vector> estimates;
-  FitBounds free;
-  free.reach = 5;
-  const Matrix told = design_of(points, rows).numbers;
-  for (Eigen::Index i = 0; i < told.rows(); ++i) {
-    estimates.push_back(model->fit(told.row(i).transpose(), free).point);
-  }
-  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    double mean = 0, square = 0;
-    for (const Vector& e : estimates) mean += e(k) / static_cast<double>(estimates.size());
-    for (const Vector& e : estimates) square += (e(k) - mean) * (e(k) - mean);
-    const double deviation =
-        std::sqrt(square / std::max<double>(1, static_cast<double>(estimates.size()) - 1));
-    const FitParameter& p = fit.parameters[i];
-    const double middle = answer.point(k) - (mean - answer.point(k));
-    const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
-    fit.value.push_back(within(middle));
-    fit.low.push_back(within(middle - kStudent * deviation));
-    fit.high.push_back(within(middle + kStudent * deviation));
-  }
+  tell(*model, joint->simulate("joint " + tag + " replicates", points, derived_seed(seed, 99)),
+       answer.point, fit);
   return fit;
 }
 

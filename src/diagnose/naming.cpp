@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "calibrate/design.hpp"
+#include "lilytank/statistics.hpp"
 
 namespace lilytank {
 namespace {
@@ -93,9 +94,7 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
   out.all = {fingerprint.about, whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
              whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
              two_sided};
-  const Eigen::Index named = atlas_.named_numbers();
-  out.named = {fingerprint.about, out.all.base.head(named), out.all.first.topRows(named),
-               out.all.second.topRows(named), two_sided};
+  out.named = out.all.top(atlas_.named_numbers());
   return out;
 }
 
@@ -111,12 +110,12 @@ Matrix Naming::whitened(const Matrix& residuals) const {
   return out;
 }
 
-// Wilson and Hilferty's normal number of a chi-squared one; of one degree of freedom its root.
 double Naming::z_of(double gain, double scale, Eigen::Index freedom) const {
-  const double g = std::max(0.0, gain) / std::max(scale, 1e-9);
-  if (freedom == 1) return std::sqrt(g);
-  const double m = static_cast<double>(freedom), part = 2 / (9 * m);
-  return (std::cbrt(g / m) - (1 - part)) / std::sqrt(part);
+  return chi_squared_z(std::max(0.0, gain) / std::max(scale, 1e-9), static_cast<int>(freedom));
+}
+
+Naming::Answer Naming::Answer::top(Eigen::Index rows) const {
+  return {about, base.head(rows), first.topRows(rows), second.topRows(rows), two_sided};
 }
 
 Vector Naming::Answer::at(const Vector& amplitudes) const {

@@ -54,6 +54,7 @@ class Naming {
     Eigen::VectorXd about, base;
     Eigen::MatrixXd first, second;
     bool two_sided = false;
+    Answer top(Eigen::Index rows) const;
     Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
     EffectFit fit(const Eigen::VectorXd& data) const;
   };

@@ -177,6 +177,26 @@ Judged judged_of(const std::vector<double>& row) {
   return j;
 }
 
+// What the diagnosis and the simpler methods say of a row; nothing of a world that diverged.
+std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double>& row,
+                                  Diagnosis& d, ProofWorld& world) {
+  world.verdict = Verdict::undecided;
+  if (row.empty()) return std::nullopt;
+  const int kept = static_cast<int>(row[0]);
+  if (kept >= 0) {
+    world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
+  }
+  Judged judged = diagnoser.judge(judged_of(row), d);
+  world.verdict = d.verdict;
+  world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
+  if (!d.findings.empty()) {
+    const DiagnosisFinding& f = d.findings.front();
+    world.said = f.effect, world.alternatives = f.alternatives;
+    world.variable = f.variable, world.z = f.z;
+  }
+  return judged;
+}
+
 // Every number of a sealed world that a diagnosis may tell, by path.
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
   std::map<std::string, double> out;
@@ -199,14 +219,14 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   if (!further) return;
   diagnoser.model_and_show(judged, *further, d);
   const auto truth = truth_of(tank, s);
-  const auto count = [&](const std::string& path, double low, double high) {
+  const auto compare = [&](const std::string& path, double value, double low, double high) {
     const auto at = truth.find(path);
     if (at == truth.end() || !(low < high)) return;
-    world.intervals += 1, world.covered += low <= at->second && at->second <= high ? 1 : 0;
+    world.intervals.push_back({path, at->second, value, low, high});
   };
-  for (const MovedParameter& p : d.parameters) count(p.path, p.low, p.high);
+  for (const MovedParameter& p : d.parameters) compare(p.path, p.with_effects, p.low, p.high);
   for (const DiagnosisFinding& f : d.findings) {
-    for (const FoundParameter& p : f.parameters) count(p.path, p.low, p.high);
+    for (const FoundParameter& p : f.parameters) compare(p.path, p.value, p.low, p.high);
   }
   world.removed = d.removed();
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
@@ -259,28 +279,13 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   for (std::size_t w = 0; w < rows.size(); ++w) {
     ProofWorld world = sealed[w].key;
     world.expected_z = expected_z(diagnoser, sealed[w]);
-    if (rows[w].empty()) {
-      world.verdict = Verdict::undecided;
-    } else {
-      const int kept = static_cast<int>(rows[w][0]);
-      if (kept >= 0) {
-        world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
-      }
-      Diagnosis d;
-      const Judged judged = diagnoser.judge(judged_of(rows[w]), d);
-      world.verdict = d.verdict;
-      world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
-      if (!d.findings.empty()) {
-        const DiagnosisFinding& f = d.findings.front();
-        world.said = f.effect, world.alternatives = f.alternatives;
-        world.variable = f.variable, world.z = f.z;
-      }
-      const bool named = world.kind == "named" && world.right();
-      if (named && d.verdict == Verdict::missing && modelled < options.modelled) {
-        modelled += 1;
-        model_world(diagnoser, judged, tank, sealed[w], seconds,
-                    derived_seed(seed, kFurtherSeed + static_cast<std::uint64_t>(w)), d, world);
-      }
+    Diagnosis d;
+    const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
+    const bool named = judged && world.kind == "named" && world.right();
+    if (named && d.verdict == Verdict::missing && modelled < options.modelled) {
+      modelled += 1;
+      model_world(diagnoser, *judged, tank, sealed[w], seconds,
+                  derived_seed(seed, kFurtherSeed + w), d, world);
     }
     out.worlds.push_back(std::move(world));
   }

@@ -19,24 +19,38 @@ bool ProofWorld::right() const {
 
 namespace {
 
+std::string held_text(int held, int all) {
+  const Estimate e = wilson(held, all);
+  return std::to_string(held) + " of " + std::to_string(all) + " (" + fixed(100 * e.low, 1) +
+         " to " + fixed(100 * e.high, 1) + " %)";
+}
+
 // Intervals, share removed and gain of the worlds whose model was fitted.
 std::string models_text(const Proof& proof) {
-  int worlds = 0, intervals = 0, covered = 0, gained = 0;
+  int worlds = 0, intervals = 0, held = 0, gained = 0;
+  std::map<std::string, std::pair<int, int>> by;  // the baseline's by path, all others together
   std::vector<double> removed;
   for (const ProofWorld& w : proof.worlds) {
-    if (w.intervals == 0) continue;
-    worlds += 1, intervals += w.intervals, covered += w.covered;
-    gained += w.gain_low > 0 ? 1 : 0;
+    if (w.intervals.empty()) continue;
+    worlds += 1, gained += w.gain_low > 0 ? 1 : 0;
     removed.push_back(w.removed);
+    for (const ProofInterval& i : w.intervals) {
+      const bool effect = i.path.rfind("forces." + w.effect + ".", 0) == 0;
+      auto& [in, all] = by[effect ? "the effects' own" : i.path];
+      all += 1, intervals += 1;
+      if (i.holds()) in += 1, held += 1;
+    }
   }
   if (worlds == 0) return "";
   std::sort(removed.begin(), removed.end());
-  const Estimate e = wilson(covered, intervals);
-  return "\nmodels of " + std::to_string(worlds) + " rightly named worlds\n  " +
-         std::to_string(covered) + " of " + std::to_string(intervals) +
-         " 95 % intervals hold the truth (" + fixed(100 * e.low, 1) + " to " +
-         fixed(100 * e.high, 1) +
-         " %)\n  share of the mismatch removed on further recordings: " + "median " +
+  std::string out =
+      "\nmodels of " + std::to_string(worlds) +
+      " rightly named worlds\n  95 % intervals that hold the truth: " + held_text(held, intervals) +
+      "\n";
+  for (const auto& [path, n] : by) {
+    out += "    " + path + ": " + held_text(n.first, n.second) + "\n";
+  }
+  return out + "  share of the mismatch removed on further recordings: median " +
          fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
          fixed(100 * removed.front(), 0) + " %\n  one step ahead " + std::to_string(gained) +
          " of them are surely better\n";
@@ -113,9 +127,8 @@ std::string proof_text(const Proof& proof) {
 
 std::string proof_csv(const Proof& proof) {
   std::string out =
-      "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,intervals,covered,removed,"
-      "gain_nat,regression,"
-      "msd_misfit,right\n";
+      "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,removed,gain_nat,"
+      "regression,msd_misfit,right\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     const ProofWorld& w = proof.worlds[i];
     out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
@@ -123,9 +136,20 @@ std::string proof_csv(const Proof& proof) {
     for (std::size_t k = 0; k < w.alternatives.size(); ++k) {
       out += (k > 0 ? " " : "") + w.alternatives[k];
     }
-    out += "," + std::to_string(w.intervals) + "," + std::to_string(w.covered) + "," +
-           shortest(w.removed) + "," + shortest(w.gain) + "," + w.regression + "," +
+    out += "," + shortest(w.removed) + "," + shortest(w.gain) + "," + w.regression + "," +
            shortest(w.displacement) + (w.right() ? ",1\n" : ",0\n");
+  }
+  return out;
+}
+
+std::string proof_intervals_csv(const Proof& proof) {
+  std::string out = "world,effect,path,truth,value,low,high,holds\n";
+  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
+    for (const ProofInterval& of : proof.worlds[i].intervals) {
+      out += std::to_string(i) + "," + proof.worlds[i].effect + "," + of.path + "," +
+             shortest(of.truth) + "," + shortest(of.value) + "," + shortest(of.low) + "," +
+             shortest(of.high) + (of.holds() ? ",1\n" : ",0\n");
+    }
   }
   return out;
 }

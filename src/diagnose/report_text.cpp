@@ -80,13 +80,13 @@ void tell_far(const Diagnosis& d, std::string& out) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out =
       "diagnosis of " + d.name + ": " + name_of(d.verdict) + ", " + headline(d) + "\n";
-  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) + " " +
-         d.bodies + ", " + digits(d.seconds) + " s in all\n";
+  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) +
+         (d.tank ? " Lilies, " : " bodies, ") + digits(d.seconds) + " s in all\n";
   if (!d.checks.empty()) out += "\nWhat the checks of the recordings found\n";
   for (const std::string& check : d.checks) out += "  " + check + "\n";
   for (const DiagnosisFinding& f : d.findings) tell(f, out);
   if (!d.held_out.empty() && !d.findings.empty()) {
-    d.bodies == "Lilies" ? tell_fit(d, out) : tell_far(d, out);
+    d.tank ? tell_fit(d, out) : tell_far(d, out);
   }
   if (!d.parameters.empty()) {
     out += "\nThe baseline's parameters, alone and beside what was found\n";

@@ -23,8 +23,8 @@ class Reader {
   BodyFile read() {
     const TomlFields top(root_, "", file_, {"experiment", "baseline", "recording"});
     if (!top.has("experiment")) throw InputError({file_, 1, 1}, "there is no [experiment] table");
-    experiment(table(top, "experiment"));
-    if (top.has("baseline")) baseline(table(top, "baseline"));
+    experiment(top.table("experiment"));
+    if (top.has("baseline")) baseline(top.table("baseline"));
     for (const toml::table* one : top.tables("recording")) recording(*one);
     if (out_.tables.empty()) {
       throw InputError({file_, 1, 1}, "there is no [[recording]]: nothing to diagnose");
@@ -33,12 +33,6 @@ class Reader {
   }
 
  private:
-  const toml::table& table(const TomlFields& top, const std::string& name) const {
-    const toml::table* found = top.node(name)->as_table();
-    if (found == nullptr) top.refuse(name, name + " is a table, under the line [" + name + "]");
-    return *found;
-  }
-
   // A number of at least `low`, given plainly or with a unit.
   double number(const TomlFields& f, const std::string& name, const std::string& unit,
                 double low) const {

@@ -36,11 +36,11 @@ class Reader {
     const TomlFields top(root_, "", file_,
                          {"optimize", "parameter", "agitation", "race", "compare"});
     if (!top.has("optimize")) throw InputError({file_, 1, 1}, "there is no [optimize] table");
-    optimize(table(top, "optimize"));
+    optimize(top.table("optimize"));
     for (const toml::table* one : top.tables("parameter")) parameter(*one);
-    if (top.has("agitation")) agitation(table(top, "agitation"));
-    if (top.has("race")) race(table(top, "race"));
-    if (top.has("compare")) compare(table(top, "compare"));
+    if (top.has("agitation")) agitation(top.table("agitation"));
+    if (top.has("race")) race(top.table("race"));
+    if (top.has("compare")) compare(top.table("compare"));
     if (out_.parameters.empty() && out_.agitation.kind == Agitation::none) {
       throw InputError(top.place("optimize"),
                        "nothing is to be searched: there is no [[parameter]] and no [agitation]");
@@ -49,12 +49,6 @@ class Reader {
   }
 
  private:
-  const toml::table& table(const TomlFields& top, const std::string& name) const {
-    const toml::table* found = top.node(name)->as_table();
-    if (found == nullptr) top.refuse(name, name + " is a table, under the line [" + name + "]");
-    return *found;
-  }
-
   /// Files named beside this one; each must be readable.
   std::vector<std::string> paths(const TomlFields& fields, const std::string& name) const {
     std::vector<std::string> out;

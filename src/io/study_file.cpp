@@ -35,8 +35,8 @@ class Reader {
   StudyFile read() {
     const TomlFields top(root_, "", file_, {"study", "stop", "axis"});
     if (!top.has("study")) throw InputError({file_, 1, 1}, "there is no [study] table");
-    study(table(top, "study"));
-    if (top.has("stop")) stop(table(top, "stop"));
+    study(top.table("study"));
+    if (top.has("stop")) stop(top.table("stop"));
     if (out_.replicates < 0) {
       throw InputError(top.place("study"),
                        "study.replicates is missing: how many worlds of each setting");
@@ -55,12 +55,6 @@ class Reader {
   }
 
  private:
-  const toml::table& table(const TomlFields& top, const std::string& name) const {
-    const toml::table* found = top.node(name)->as_table();
-    if (found == nullptr) top.refuse(name, name + " is a table, under the line [" + name + "]");
-    return *found;
-  }
-
   void study(const toml::table& from) {
     const TomlFields fields(from, "study", file_,
                             {"name", "scenario", "replicates", "seed", "samples", "until"});

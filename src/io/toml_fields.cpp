@@ -69,6 +69,12 @@ double TomlFields::number(const std::string& name, const std::string& unit) cons
   return number_of(assignment(name), path(name), unit);
 }
 
+const toml::table& TomlFields::table(const std::string& name) const {
+  const toml::table* found = node(name)->as_table();
+  if (found == nullptr) refuse(name, name + " is a table, under the line [" + name + "]");
+  return *found;
+}
+
 std::vector<std::pair<std::string, SourcePlace>> TomlFields::texts(const std::string& name) const {
   std::vector<std::pair<std::string, SourcePlace>> out;
   const auto one = [&](const toml::node& value) {

@@ -29,6 +29,8 @@ class TomlFields {
   double number(const std::string& name, const std::string& unit) const;
   /// One text or a list of them, at least one, each with its place.
   std::vector<std::pair<std::string, SourcePlace>> texts(const std::string& name) const;
+  /// The table under [name], which is there.
+  const toml::table& table(const std::string& name) const;
   /// The tables under [[name]]; none if the key is not there.
   std::vector<const toml::table*> tables(const std::string& name) const;
 

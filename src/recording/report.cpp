@@ -1,8 +1,9 @@
 #include "recording/report.hpp"
-#include "text/number.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "text/number.hpp"
 
 namespace lilytank {
 

@@ -1,6 +1,7 @@
 // FNV-1a, 64 bits: short names for long texts. Not meant against forgery.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace lilytank {
@@ -13,6 +14,10 @@ class Fnv {
     for (const char c : text) byte(static_cast<unsigned char>(c));
     for (std::uint64_t n = text.size(); n != 0; n >>= 8) byte(static_cast<unsigned char>(n));
     byte(0);
+  }
+  /// Adds the bytes of numbers.
+  void add(std::span<const double> numbers) {
+    add(std::string_view(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()));
   }
   std::uint64_t value() const { return value_; }
 

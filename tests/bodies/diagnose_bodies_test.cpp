@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -153,6 +154,56 @@ TEST(DiagnoseBodies, turningIsCoriolisOnlyWhereTheTideIsElsewhere) {
 TEST(DiagnoseBodies, sameSeedSameReport) {
   const BodyExperiment e = falls(0, 0.02, 0.02, 4);
   EXPECT_EQ(diagnosis_json(diagnosis_of(e)), diagnosis_json(diagnosis_of(e)));
+}
+
+// What is left of a run is every third row, its drivers with it.
+TEST(BodyExperiment, takesEveryThirdRow) {
+  const TemporaryDirectory here;
+  {
+    std::ofstream table(here.path("t.csv"));
+    table << "t,h,wind\n";
+    for (int k = 0; k < 31; ++k) table << 0.1 * k << "," << k * k << "," << -k << "\n";
+    std::ofstream(here.path("e.toml"))
+        << "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"t.csv\"\ntime = \"t\"\n"
+           "x = \"h\"\ndrivers = [\"wind\"]\nevery = 3\n";
+  }
+  const BodyExperiment e = load_body_experiment(here.path("e.toml"));
+  ASSERT_EQ(e.runs.size(), 1u);
+  const BodyRun& run = e.runs[0];
+  ASSERT_EQ(run.time.size(), 11u);
+  for (std::size_t k = 0; k < run.time.size(); ++k) {
+    const auto row = static_cast<double>(3 * k);
+    EXPECT_NEAR(run.time[k] - run.time[0], 0.1 * row, 1e-12);
+    EXPECT_EQ(run.position[k], row * row);
+    EXPECT_EQ(run.drivers[k], -row);
+  }
+}
+
+// Stopped among its simulated baselines, it goes on to the report that it would have given.
+TEST(DiagnoseBodies, goesOnWhereItWasStopped) {
+  const TemporaryDirectory here;
+  const BodyExperiment e = falls(0, 0.02, 0.02, 4);
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.minutes = 2, options.false_alarms = 0.05;
+  options.out = here.path("d"), options.stop = &stop;
+  options.progress = [&](double done, const std::string&) { stop = done > 0.7; };
+  ASSERT_FALSE(diagnose_bodies(e, options));
+  stop = false;
+  int steps = 0;
+  options.progress = [&](double done, const std::string&) { steps += done > 0.6 ? 1 : 0; };
+  EXPECT_EQ(diagnosis_json(diagnose_bodies(e, options).value()), diagnosis_json(diagnosis_of(e)));
+  EXPECT_LT(steps, 10);  // of its ten baselines some were kept
+}
+
+// A group that was as good as chance before counts for nothing.
+TEST(Diagnosis, shareRemovedIsOfWhatIsBeyondChance) {
+  Diagnosis d;
+  d.held_out = {{"motion", 9, 1.5}, {"contacts", 3, 1.5}, {"spin", 0.9, 1}};
+  EXPECT_DOUBLE_EQ(d.removed(), 0.9);
+  EXPECT_DOUBLE_EQ(d.held_out[0].removed(), 1 - 0.5 / 8);
+  EXPECT_EQ(d.held_out[2].removed(), 0);
+  EXPECT_EQ(Diagnosis{}.removed(), 0);
 }
 
 TEST(DiagnoseBodies, realGlidersActAtADistanceByALawThatIsNotIdentified) {

@@ -200,6 +200,16 @@ int binomial_quantile(int n, double p, double q) {
   return n;
 }
 
+TEST(ChiSquaredZ, HasTheProbabilityOfTheSquare) {
+  for (const double z : {0.5, 2.0, 30.0}) EXPECT_DOUBLE_EQ(chi_squared_z(z * z, 1), z);
+  // Two degrees of freedom: exp(-square / 2), so a twentieth at 5.991 and a thousandth at 13.816.
+  EXPECT_NEAR(chi_squared_z(5.9915, 2), 1.6449, 0.02);
+  EXPECT_NEAR(chi_squared_z(13.8155, 2), 3.0902, 0.05);
+  // Tables: 95 % and 99.9 % of five and twenty degrees.
+  EXPECT_NEAR(chi_squared_z(11.0705, 5), 1.6449, 0.01);
+  EXPECT_NEAR(chi_squared_z(45.3147, 20), 3.0902, 0.02);
+}
+
 TEST(YieldBand, IsTheBinomialQuantileForOneStepARun) {
   // With x of n runs stepped, a resample's mean is Binomial(n, x / n) / n: the whole bootstrap has
   // closed form. 2000 resamples know the share below a quantile to 4 deviations, 0.014.
