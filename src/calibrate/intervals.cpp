@@ -1,10 +1,8 @@
 // Intervals by parametric bootstrap, profiles, correlations, what the data cannot tell apart.
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
 #include "text/number.hpp"
@@ -22,65 +20,6 @@ constexpr double kProfileReach = 4;      // standard errors
 constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two parameters are one
 constexpr double kTellsNothing = 0.5;    // share of the bounds that an interval takes up
 constexpr double kMisfits = 0.01;        // probability below which the model does not explain data
-
-// Two-sided 95 % point of Student's t [Cornish and Fisher's expansion about the normal].
-double student(double freedom) {
-  const double z = 1.959964;
-  return z + (z * z * z + z) / (4 * freedom);
-}
-
-// How values depend on the parameters about a centre: a line, and what scatters about it.
-struct Line {
-  Vector at_centre;
-  Matrix slope;       ///< [value, parameter]
-  Matrix residuals;   ///< [simulation, value]
-  Matrix covariance;  ///< of a simulation's residuals
-  Matrix inverse;     ///< of the regressors' squares and products
-  double freedom = 1;
-};
-// `off`: the points less the centre, a row each; all zero: their mean alone.
-Line line_through(const Matrix& off, const Matrix& values) {
-  const Eigen::Index n = off.rows(), p = off.isZero(0) ? 0 : off.cols();
-  Matrix x(n, 1 + p);
-  x.col(0).setOnes();
-  x.rightCols(p) = off.leftCols(p);
-  const Matrix found = x.colPivHouseholderQr().solve(values);
-  Line out;
-  out.at_centre = found.row(0);
-  out.slope = p > 0 ? Matrix(found.bottomRows(p).transpose())
-                    : Matrix(Matrix::Identity(values.cols(), off.cols()));
-  out.residuals = values - x * found;
-  out.freedom = static_cast<double>(n - 1 - p);
-  out.covariance = out.residuals.transpose() * out.residuals / out.freedom;
-  out.inverse = (x.transpose() * x).ldlt().solve(Matrix::Identity(1 + p, 1 + p));
-  return out;
-}
-
-// Parameters of data from what the local model takes them for.
-struct Scatter {
-  Vector estimate, deviation;
-  Matrix correlation, back;
-  double wide = 0;  ///< half width of an interval in deviations
-};
-// The local model's slopes carry noise, which draws its answers to its centre. Experiments of known
-// parameters tell by how much: their answers are a line in the parameters, and this is its inverse.
-Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer) {
-  Scatter out;
-  const Eigen::FullPivLU<Matrix> lu(line.slope);
-  out.back = lu.isInvertible() ? Matrix(lu.inverse())
-                               : Matrix(Matrix::Identity(centre.size(), centre.size()));
-  const Vector off = out.back * (answer - line.at_centre);
-  out.estimate = centre + off;
-  const Matrix c = out.back * line.covariance * out.back.transpose();
-  out.deviation = c.diagonal().cwiseSqrt();
-  const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
-  out.correlation = inverse.asDiagonal() * c * inverse.asDiagonal();
-  Vector x = Vector::Zero(line.inverse.rows());
-  x(0) = 1;
-  if (x.size() > 1) x.tail(x.size() - 1) = off;
-  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
-  return out;
-}
 
 FitBounds bounds_for(const Stages& stages) {
   FitBounds bounds = stages.bounds();

@@ -1,0 +1,57 @@
+#include "calibrate/estimate_line.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+// Two-sided 95 % point of Student's t [Cornish and Fisher's expansion about the normal].
+double student(double freedom) {
+  const double z = 1.959964;
+  return z + (z * z * z + z) / (4 * freedom);
+}
+
+}  // namespace
+
+Line line_through(const Matrix& off, const Matrix& values) {
+  const Eigen::Index n = off.rows(), p = off.isZero(0) ? 0 : off.cols();
+  Matrix x(n, 1 + p);
+  x.col(0).setOnes();
+  x.rightCols(p) = off.leftCols(p);
+  const Matrix found = x.colPivHouseholderQr().solve(values);
+  Line out;
+  out.at_centre = found.row(0);
+  out.slope = p > 0 ? Matrix(found.bottomRows(p).transpose())
+                    : Matrix(Matrix::Identity(values.cols(), off.cols()));
+  out.residuals = values - x * found;
+  out.freedom = static_cast<double>(n - 1 - p);
+  out.covariance = out.residuals.transpose() * out.residuals / out.freedom;
+  out.inverse = (x.transpose() * x).ldlt().solve(Matrix::Identity(1 + p, 1 + p));
+  return out;
+}
+
+Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer) {
+  Scatter out;
+  const Eigen::FullPivLU<Matrix> lu(line.slope);
+  out.back = lu.isInvertible() ? Matrix(lu.inverse())
+                               : Matrix(Matrix::Identity(centre.size(), centre.size()));
+  const Vector off = out.back * (answer - line.at_centre);
+  out.estimate = centre + off;
+  const Matrix c = out.back * line.covariance * out.back.transpose();
+  out.deviation = c.diagonal().cwiseSqrt();
+  const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
+  out.correlation = inverse.asDiagonal() * c * inverse.asDiagonal();
+  Vector x = Vector::Zero(line.inverse.rows());
+  x(0) = 1;
+  if (x.size() > 1) x.tail(x.size() - 1) = off;
+  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
+  return out;
+}
+
+}  // namespace lilytank
