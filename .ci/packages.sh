@@ -1,7 +1,8 @@
 # What demo.sh and test.sh need from Debian 12, and how they get it. Sourced by both.
 
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtomlplusplus-dev
-                libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev)
+                libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev
+                libssl-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
 test_packages=(libgtest-dev)
 slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run

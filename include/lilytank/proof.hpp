@@ -15,7 +15,7 @@ struct ProofOptions {
   bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
   int modelled = 10;           ///< worlds of named effects whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
-  /// Called once with the fingerprint of the key, before anything is diagnosed.
+  /// Called once with the SHA-256 of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
 };
 
@@ -50,7 +50,8 @@ struct ProofWorld {
 };
 
 struct Proof {
-  std::string hash;  ///< of the key
+  std::string key;   ///< a line a world: kind, effect, its held numbers, amplitudes, factors
+  std::string hash;  ///< SHA-256 of the key
   std::vector<ProofWorld> worlds;
 };
 

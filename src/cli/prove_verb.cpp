@@ -43,7 +43,7 @@ int prove_verb(const Arguments& arguments) {
     progress.tell(done, stage);
   };
   job.sealed = [](const std::string& hash) {
-    std::cout << "sealed; the key's fingerprint is " << hash << std::endl;
+    std::cout << "sealed; SHA-256 of the key: " << hash << std::endl;
   };
   const auto proof = prove(job);
   progress.clear();
@@ -53,6 +53,7 @@ int prove_verb(const Arguments& arguments) {
   }
   const std::filesystem::path dir(job.diagnosis.out);
   write_atomically((dir / "proof.txt").string(), proof_text(*proof));
+  write_atomically((dir / "key.txt").string(), proof->key);
   write_atomically((dir / "proof.csv").string(), proof_csv(*proof));
   write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(*proof));
   std::cout << proof_text(*proof) << std::flush;

@@ -6,12 +6,12 @@
 
 #include "diagnose/diagnoser.hpp"
 #include "diagnose/yardstick.hpp"
+#include "io/sha256.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
-#include "text/fnv.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -253,14 +253,13 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   const double seconds = 60 * options.minutes;
   const std::vector<Effect> effects = effect_catalogue(tank);
   const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
+  Proof out;
   std::vector<Sealed> sealed;
-  Fnv hash;
   for (int w = 0; w < options.worlds; ++w) {
     sealed.push_back(seal(effects, shapes, seed, w));
-    hash.add(key_text(sealed.back()));
+    out.key += std::to_string(w) + " " + key_text(sealed.back());
   }
-  Proof out;
-  out.hash = hex(hash.value());
+  out.hash = sha256(out.key);
   if (options.sealed) options.sealed(out.hash);
   DiagnosisOptions job = options.diagnosis;
   job.hold_out = 0;

@@ -111,7 +111,7 @@ std::string proof_text(const Proof& proof) {
            said}] += 1;
   }
   std::string out = "proof on " + std::to_string(proof.worlds.size()) +
-                    " sealed experiments, key " + proof.hash + "\n\n";
+                    " sealed experiments\nSHA-256 of the key (key.txt): " + proof.hash + "\n\n";
   TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
   for (const auto& [name, r] : rates) {
     const Estimate e = wilson(r.right, r.all);
