@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibrate/design.hpp"
+#include "calibrate/estimate_line.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
@@ -15,9 +16,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kMostRounds = 3;
-constexpr double kSettled = 1.2;   // deviations of the design
-constexpr double kStudent = 2.05;  // two-sided 95 % of some tens of degrees of freedom
+constexpr int kMostRounds = 5;
+constexpr double kSettled = 1.2;          // deviations of the design
+constexpr double kReplicateSpread = 0.7;  // of replicates, as a share of the last design's
 constexpr std::uint64_t kMix = 7;
 
 // Summary and named scores, the scores by their deviations.
@@ -72,12 +73,12 @@ class Joint {
 
 // The list of what is fitted, and the centre and spread of the first design.
 void begin(const Stages& stages, const std::vector<Effect>& effects,
-           const std::vector<Vector>& amplitudes, const Vector& baseline, const Matrix& spread,
-           JointFit& fit, Vector& centre, Matrix& width) {
+           const std::vector<Vector>& amplitudes, const JointStart& baseline, JointFit& fit,
+           Vector& centre, Matrix& width) {
   const CalibrationSetup& setup = stages.setup();
   fit.parameters = setup.parameters, fit.model = setup.model;
-  std::vector<double> at(baseline.begin(), baseline.end()), wide;
-  for (Eigen::Index k = 0; k < spread.rows(); ++k) wide.push_back(spread(k, k));
+  std::vector<double> at(baseline.point.begin(), baseline.point.end()),
+      wide(baseline.deviation.begin(), baseline.deviation.end());
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const Effect& effect = effects[e];
     std::vector<double> sizes;
@@ -173,31 +174,27 @@ FitBounds bounds_of(const JointFit& fit) {
   return bounds;
 }
 
-// The answer less the mean error of its replicates' answers, with their deviation.
-void tell(const LocalModel& model, const std::vector<std::vector<double>>& rows,
-          const Vector& point, JointFit& fit) {
-  std::vector<Vector> estimates;
+// What replicates of known parameters make of the answer: estimates are drawn to the design's
+// centre by the noise of the local model's slopes, and the line through replicates' estimates tells
+// by how much.
+void tell(const LocalModel& model, const Design& replicates, const Vector& centre,
+          const Vector& data, JointFit& fit) {
   FitBounds free;
   free.reach = 5;
-  const Matrix told =
-      design_of(point.transpose().replicate(static_cast<Eigen::Index>(rows.size()), 1), rows)
-          .numbers;
-  for (Eigen::Index i = 0; i < told.rows(); ++i) {
-    estimates.push_back(model.fit(told.row(i).transpose(), free).point);
+  const Eigen::Index n = replicates.points.rows();
+  Matrix estimates(n, centre.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    estimates.row(i) = model.fit(replicates.numbers.row(i).transpose(), free).point;
   }
+  const Line line = line_through(replicates.points.rowwise() - centre.transpose(), estimates);
+  const Scatter scatter = scatter_of(line, centre, model.fit(data, free).point);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    double mean = 0, square = 0;
-    for (const Vector& e : estimates) mean += e(k) / static_cast<double>(estimates.size());
-    for (const Vector& e : estimates) square += (e(k) - mean) * (e(k) - mean);
-    const double deviation =
-        std::sqrt(square / std::max<double>(1, static_cast<double>(estimates.size()) - 1));
     const FitParameter& p = fit.parameters[i];
-    const double middle = point(k) - (mean - point(k));
+    const double middle = scatter.estimate(k), half = scatter.wide * scatter.deviation(k);
     const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
     fit.value.push_back(within(middle));
-    fit.low.push_back(within(middle - kStudent * deviation));
-    fit.high.push_back(within(middle + kStudent * deviation));
+    fit.low.push_back(within(middle - half)), fit.high.push_back(within(middle + half));
   }
 }
 
@@ -205,14 +202,13 @@ void tell(const LocalModel& model, const std::vector<std::vector<double>>& rows,
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      std::vector<Effect> effects, std::vector<Vector> amplitudes,
-                     const Vectors& observed, const Matrix& spread, int round, int replicates,
+                     const Vectors& observed, const JointStart& baseline, int round, int replicates,
                      double keep, const std::string& tag, std::uint64_t seed) {
   JointFit fit;
   for (std::size_t e = 0; e < effects.size(); ++e) fit.kept.push_back(e);
   Vector centre;
   Matrix width;
-  begin(stages, effects, amplitudes, atlas.calibrated(observed.summary).point, spread, fit, centre,
-        width);
+  begin(stages, effects, amplitudes, baseline, fit, centre, width);
   FitBounds bounds = bounds_of(fit);
   std::optional<Joint> joint(std::in_place, stages, maps, atlas, fit);
   const Vector data = joined(observed, atlas);
@@ -235,7 +231,8 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
       const auto at = static_cast<std::ptrdiff_t>(dropped);
       effects.erase(effects.begin() + at), amplitudes.erase(amplitudes.begin() + at);
       fit.kept.erase(fit.kept.begin() + at);
-      begin(stages, effects, amplitudes, point.head(spread.rows()), spread, fit, centre, width);
+      begin(stages, effects, amplitudes, {point.head(baseline.point.size()), baseline.deviation},
+            fit, centre, width);
       bounds = bounds_of(fit);
       centre = centre.cwiseMax(bounds.low).cwiseMin(bounds.high);
       joint.emplace(stages, maps, atlas, fit);
@@ -246,9 +243,10 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled * 1.5;
     if (!fit.settled) centre = answer.point;
   }
-  const Matrix points = answer.point.transpose().replicate(replicates, 1);
-  tell(*model, joint->simulate("joint " + tag + " replicates", points, derived_seed(seed, 99)),
-       answer.point, fit);
+  const std::uint64_t own = derived_seed(seed, 99);
+  const Matrix points = scattered(answer.point, kReplicateSpread * width, replicates, bounds, own);
+  tell(*model, design_of(points, joint->simulate("joint " + tag + " replicates", points, own)),
+       answer.point, data, fit);
   return fit;
 }
 

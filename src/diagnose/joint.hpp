@@ -18,14 +18,20 @@ struct JointFit {
   bool settled = false;
 };
 
+/// Of the baseline's parameters, in their scale.
+struct JointStart {
+  Eigen::VectorXd point, deviation;
+};
+
 /// Effects are dropped, weakest first, that the data no longer ask for once everything is fitted
 /// together: a name may have stood for a baseline that another effect had pushed aside. At least
 /// one is kept. `keep`: z by which an effect's amplitudes must differ from nothing. `amplitudes`:
-/// the naming's, in units of each effect's sizes. `round`: simulations of a round; `replicates`:
-/// for the intervals. `tag`: for the names of what is kept.
+/// the naming's, in units of each effect's sizes. `baseline`: where its parameters are expected
+/// beside them, and how surely (deviations of the first design). `round`: simulations of a round;
+/// `replicates`: for the intervals. `tag`: for the names of what is kept.
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      std::vector<Effect> effects, std::vector<Eigen::VectorXd> amplitudes,
-                     const Vectors& observed, const Eigen::MatrixXd& spread, int round,
-                     int replicates, double keep, const std::string& tag, std::uint64_t seed);
+                     const Vectors& observed, const JointStart& baseline, int round, int replicates,
+                     double keep, const std::string& tag, std::uint64_t seed);
 
 }  // namespace lilytank

@@ -14,6 +14,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+constexpr double kMovedError = 0.3;  // share by which such a displacement may be wrong
+
 // The members of a list with these numbers, which ascend.
 template <class T>
 void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
@@ -44,7 +46,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   if (out.verdict != Verdict::missing) return;
   std::vector<Effect> effects;
   std::vector<Vector> amplitudes;
+  // Where the effects left the baseline, less how far they had moved it.
+  Vector moved = Vector::Zero(baseline.point.size());
   for (const EffectFit& f : e.found) {
+    moved += f.moved;
     effects.push_back(f.effect >= 0
                           ? atlas_->plan().effects[static_cast<std::size_t>(f.effect)]
                           : effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]));
@@ -57,7 +62,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
           {"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
     }
   }
-  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, spread_,
+  const FitBounds bounds = stages_.bounds();
+  const JointStart start{(baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
+                         spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
+  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, start,
                                    budget_.round, budget_.replicates, naming_->effect_threshold(),
                                    judged.tag, derived_seed(options_.seed, 700));
   if (!fit.settled) {

@@ -13,9 +13,10 @@ struct EffectFit {
   int effect = -1;             ///< index into the plan's effects; -1: a shape
   int shape = -1;              ///< index into the plan's shapes
   Eigen::VectorXd amplitudes;  ///< in units of the effect's sizes
-  double gain = 0;             ///< fall of the squared distance
-  bool at_reach = false;       ///< as far as its fingerprint holds: the truth may be beyond
-  double z = 0;                ///< deviations of a normal number with the same probability
+  Eigen::VectorXd moved;  ///< how far it moves a calibration that knows nothing of it, in its scale
+  double gain = 0;        ///< fall of the squared distance
+  bool at_reach = false;  ///< as far as its fingerprint holds: the truth may be beyond
+  double z = 0;           ///< deviations of a normal number with the same probability
 };
 
 /// What was found, in the order in which it was.
@@ -60,6 +61,7 @@ class Naming {
   };
   struct Known {
     int effect = -1, shape = -1;
+    Fingerprint of;
     Answer named;  ///< of named numbers
     /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
     /// probability, as shapes overlap, but for which of two candidates leaves less.
