@@ -1,0 +1,44 @@
+// Experiments with a known secret: what is in them, and the recordings of them.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnose/effects.hpp"
+#include "lilytank/proof.hpp"
+#include "lilytank/recording.hpp"
+
+namespace lilytank {
+
+inline constexpr double kSealedRate = 30;    ///< frames per second
+inline constexpr int kSealedRecordings = 3;  ///< of an experiment
+inline constexpr int kSealedSteps = 10;      ///< steps a tick: 2.5 ms
+
+/// What stands in the sealed envelope.
+struct Sealed {
+  ProofWorld key;
+  Effect effect;
+  std::vector<double> factors;  ///< on the five parameters
+};
+
+/// The tank of all sealed experiments, nothing missing.
+Model tank_model();
+/// At so many steps a tick.
+Model with_steps(Model model, int steps);
+/// Recordings of so many bodies and seconds.
+RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds);
+
+/// The secret of one world: every fourth is complete, every eighth has a law of no effect.
+Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
+            std::uint64_t seed, int world);
+/// A line of the key.
+std::string key_text(const Sealed& s);
+/// Recordings of it; nothing if a world diverged.
+std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
+                                                  double seconds, std::uint64_t seed);
+/// Every number of a sealed world that a diagnosis may tell, by path.
+std::map<std::string, double> truth_of(const Model& tank, const Sealed& s);
+
+}  // namespace lilytank
