@@ -26,17 +26,23 @@ struct ProofInterval {
   bool holds() const { return low <= truth && truth <= high; }
 };
 
+/// What was told: an effect, or others that are not told apart from it.
+struct ProofFinding {
+  std::string effect;
+  std::vector<std::string> alternatives;
+  std::string variable;
+  double z = 0;
+  bool names(const std::string& of) const;
+};
+
 /// One sealed experiment: its key, and what was said of it.
 struct ProofWorld {
-  std::string kind;                ///< null, named, unnamed
-  std::string effect;              ///< of the catalogue; of unnamed ones the variable
-  std::vector<double> amplitudes;  ///< in units of the effect's sizes
-  double expected_z = 0;           ///< of a fit with the effect's own fingerprint; 0: unknown
+  std::string kind;                  ///< null, named, two, unnamed
+  std::vector<std::string> effects;  ///< of the catalogue; of unnamed ones the variable
+  /// Of a fit with the effect's own fingerprint, of two the weaker one's; 0: unknown.
+  double expected_z = 0;
   Verdict verdict = Verdict::complete;
-  std::string said;                       ///< strongest finding; "" of complete
-  std::vector<std::string> alternatives;  ///< told with it
-  std::string variable;                   ///< of the finding
-  double z = 0;
+  std::vector<ProofFinding> findings;  ///< strongest first; none of complete
   /// Of those that were modelled: their intervals, and the share of the mismatch that the model
   /// removes on recordings that had no part in it.
   std::vector<ProofInterval> intervals;
@@ -45,8 +51,11 @@ struct ProofWorld {
   /// differentiated positions finds strongest ("" for none), and how far the MSD is off.
   std::string regression;
   double displacement = 0;
-  /// null: complete; named: the name among the finding's; unnamed: so called, right variable.
+  /// null: complete; named: the strongest finding's name, or told with it; two: each in a finding;
+  /// unnamed: so called, right variable.
   bool right() const;
+  /// Whether a name was told that is in no way the key's.
+  bool wrong_name() const;
 };
 
 struct Proof {

@@ -75,10 +75,8 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
   Judged judged = diagnoser.judge(judged_of(row), d);
   world.verdict = d.verdict;
   world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
-  if (!d.findings.empty()) {
-    const DiagnosisFinding& f = d.findings.front();
-    world.said = f.effect, world.alternatives = f.alternatives;
-    world.variable = f.variable, world.z = f.z;
+  for (const DiagnosisFinding& f : d.findings) {
+    world.findings.push_back({f.effect, f.alternatives, f.variable, f.z});
   }
   return judged;
 }
@@ -103,16 +101,22 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
 }
 
+// Of the weakest of the effects.
 double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
   const std::vector<Effect>& effects = diagnoser.atlas().plan().effects;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (effects[e].name != s.effect.name || effects[e].shape != s.effect.shape) continue;
+  double least = 1e300;
+  for (const SealedEffect& own : s.effects) {
+    const auto of = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) {
+      return e.name == own.effect.name && e.shape == own.effect.shape;
+    });
+    if (of == effects.end()) return 0;
     double square = 0;
-    for (const double a : s.key.amplitudes) square += a * a;
-    return std::sqrt(square) * diagnoser.naming().effect_threshold() /
-           diagnoser.naming().smallest_seen(static_cast<int>(e));
+    for (const double a : own.amplitudes) square += a * a;
+    const double smallest =
+        diagnoser.naming().smallest_seen(static_cast<int>(of - effects.begin()));
+    least = std::min(least, std::sqrt(square) * diagnoser.naming().effect_threshold() / smallest);
   }
-  return 0;
+  return s.effects.empty() ? 0 : least;
 }
 
 }  // namespace
@@ -151,7 +155,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     world.expected_z = expected_z(diagnoser, sealed[w]);
     Diagnosis d;
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
-    const bool named = judged && world.kind == "named" && world.right();
+    const bool named = judged && (world.kind == "named" || world.kind == "two") && world.right();
     if (named && d.verdict == Verdict::missing && modelled < options.modelled) {
       modelled += 1;
       model_world(diagnoser, *judged, tank, sealed[w], seconds,

@@ -9,15 +9,51 @@
 
 namespace lilytank {
 
+bool ProofFinding::names(const std::string& of) const {
+  return effect == of ||
+         std::find(alternatives.begin(), alternatives.end(), of) != alternatives.end();
+}
+
 bool ProofWorld::right() const {
   if (kind == "null") return verdict == Verdict::complete;
   if (verdict != Verdict::missing && verdict != Verdict::measurement) return false;
-  if (kind == "unnamed") return said == "unnamed" && variable == effect;
-  return said == effect ||
-         std::find(alternatives.begin(), alternatives.end(), effect) != alternatives.end();
+  const ProofFinding& first = findings.front();
+  if (kind == "unnamed") return first.effect == "unnamed" && first.variable == effects[0];
+  if (kind == "named") return first.names(effects[0]);
+  return std::all_of(effects.begin(), effects.end(), [&](const std::string& own) {
+    return std::any_of(findings.begin(), findings.end(),
+                       [&](const ProofFinding& f) { return f.names(own); });
+  });
+}
+
+bool ProofWorld::wrong_name() const {
+  return std::any_of(findings.begin(), findings.end(), [&](const ProofFinding& f) {
+    return f.effect != "unnamed" &&
+           std::none_of(effects.begin(), effects.end(),
+                        [&](const std::string& own) { return f.names(own); });
+  });
 }
 
 namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& w : words) out += (out.empty() ? "" : " + ") + w;
+  return out;
+}
+
+std::string key_of(const ProofWorld& w) {
+  if (w.kind == "null") return "(nothing)";
+  return (w.kind == "unnamed" ? "odd " : "") + joined(w.effects);
+}
+
+std::string said_of(const ProofWorld& w) {
+  std::vector<std::string> names;
+  for (const ProofFinding& f : w.findings) {
+    names.push_back(f.effect == "unnamed" ? "unnamed, " + f.variable : f.effect);
+  }
+  return names.empty() ? name_of(w.verdict) : joined(names);
+}
 
 std::string held_text(int held, int all) {
   const Estimate e = wilson(held, all);
@@ -35,7 +71,9 @@ std::string models_text(const Proof& proof) {
     worlds += 1, gained += w.gain_low > 0 ? 1 : 0;
     removed.push_back(w.removed);
     for (const ProofInterval& i : w.intervals) {
-      const bool effect = i.path.rfind("forces." + w.effect + ".", 0) == 0;
+      const bool effect = std::any_of(w.effects.begin(), w.effects.end(), [&](auto& of) {
+        return i.path.rfind("forces." + of + ".", 0) == 0;
+      });
       auto& [in, all] = by[effect ? "the effects' own" : i.path];
       all += 1, intervals += 1;
       if (i.holds()) in += 1, held += 1;
@@ -69,8 +107,8 @@ std::string simpler_text(const Proof& proof) {
   for (const ProofWorld& w : proof.worlds) {
     if (w.kind != "named" || w.expected_z < 10) continue;
     strong += 1, ours += w.right() ? 1 : 0;
-    right += w.regression == w.effect ? 1 : 0;
-    wrong += !w.regression.empty() && w.regression != w.effect ? 1 : 0;
+    right += w.regression == w.effects[0] ? 1 : 0;
+    wrong += !w.regression.empty() && w.regression != w.effects[0] ? 1 : 0;
     seen += w.displacement > largest ? 1 : 0;
   }
   if (nulls == 0 || strong == 0) return "";
@@ -102,13 +140,9 @@ std::string proof_text(const Proof& proof) {
       Rate& r = rates[g];
       r.all += 1, r.right += w.right() ? 1 : 0;
       r.silent += w.verdict == Verdict::complete && w.kind != "null" ? 1 : 0;
-      r.wrong_name += !w.right() && !w.said.empty() && w.said != "unnamed" ? 1 : 0;
+      r.wrong_name += w.wrong_name() ? 1 : 0;
     }
-    const std::string said = w.said.empty() ? name_of(w.verdict) : w.said;
-    taken[{w.kind == "null"      ? "(nothing)"
-           : w.kind == "unnamed" ? "odd " + w.effect
-                                 : w.effect,
-           said}] += 1;
+    taken[{key_of(w), said_of(w)}] += 1;
   }
   std::string out = "proof on " + std::to_string(proof.worlds.size()) +
                     " sealed experiments\nSHA-256 of the key (key.txt): " + proof.hash + "\n\n";
@@ -127,17 +161,20 @@ std::string proof_text(const Proof& proof) {
 
 std::string proof_csv(const Proof& proof) {
   std::string out =
-      "world,kind,effect,expected_z,verdict,said,variable,z,alternatives,removed,gain_nat,"
-      "regression,msd_misfit,right\n";
+      "world,kind,key,expected_z,verdict,said,alternatives,z,removed,gain_nat,regression,"
+      "msd_misfit,right,wrong_name\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     const ProofWorld& w = proof.worlds[i];
-    out += std::to_string(i) + "," + w.kind + "," + w.effect + "," + shortest(w.expected_z) + "," +
-           name_of(w.verdict) + "," + w.said + "," + w.variable + "," + shortest(w.z) + ",";
-    for (std::size_t k = 0; k < w.alternatives.size(); ++k) {
-      out += (k > 0 ? " " : "") + w.alternatives[k];
+    std::vector<std::string> alternatives, z;
+    for (const ProofFinding& f : w.findings) {
+      alternatives.push_back(f.alternatives.empty() ? "-" : joined(f.alternatives));
+      z.push_back(significant(f.z, 3));
     }
-    out += "," + shortest(w.removed) + "," + shortest(w.gain) + "," + w.regression + "," +
-           shortest(w.displacement) + (w.right() ? ",1\n" : ",0\n");
+    out += std::to_string(i) + "," + w.kind + "," + joined(w.effects) + "," +
+           shortest(w.expected_z) + "," + name_of(w.verdict) + ",\"" + said_of(w) + "\",\"" +
+           joined(alternatives) + "\"," + joined(z) + "," + shortest(w.removed) + "," +
+           shortest(w.gain) + "," + w.regression + "," + shortest(w.displacement) +
+           (w.right() ? ",1" : ",0") + (w.wrong_name() ? ",1\n" : ",0\n");
   }
   return out;
 }
@@ -146,7 +183,7 @@ std::string proof_intervals_csv(const Proof& proof) {
   std::string out = "world,effect,path,truth,value,low,high,holds\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     for (const ProofInterval& of : proof.worlds[i].intervals) {
-      out += std::to_string(i) + "," + proof.worlds[i].effect + "," + of.path + "," +
+      out += std::to_string(i) + "," + joined(proof.worlds[i].effects) + "," + of.path + "," +
              shortest(of.truth) + "," + shortest(of.value) + "," + shortest(of.low) + "," +
              shortest(of.high) + (of.holds() ? ",1\n" : ",0\n");
     }

@@ -11,7 +11,8 @@
 namespace lilytank {
 namespace {
 
-constexpr double kOff = 0.08;  // share by which parameters of a sealed world are off
+constexpr double kOff = 0.08;     // share by which parameters of a sealed world are off
+constexpr double kMissed = 0.01;  // share of the frames in which a body is not seen
 
 double draw(std::uint64_t seed, int world, std::uint32_t which) {
   return uniform({seed, Stream::calibrate, world, which, 30});
@@ -28,13 +29,52 @@ Shape odd_law(const std::vector<Shape>& shapes, std::uint64_t seed, int world) {
   return odd[static_cast<std::size_t>(draw(seed, world, 1) * static_cast<double>(odd.size()))];
 }
 
+SealedEffect odd_effect(const Shape& shape, std::uint64_t seed, int world) {
+  SealedEffect out{effect_of(shape), {}};
+  const double phase = 2 * kPi * draw(seed, world, 2), size = 0.5 + 1.5 * draw(seed, world, 3);
+  for (int k = 0; k < kKnots; ++k) {
+    out.amplitudes.push_back(size * rotation(phase + 2 * kPi * k / kKnots).c);
+  }
+  return out;
+}
+
+// `number`: of the draw.
+SealedEffect drawn_effect(const std::vector<Effect>& effects, std::uint64_t seed, int world,
+                          std::uint32_t number) {
+  const std::uint32_t first = 100 * number;
+  const double which = draw(seed, world, first + 1) * static_cast<double>(effects.size());
+  SealedEffect out{effects[static_cast<std::size_t>(which)], {}};
+  for (std::uint32_t c = 0; c < out.effect.paths.size(); ++c) {
+    const double size = 0.4 + 1.6 * draw(seed, world, first + 4 + 2 * c);
+    const bool negative = out.effect.two_sided && draw(seed, world, first + 5 + 2 * c) < 0.5;
+    out.amplitudes.push_back(negative ? -size : size);
+  }
+  return out;
+}
+
+// Whether two effects can be there at once: other terms, and none of the camera's, which would be
+// the verdict.
+bool beside(const Effect& a, const Effect& b) {
+  const auto term = [](const Effect& e) { return e.paths[0].substr(0, e.paths[0].rfind('.')); };
+  return !a.camera() && !b.camera() && term(a) != term(b);
+}
+
+// Amplitudes in their own units.
+std::vector<double> strengths(const SealedEffect& e, const Model& model) {
+  std::vector<double> out;
+  for (std::size_t c = 0; c < e.amplitudes.size(); ++c) {
+    out.push_back(e.effect.absent(model, c) + e.amplitudes[c] * e.effect.sizes[c]);
+  }
+  return out;
+}
+
 }  // namespace
 
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds) {
   RecordingShape shape;
   shape.name = name, shape.body = body, shape.bodies = bodies;
   shape.frames = static_cast<int>(std::lround(seconds * kSealedRate)) + 1, shape.rate = kSealedRate;
-  shape.headings = body == BodyKind::lily;
+  shape.headings = body == BodyKind::lily, shape.missing = kMissed;
   return shape;
 }
 
@@ -64,32 +104,33 @@ Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes
     out.key.kind = "null";
     return out;
   }
-  const bool odd = world % 8 == 7;
-  out.key.kind = odd ? "unnamed" : "named";
-  if (odd) {
+  if (world % 8 == 7) {
     const Shape shape = odd_law(shapes, seed, world);
-    out.effect = effect_of(shape), out.key.effect = shape.variable;
-    const double phase = 2 * kPi * draw(seed, world, 2), size = 0.5 + 1.5 * draw(seed, world, 3);
-    for (int k = 0; k < kKnots; ++k) {
-      out.key.amplitudes.push_back(size * rotation(phase + 2 * kPi * k / kKnots).c);
-    }
+    out.key.kind = "unnamed", out.key.effects = {shape.variable};
+    out.effects.push_back(odd_effect(shape, seed, world));
     return out;
   }
-  out.effect =
-      effects[static_cast<std::size_t>(draw(seed, world, 1) * static_cast<double>(effects.size()))];
-  out.key.effect = out.effect.name;
-  for (std::uint32_t c = 0; c < out.effect.paths.size(); ++c) {
-    const double size = 0.4 + 1.6 * draw(seed, world, 4 + 2 * c);
-    const bool negative = out.effect.two_sided && draw(seed, world, 5 + 2 * c) < 0.5;
-    out.key.amplitudes.push_back(negative ? -size : size);
+  const bool two = world % 8 == 3;
+  out.key.kind = two ? "two" : "named";
+  out.effects.push_back(drawn_effect(effects, seed, world, 0));
+  for (std::uint32_t k = 1; two && out.effects.size() < 2; ++k) {
+    SealedEffect second = drawn_effect(effects, seed, world, k);
+    if (beside(out.effects[0].effect, second.effect)) out.effects.push_back(std::move(second));
+    if (out.effects[0].effect.camera()) out.effects[0] = drawn_effect(effects, seed, world, ++k);
   }
+  for (const SealedEffect& e : out.effects) out.key.effects.push_back(e.effect.name);
   return out;
 }
 
 std::string key_text(const Sealed& s) {
-  std::string out = s.key.kind + " " + s.key.effect;
-  for (const auto& [path, value] : s.effect.shape) out += " " + path + " " + shortest(value);
-  for (const double a : s.key.amplitudes) out += " " + shortest(a);
+  std::string out = s.key.kind;
+  for (std::size_t e = 0; e < s.effects.size(); ++e) {
+    out += " " + s.key.effects[e];
+    for (const auto& [path, value] : s.effects[e].effect.shape) {
+      out += " " + path + " " + shortest(value);
+    }
+    for (const double a : s.effects[e].amplitudes) out += " " + shortest(a);
+  }
   for (const double f : s.factors) out += " " + shortest(f);
   return out + "\n";
 }
@@ -106,18 +147,20 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
         std::clamp(s.factors[k] * parameter_value(model, five[k].path), five[k].low, five[k].high));
   }
   model = with_parameters(model, paths, values);
-  std::vector<double> amplitudes;
-  for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
-    amplitudes.push_back(s.effect.absent(model, c) + s.key.amplitudes[c] * s.effect.sizes[c]);
+  std::vector<std::string> cameras;
+  std::vector<double> seen;
+  for (const SealedEffect& e : s.effects) {
+    const std::vector<double> amplitudes = strengths(e, model);
+    model = with_effect(model, e.effect, amplitudes);
+    if (!e.effect.camera()) continue;
+    cameras.insert(cameras.end(), e.effect.paths.begin(), e.effect.paths.end());
+    seen.insert(seen.end(), amplitudes.begin(), amplitudes.end());
   }
-  if (!amplitudes.empty()) model = with_effect(model, s.effect, amplitudes);
-  if (!s.effect.camera()) amplitudes.clear();
   std::vector<RecordingShape> shapes(
       kSealedRecordings, shape_named("sealed", BodyKind::lily, model.module.count, seconds));
   EmulatorOptions options;
   options.moment_matched = false;
-  const auto varied = amplitudes.empty() ? std::vector<std::string>{} : s.effect.paths;
-  return Emulator(model, varied, shapes, options).record(amplitudes, seed);
+  return Emulator(model, cameras, shapes, options).record(seen, seed);
 }
 
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
@@ -127,10 +170,11 @@ std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
     out[five[k].path] =
         std::clamp(s.factors[k] * parameter_value(tank, five[k].path), five[k].low, five[k].high);
   }
-  for (std::size_t c = 0; c < s.effect.paths.size(); ++c) {
-    out[s.effect.paths[c]] = s.effect.absent(tank, c) + s.key.amplitudes[c] * s.effect.sizes[c];
+  for (const SealedEffect& e : s.effects) {
+    const std::vector<double> amplitudes = strengths(e, tank);
+    for (std::size_t c = 0; c < amplitudes.size(); ++c) out[e.effect.paths[c]] = amplitudes[c];
+    for (const auto& [path, value] : e.effect.shape) out[path] = value;
   }
-  for (const auto& [path, value] : s.effect.shape) out[path] = value;
   return out;
 }
 

@@ -16,10 +16,16 @@ inline constexpr double kSealedRate = 30;    ///< frames per second
 inline constexpr int kSealedRecordings = 3;  ///< of an experiment
 inline constexpr int kSealedSteps = 10;      ///< steps a tick: 2.5 ms
 
+/// An effect and its amplitudes, in units of its sizes.
+struct SealedEffect {
+  Effect effect;
+  std::vector<double> amplitudes;
+};
+
 /// What stands in the sealed envelope.
 struct Sealed {
   ProofWorld key;
-  Effect effect;
+  std::vector<SealedEffect> effects;
   std::vector<double> factors;  ///< on the five parameters
 };
 
@@ -30,7 +36,7 @@ Model with_steps(Model model, int steps);
 /// Recordings of so many bodies and seconds.
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds);
 
-/// The secret of one world: every fourth is complete, every eighth has a law of no effect.
+/// The secret of one world: of eight two are complete, one has a law of no effect, one two effects.
 Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
             std::uint64_t seed, int world);
 /// A line of the key.
