@@ -25,6 +25,12 @@ enum class Misfit {
   absolute,    ///< sum of sizes, every number alike, as in Eq. 9
 };
 
+/// What is taken of coefficients that may be noise.
+enum class Slopes {
+  found,   ///< all of it: answers are then held to the centre, which line_through() makes good
+  shrunk,  ///< less the less they exceed their errors: where numbers are many and simulations few
+};
+
 /// Where to look for parameters.
 struct FitBounds {
   Eigen::VectorXd low, high;  ///< empty: nowhere but within reach of the design
@@ -42,7 +48,8 @@ class LocalModel {
   /// Needs more simulations than coefficients: 1 + p + p (p + 1) / 2 for p parameters; with fewer
   /// than twice as many, products of different parameters are left out. Numbers that never vary do
   /// not count. Throws std::invalid_argument with too few.
-  explicit LocalModel(const Design& design, Misfit misfit = Misfit::covariance);
+  explicit LocalModel(const Design& design, Misfit misfit = Misfit::covariance,
+                      Slopes slopes = Slopes::found);
 
   /// The mean of the numbers at a point.
   Eigen::VectorXd mean(const Eigen::VectorXd& point) const;
@@ -61,6 +68,9 @@ class LocalModel {
   double misfit(const Eigen::VectorXd& numbers, const Eigen::VectorXd& point) const;
   /// Covariance of fitted parameters to first order, from the covariance of the numbers.
   Eigen::MatrixXd parameter_covariance(const Eigen::VectorXd& point) const;
+  /// The same of parameters that were known before, to `prior` (deviations): never wider.
+  Eigen::MatrixXd parameter_covariance(const Eigen::VectorXd& point,
+                                       const Eigen::VectorXd& prior) const;
 
  private:
   struct Problem;
@@ -69,6 +79,7 @@ class LocalModel {
   Eigen::MatrixXd basis_slope(const Eigen::VectorXd& z) const;
   LocalFit solve(const Eigen::VectorXd& numbers, int held, double value,
                  const FitBounds& bounds) const;
+  void shrink(const Eigen::VectorXd& errors);
   void find_covariance(const Eigen::MatrixXd& residuals, double freedom);
 
   Misfit kind_;

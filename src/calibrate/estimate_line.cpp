@@ -17,6 +17,17 @@ double student(double freedom) {
   return z + (z * z * z + z) / (4 * freedom);
 }
 
+// From the covariance of what is told, and how far it is from the line's centre.
+void tell_spread(const Line& line, const Matrix& covariance, const Vector& off, Scatter& out) {
+  out.deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
+  out.correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+  Vector x = Vector::Zero(line.inverse.rows());
+  x(0) = 1;
+  if (x.size() > 1) x.tail(x.size() - 1) = off;
+  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
+}
+
 }  // namespace
 
 Line line_through(const Matrix& off, const Matrix& values) {
@@ -43,14 +54,20 @@ Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer)
                                : Matrix(Matrix::Identity(centre.size(), centre.size()));
   const Vector off = out.back * (answer - line.at_centre);
   out.estimate = centre + off;
-  const Matrix c = out.back * line.covariance * out.back.transpose();
-  out.deviation = c.diagonal().cwiseSqrt();
-  const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
-  out.correlation = inverse.asDiagonal() * c * inverse.asDiagonal();
-  Vector x = Vector::Zero(line.inverse.rows());
-  x(0) = 1;
-  if (x.size() > 1) x.tail(x.size() - 1) = off;
-  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
+  tell_spread(line, out.back * line.covariance * out.back.transpose(), off, out);
+  return out;
+}
+
+// The normal law of parameters given their answer.
+Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer,
+                   const Vector& prior) {
+  Scatter out;
+  const Matrix before = prior.array().square().matrix().asDiagonal();
+  const Matrix answers = line.slope * before * line.slope.transpose() + line.covariance;
+  out.back = answers.ldlt().solve(line.slope * before).transpose();
+  const Vector off = out.back * (answer - line.at_centre);
+  out.estimate = centre + off;
+  tell_spread(line, before - out.back * line.slope * before, off, out);
   return out;
 }
 

@@ -29,4 +29,9 @@ struct Scatter {
 /// `answer`.
 Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer);
 
+/// The same where parameters are known to be near the centre, to `prior` (deviations): what answers
+/// hardly tell stays there, and its interval is no wider than that.
+Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer,
+                   const Eigen::VectorXd& prior);
+
 }  // namespace lilytank

@@ -16,6 +16,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostSteps = 60;
 constexpr double kNeverVaries = 1e-10;
+constexpr double kNoise = 2;  // standard errors up to which a coefficient is taken for noise
 
 Eigen::Index coefficients_of(Eigen::Index p, bool products) {
   return 1 + 2 * p + (products ? p * (p - 1) / 2 : 0);
@@ -23,7 +24,7 @@ Eigen::Index coefficients_of(Eigen::Index p, bool products) {
 
 }  // namespace
 
-LocalModel::LocalModel(const Design& design, Misfit misfit) : kind_(misfit) {
+LocalModel::LocalModel(const Design& design, Misfit misfit, Slopes slopes) : kind_(misfit) {
   const Eigen::Index n = design.points.rows(), p = design.points.cols();
   products_ = n >= 2 * coefficients_of(p, true);
   const Eigen::Index q = coefficients_of(p, products_);
@@ -38,6 +39,23 @@ LocalModel::LocalModel(const Design& design, Misfit misfit) : kind_(misfit) {
   for (Eigen::Index i = 0; i < n; ++i) x.row(i) = basis(standard(design.points.row(i)));
   coefficients_ = x.colPivHouseholderQr().solve(design.numbers).transpose();
   find_covariance(design.numbers - x * coefficients_.transpose(), static_cast<double>(n - q));
+  if (slopes == Slopes::found) return;
+  const Vector errors = (x.transpose() * x).ldlt().solve(Matrix::Identity(q, q)).diagonal();
+  shrink(errors.cwiseSqrt());
+}
+
+// Coefficients that may be noise are drawn towards nothing, by the more the less they exceed their
+// errors [Breiman's garrote, Technometrics 37, 1995]. A hundred numbers that depend on a parameter
+// by noise alone would seem to tell it, and hold the answer at the centre.
+void LocalModel::shrink(const Vector& errors) {
+  for (Eigen::Index k = 0; k < coefficients_.rows(); ++k) {
+    const double deviation = std::sqrt(covariance_(k, k));
+    for (Eigen::Index j = 1; j < coefficients_.cols(); ++j) {
+      const double noise = kNoise * deviation * errors(j), size = coefficients_(k, j);
+      const double ratio = size != 0 ? noise / size : 0;
+      coefficients_(k, j) *= std::max(0.0, 1 - ratio * ratio);
+    }
+  }
 }
 
 void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
@@ -105,6 +123,13 @@ Matrix LocalModel::parameter_covariance(const Vector& point) const {
   information.diagonal().array() += 1e-12 * information.trace();
   const Matrix back = information.ldlt().solve(a.transpose() * whitener_);
   return back * covariance_ * back.transpose();
+}
+
+Matrix LocalModel::parameter_covariance(const Vector& point, const Vector& prior) const {
+  const Matrix a = whitener_ * slope(point);
+  Matrix information = a.transpose() * a;
+  information.diagonal() += prior.cwiseAbs2().cwiseInverse();
+  return information.ldlt().solve(Matrix::Identity(prior.size(), prior.size()));
 }
 
 LocalFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds) const {

@@ -17,8 +17,12 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostCentres = 4;
-constexpr double kStays = 1.5;                               // deviations of the points
-constexpr double kFirstSpread = 0.04, kLeastSpread = 0.015;  // of designs, shares of the ranges
+constexpr double kReach = 2.5;  // deviations of the points that an answer may be off
+constexpr double kStays = 1.5;  // deviations of the points
+// Deviations of designs: shares of the parameters' ranges, and standard errors. Points closer than
+// the errors would tell next to nothing of slopes, and errors from such slopes would be too small.
+constexpr double kFirstSpread = 0.05, kLeastSpread = 0.015, kMostSpread = 0.08;
+constexpr double kWide = 2, kEnough = 1.5, kNullsWide = 3;
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
                                   const DiagnosisBudget& budget) {
@@ -74,14 +78,17 @@ void Diagnoser::prepare(double after) {
   }
   stages_.expect(2 * budget_.centre + budget_.nulls + effects + after);
   // Points about the answer before, until the answer stays among them.
-  Centre now{first, {}, false};
+  const Vector range = bounds.high - bounds.low;
+  Centre now{first, kFirstSpread / kWide * range, false};
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
-    now = centre_of(now.point, round, *maps_, bounds);
+    now = centre_of(now, round, *maps_, bounds);
   }
-  const Vector &centre = now.point, &deviation = now.deviation;
-  spread_ = (4 * deviation).cwiseMax(kLeastSpread * (bounds.high - bounds.low)).asDiagonal();
+  spread_ = (kNullsWide * now.deviation)
+                .cwiseMax(kLeastSpread * range)
+                .cwiseMin(kMostSpread * range)
+                .asDiagonal();
   atlas_ = std::make_unique<Atlas>(
-      stages_, *maps_, plan(centre), centre, spread_,
+      stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
   naming_ = std::make_unique<Naming>(*atlas_, options_.false_alarms);
 }
@@ -112,26 +119,33 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "2 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "4 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
-// The parameters of the baseline that whole experiments say, and their errors.
-Diagnoser::Centre Diagnoser::centre_of(const Vector& first, int round, const FlowMaps& maps,
+// The parameters of the baseline that whole experiments say, and their errors, by points about the
+// answer before that are scattered as widely as its errors ask for.
+Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const FlowMaps& maps,
                                        const FitBounds& bounds) {
-  const Vector wide = kFirstSpread * (bounds.high - bounds.low);
+  const Vector range = bounds.high - bounds.low;
+  const Vector wide =
+      (kWide * before.deviation).cwiseMax(kFirstSpread * range).cwiseMin(kMostSpread * range);
   const std::uint64_t seed = derived_seed(options_.seed, 3000 + static_cast<std::uint64_t>(round));
-  const Matrix points = scattered(first, wide.asDiagonal(), budget_.centre, bounds, seed);
+  const Matrix points = scattered(before.point, wide.asDiagonal(), budget_.centre, bounds, seed);
   const LocalModel model(
-      design_of(points, stages_.simulate("centre " + std::to_string(round), points, seed, maps)));
+      design_of(points, stages_.simulate("centre " + std::to_string(round), points, seed, maps)),
+      Misfit::covariance, Slopes::shrunk);
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
-  near.reach = 2.5;
+  near.reach = kReach;
   const LocalFit fit = model.fit(
       Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())), near);
-  const Vector moved = (fit.point - first).cwiseQuotient(wide);
-  return {fit.point, model.parameter_covariance(fit.point).diagonal().cwiseSqrt(),
-          !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};
+  const Vector moved = (fit.point - before.point).cwiseQuotient(wide);
+  const Vector deviation =
+      model.parameter_covariance(fit.point, kPrior * range).diagonal().cwiseSqrt();
+  const bool enough =
+      (kEnough * deviation.cwiseMin(kMostSpread / kEnough * range) - wide).maxCoeff() < 1e-9;
+  return {fit.point, deviation, enough && !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};
 }
 
 ScorePlan Diagnoser::plan(const Vector& centre) const {

@@ -58,8 +58,7 @@ class Diagnoser {
     Eigen::VectorXd point, deviation;
     bool settled = false;
   };
-  Centre centre_of(const Eigen::VectorXd& first, int round, const FlowMaps& maps,
-                   const FitBounds& bounds);
+  Centre centre_of(const Centre& before, int round, const FlowMaps& maps, const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
   Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
   bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;

@@ -174,11 +174,16 @@ FitBounds bounds_of(const JointFit& fit) {
   return bounds;
 }
 
+// Deviations to which parameters are known before: never less than the points' own.
+Vector prior_of(const FitBounds& bounds, const Matrix& width) {
+  return (kPrior * (bounds.high - bounds.low)).cwiseMax(width.diagonal());
+}
+
 // What replicates of known parameters make of the answer: estimates are drawn to the design's
 // centre by the noise of the local model's slopes, and the line through replicates' estimates tells
 // by how much.
 void tell(const LocalModel& model, const Design& replicates, const Vector& centre,
-          const Vector& data, JointFit& fit) {
+          const Vector& prior, const Vector& data, JointFit& fit) {
   FitBounds free;
   free.reach = 5;
   const Eigen::Index n = replicates.points.rows();
@@ -187,7 +192,7 @@ void tell(const LocalModel& model, const Design& replicates, const Vector& centr
     estimates.row(i) = model.fit(replicates.numbers.row(i).transpose(), free).point;
   }
   const Line line = line_through(replicates.points.rowwise() - centre.transpose(), estimates);
-  const Scatter scatter = scatter_of(line, centre, model.fit(data, free).point);
+  const Scatter scatter = scatter_of(line, centre, model.fit(data, free).point, prior);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];
@@ -219,7 +224,8 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
     const Matrix points = scattered(centre, width, round, bounds, own);
     const std::string stage = "joint " + tag + " " + std::to_string(k);
-    model.emplace(design_of(points, joint->simulate(stage, points, own)));
+    model.emplace(design_of(points, joint->simulate(stage, points, own)), Misfit::covariance,
+                  Slopes::shrunk);
     FitBounds near = bounds;
     near.reach = 2.5;
     answer = model->fit(data, near);
@@ -246,7 +252,7 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
   const std::uint64_t own = derived_seed(seed, 99);
   const Matrix points = scattered(answer.point, kReplicateSpread * width, replicates, bounds, own);
   tell(*model, design_of(points, joint->simulate("joint " + tag + " replicates", points, own)),
-       answer.point, data, fit);
+       answer.point, prior_of(bounds, width), data, fit);
   return fit;
 }
 

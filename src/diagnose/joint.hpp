@@ -18,6 +18,9 @@ struct JointFit {
   bool settled = false;
 };
 
+/// Share of a parameter's range to which it is taken to be known before any data speak.
+inline constexpr double kPrior = 0.15;
+
 /// Of the baseline's parameters, in their scale.
 struct JointStart {
   Eigen::VectorXd point, deviation;

@@ -112,6 +112,34 @@ TEST(LocalModel, boundsHoldAndReachIsTold) {
   EXPECT_TRUE(model.fit(truth(at), near).at_reach);
 }
 
+// Two of 150 numbers tell the parameter; 60 simulations leave slopes of noise in all others.
+TEST(LocalModel, shrunkSlopesDoNotHoldAnswersToTheCentre) {
+  constexpr int kSimulations = 60, kNumbers = 150;
+  Design d{Matrix(kSimulations, 1), Matrix(kSimulations, kNumbers)};
+  const auto numbers = [&](int row, double at) {
+    Vector out(kNumbers);
+    for (int k = 0; k < kNumbers; ++k) {
+      out(k) = normal(row, static_cast<std::uint32_t>(k), 201) + (k < 2 ? 0.7 * at : 0);
+    }
+    return out;
+  };
+  for (int i = 0; i < kSimulations; ++i) {
+    d.points(i, 0) = normal(i, 0, 200);
+    d.numbers.row(i) = numbers(i, d.points(i, 0));
+  }
+  const auto slope_of_answers = [&](Slopes slopes) {
+    const LocalModel model(d, Misfit::covariance, slopes);
+    double both = 0, square = 0;
+    for (int i = kSimulations; i < kSimulations + 400; ++i) {
+      const double at = i % 2 == 0 ? 1 : -1;
+      both += model.fit(numbers(i, at)).point(0) * at, square += 1;
+    }
+    return both / square;
+  };
+  EXPECT_LT(slope_of_answers(Slopes::found), 0.6);
+  EXPECT_GT(slope_of_answers(Slopes::shrunk), 0.75);
+}
+
 TEST(LocalModel, tooFewSimulationsAreRefused) {
   EXPECT_THROW(LocalModel(design(6, 0.1)), std::invalid_argument);
   EXPECT_NO_THROW(LocalModel(design(9, 0.1)));  // without products of the two
