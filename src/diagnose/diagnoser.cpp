@@ -83,6 +83,7 @@ void Diagnoser::prepare(double after) {
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
     now = centre_of(now, round, *maps_, bounds);
   }
+  deviation_ = now.deviation;
   spread_ = (kNullsWide * now.deviation)
                 .cwiseMax(kLeastSpread * range)
                 .cwiseMin(kMostSpread * range)

@@ -87,6 +87,7 @@ class Diagnoser {
   Stages stages_;
   std::optional<FlowMaps> maps_;
   Eigen::MatrixXd spread_;
+  Eigen::VectorXd deviation_;  ///< of the baseline's parameters
   std::unique_ptr<Atlas> atlas_;
   std::unique_ptr<Naming> naming_;
 };

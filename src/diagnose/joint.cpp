@@ -17,7 +17,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostRounds = 5;
-constexpr double kSettled = 1.2;          // deviations of the design
+constexpr double kSettled = 1.8;          // deviations of the design
 constexpr double kReplicateSpread = 0.7;  // of replicates, as a share of the last design's
 constexpr std::uint64_t kMix = 7;
 
@@ -230,8 +230,8 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
     near.reach = 2.5;
     answer = model->fit(data, near);
     Vector point = answer.point;
-    const std::size_t dropped =
-        needless(stages, effects, model->parameter_covariance(point), keep, point);
+    const std::size_t dropped = needless(
+        stages, effects, model->parameter_covariance(point, prior_of(bounds, width)), keep, point);
     if (dropped < effects.size()) {
       read_point(stages, point, effects, amplitudes);
       const auto at = static_cast<std::ptrdiff_t>(dropped);
@@ -246,7 +246,7 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
       continue;
     }
     const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(answer.point - centre);
-    fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled * 1.5;
+    fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled;
     if (!fit.settled) centre = answer.point;
   }
   const std::uint64_t own = derived_seed(seed, 99);

@@ -11,7 +11,6 @@
 namespace lilytank {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double kMovedError = 0.3;  // share by which such a displacement may be wrong
@@ -33,11 +32,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   const ScoreDetails& details = judged.details;
   const LocalFit baseline = atlas_->calibrated(observed.summary);
   const std::vector<double> before = stages_.from_scale(baseline.point);
-  const Matrix covariance = atlas_->parameters().parameter_covariance(baseline.point);
   for (std::size_t i = 0; i < setup_.told(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
-                              std::sqrt(covariance(k, k)), before[i], before[i], before[i]});
+                              deviation_(k), before[i], before[i], before[i]});
   }
   for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
     out.checks.push_back(setup_.parameters[i].path + " = " + significant(before[i], 3) + " " +
