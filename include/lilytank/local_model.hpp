@@ -43,6 +43,20 @@ struct LocalFit {
   bool at_reach = false;  ///< it would have gone further: the design should be moved there
 };
 
+/// What is known of parameters before data speak: a normal law without correlations.
+struct Prior {
+  Eigen::VectorXd expected, deviation;
+};
+
+/// The parameters that data and prior ask for together.
+struct KnownFit {
+  LocalFit fit;
+  Eigen::MatrixXd covariance;
+  /// Mean square of what remains, at least 1: where the model does not explain the data, these
+  /// count for that much less.
+  double doubt = 1;
+};
+
 class LocalModel {
  public:
   /// Needs more simulations than coefficients: 1 + p + p (p + 1) / 2 for p parameters; with fewer
@@ -62,6 +76,7 @@ class LocalModel {
 
   /// The parameters whose numbers are nearest to those of data.
   LocalFit fit(const Eigen::VectorXd& numbers, const FitBounds& bounds = {}) const;
+  KnownFit fit(const Eigen::VectorXd& numbers, const FitBounds& bounds, const Prior& prior) const;
   /// The same with one parameter held at a value: a point of its profile.
   LocalFit fit_with(const Eigen::VectorXd& numbers, int parameter, double value,
                     const FitBounds& bounds = {}) const;
@@ -77,8 +92,8 @@ class LocalModel {
   Eigen::VectorXd standard(const Eigen::VectorXd& point) const;
   Eigen::VectorXd basis(const Eigen::VectorXd& z) const;
   Eigen::MatrixXd basis_slope(const Eigen::VectorXd& z) const;
-  LocalFit solve(const Eigen::VectorXd& numbers, int held, double value,
-                 const FitBounds& bounds) const;
+  LocalFit solve(const Eigen::VectorXd& numbers, int held, double value, const FitBounds& bounds,
+                 const Prior& prior) const;
   void shrink(const Eigen::VectorXd& errors);
   void find_covariance(const Eigen::MatrixXd& residuals, double freedom);
 

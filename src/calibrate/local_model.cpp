@@ -16,6 +16,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostSteps = 60;
 constexpr double kNeverVaries = 1e-10;
+constexpr int kDoubts = 3;    // rounds in which a doubt settles
 constexpr double kNoise = 2;  // standard errors up to which a coefficient is taken for noise
 
 Eigen::Index coefficients_of(Eigen::Index p, bool products) {
@@ -133,12 +134,26 @@ Matrix LocalModel::parameter_covariance(const Vector& point, const Vector& prior
 }
 
 LocalFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds) const {
-  return solve(numbers, -1, 0, bounds);
+  return solve(numbers, -1, 0, bounds, {});
+}
+
+KnownFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds, const Prior& prior) const {
+  KnownFit out;
+  const auto freedom =
+      static_cast<double>(std::max<Eigen::Index>(1, numbers.size() - prior.expected.size()));
+  for (int k = 0; k < kDoubts; ++k) {
+    const Prior weighed{prior.expected, prior.deviation / std::sqrt(out.doubt)};
+    out.fit = solve(numbers, -1, 0, bounds, weighed);
+    out.doubt = std::max(1.0, out.fit.misfit / freedom);
+  }
+  out.covariance =
+      out.doubt * parameter_covariance(out.fit.point, prior.deviation / std::sqrt(out.doubt));
+  return out;
 }
 
 LocalFit LocalModel::fit_with(const Vector& numbers, int parameter, double value,
                               const FitBounds& bounds) const {
-  return solve(numbers, parameter, value, bounds);
+  return solve(numbers, parameter, value, bounds, {});
 }
 
 // One least-squares problem: Levenberg and Marquardt within a box, with weights that turn squares
@@ -148,18 +163,28 @@ struct LocalModel::Problem {
   const Vector& numbers;
   int held;
   Vector low, high;
+  Vector expected = {}, weight = {};  ///< of what is known before; weights empty: nothing is
+
+  double distance(const Vector& point) const {
+    const double data = model.misfit(numbers, point);
+    return weight.size() == 0 ? data : data + weight.dot((point - expected).cwiseAbs2());
+  }
 
   // A step from `point` under damping, parameters at a bound that they push against left out.
   Vector step(const Vector& point, double damping) const {
     const Vector r = model.whitener_ * (numbers - model.mean(point));
     const Matrix a = model.whitener_ * model.slope(point);
-    Vector weight = Vector::Ones(r.size());
+    Vector share = Vector::Ones(r.size());
     if (model.kind_ == Misfit::absolute) {
       const double small = 1e-3 * r.cwiseAbs().mean() + 1e-300;
-      weight = r.cwiseAbs().cwiseMax(small).cwiseInverse();
+      share = r.cwiseAbs().cwiseMax(small).cwiseInverse();
     }
-    Matrix h = a.transpose() * weight.asDiagonal() * a;
-    Vector g = a.transpose() * weight.cwiseProduct(r);
+    Matrix h = a.transpose() * share.asDiagonal() * a;
+    Vector g = a.transpose() * share.cwiseProduct(r);
+    if (weight.size() > 0) {
+      h.diagonal() += weight;
+      g += weight.cwiseProduct(expected - point);
+    }
     const double most = h.diagonal().maxCoeff();
     for (Eigen::Index k = 0; k < point.size(); ++k) {
       const bool stuck =
@@ -171,20 +196,24 @@ struct LocalModel::Problem {
   }
 };
 
-LocalFit LocalModel::solve(const Vector& numbers, int held, double value,
-                           const FitBounds& bounds) const {
+LocalFit LocalModel::solve(const Vector& numbers, int held, double value, const FitBounds& bounds,
+                           const Prior& prior) const {
   const Vector reach = bounds.reach * unit_.rowwise().norm();
   Problem problem{*this, numbers, held, centre_ - reach, centre_ + reach};
   if (bounds.low.size() > 0) {
     problem.low = problem.low.cwiseMax(bounds.low).cwiseMin(bounds.high);
     problem.high = problem.high.cwiseMin(bounds.high).cwiseMax(bounds.low);
   }
+  if (prior.expected.size() > 0) {
+    problem.expected = prior.expected;
+    problem.weight = prior.deviation.cwiseAbs2().cwiseInverse();
+  }
   Vector at = centre_.cwiseMax(problem.low).cwiseMin(problem.high);
   if (held >= 0) at(held) = problem.low(held) = problem.high(held) = value;
-  double now = misfit(numbers, at), damping = 1e-2;
+  double now = problem.distance(at), damping = 1e-2;
   for (int k = 0; k < kMostSteps && damping < 1e9; ++k) {
     const Vector next = problem.step(at, damping);
-    const double then = misfit(numbers, next);
+    const double then = problem.distance(next);
     if (!(then < now)) {
       damping *= 4;
       continue;
@@ -193,7 +222,7 @@ LocalFit LocalModel::solve(const Vector& numbers, int held, double value,
     at = next, now = then, damping = std::max(damping / 5, 1e-9);
     if (done) break;
   }
-  LocalFit out{at, now, false};
+  LocalFit out{at, misfit(numbers, at), false};
   for (Eigen::Index k = 0; k < at.size(); ++k) {
     if (k == held) continue;
     const bool far = std::fabs(at(k) - centre_(k)) >= reach(k) * (1 - 1e-9);

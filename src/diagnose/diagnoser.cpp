@@ -120,7 +120,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "4 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "5 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -139,11 +139,13 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
   near.reach = kReach;
-  const LocalFit fit = model.fit(
-      Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())), near);
+  // What the baseline does not explain must not push its parameters about.
+  const KnownFit known =
+      model.fit(Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())),
+                near, {stages_.to_scale(setup_.start), kPrior * range});
+  const LocalFit& fit = known.fit;
   const Vector moved = (fit.point - before.point).cwiseQuotient(wide);
-  const Vector deviation =
-      model.parameter_covariance(fit.point, kPrior * range).diagonal().cwiseSqrt();
+  const Vector deviation = known.covariance.diagonal().cwiseSqrt();
   const bool enough =
       (kEnough * deviation.cwiseMin(kMostSpread / kEnough * range) - wide).maxCoeff() < 1e-9;
   return {fit.point, deviation, enough && !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};

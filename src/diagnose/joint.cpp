@@ -113,8 +113,9 @@ std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<Effe
   return out;
 }
 
-// The effect that the data ask for least, by Wald's distance of its amplitudes from nothing; none
-// (the list's size) if all are asked for. `point` then becomes the answer without it.
+// The effect after the first, strongest one that the data ask for least, by Wald's distance of its
+// amplitudes from nothing; none (the list's size) if all are asked for. `point` then becomes the
+// answer without it.
 std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
                      const Matrix& covariance, double keep, Vector& point) {
   const std::vector<Eigen::Index> places = places_of(stages, effects);
@@ -134,11 +135,11 @@ std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
   };
   std::size_t weakest = effects.size();
   double least = keep * keep;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
+  for (std::size_t e = 1; e < effects.size(); ++e) {
     const double distance = off(e).dot(weighed(e)) / static_cast<double>(size(e));
     if (distance < least) least = distance, weakest = e;
   }
-  if (weakest == effects.size() || effects.size() == 1) return effects.size();
+  if (weakest == effects.size()) return weakest;
   point -= covariance.middleCols(places[weakest], size(weakest)) * weighed(weakest);
   return weakest;
 }
@@ -228,17 +229,21 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                   Slopes::shrunk);
     FitBounds near = bounds;
     near.reach = 2.5;
-    answer = model->fit(data, near);
+    Vector expected = centre;
+    expected.head(baseline.expected.size()) = baseline.expected;
+    const KnownFit known = model->fit(data, near, {expected, prior_of(bounds, width)});
+    answer = known.fit;
     Vector point = answer.point;
-    const std::size_t dropped = needless(
-        stages, effects, model->parameter_covariance(point, prior_of(bounds, width)), keep, point);
+    const std::size_t dropped =
+        needless(stages, effects, known.covariance / known.doubt, keep, point);
     if (dropped < effects.size()) {
       read_point(stages, point, effects, amplitudes);
       const auto at = static_cast<std::ptrdiff_t>(dropped);
       effects.erase(effects.begin() + at), amplitudes.erase(amplitudes.begin() + at);
       fit.kept.erase(fit.kept.begin() + at);
-      begin(stages, effects, amplitudes, {point.head(baseline.point.size()), baseline.deviation},
-            fit, centre, width);
+      begin(stages, effects, amplitudes,
+            {baseline.expected, point.head(baseline.point.size()), baseline.deviation}, fit, centre,
+            width);
       bounds = bounds_of(fit);
       centre = centre.cwiseMax(bounds.low).cwiseMin(bounds.high);
       joint.emplace(stages, maps, atlas, fit);

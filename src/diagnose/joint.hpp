@@ -23,7 +23,8 @@ inline constexpr double kPrior = 0.15;
 
 /// Of the baseline's parameters, in their scale.
 struct JointStart {
-  Eigen::VectorXd point, deviation;
+  Eigen::VectorXd expected;          ///< before any data
+  Eigen::VectorXd point, deviation;  ///< where the first design is, and how wide
 };
 
 /// Effects are dropped, weakest first, that the data no longer ask for once everything is fitted

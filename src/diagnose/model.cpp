@@ -61,7 +61,8 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     }
   }
   const FitBounds bounds = stages_.bounds();
-  const JointStart start{(baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
+  const JointStart start{stages_.to_scale(setup_.start),
+                         (baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
   const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, start,
                                    budget_.round, budget_.replicates, naming_->effect_threshold(),

@@ -112,6 +112,27 @@ TEST(LocalModel, boundsHoldAndReachIsTold) {
   EXPECT_TRUE(model.fit(truth(at), near).at_reach);
 }
 
+// Data that the model explains outweigh what was known before; data that it does not explain must
+// not push parameters about.
+TEST(LocalModel, whatIsNotExplainedLeavesParametersWhereTheyWereExpected) {
+  const LocalModel model(design(400, 0.02));
+  Vector expected(2), at(2);
+  expected << 0.5, -0.2, at << 0.7, -0.35;
+  const Prior prior{expected, Vector::Constant(2, 0.3)};
+  const KnownFit explained = model.fit(truth(at), {}, prior);
+  EXPECT_EQ(explained.doubt, 1);
+  EXPECT_LT((explained.fit.point - at).norm(), 0.02);
+  Vector odd = truth(expected);
+  odd(1) += 2;  // a hundred of its deviations
+  FitBounds near;
+  near.reach = 10;
+  const KnownFit unexplained = model.fit(odd, near, prior);
+  EXPECT_GT(unexplained.doubt, 100);
+  EXPECT_LT((unexplained.fit.point - expected).norm(),
+            0.6 * (model.fit(odd, near).point - expected).norm());
+  EXPECT_GT(unexplained.covariance(0, 0), 30 * explained.covariance(0, 0));
+}
+
 // Two of 150 numbers tell the parameter; 60 simulations leave slopes of noise in all others.
 TEST(LocalModel, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   constexpr int kSimulations = 60, kNumbers = 150;
