@@ -53,7 +53,7 @@ struct KnownFit {
   LocalFit fit;
   Eigen::MatrixXd covariance;
   /// Mean square of what remains, at least 1: where the model does not explain the data, these
-  /// count for that much less.
+  /// count for that much less, and what was known before for that much more.
   double doubt = 1;
 };
 

@@ -142,10 +142,11 @@ KnownFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds, const P
   const auto freedom =
       static_cast<double>(std::max<Eigen::Index>(1, numbers.size() - prior.expected.size()));
   for (int k = 0; k < kDoubts; ++k) {
-    const Prior weighed{prior.expected, prior.deviation / std::sqrt(out.doubt)};
+    const Prior weighed{prior.expected, prior.deviation / out.doubt};
     out.fit = solve(numbers, -1, 0, bounds, weighed);
     out.doubt = std::max(1.0, out.fit.misfit / freedom);
   }
+  // The prior's trust is no knowledge: errors do not shrink by it.
   out.covariance =
       out.doubt * parameter_covariance(out.fit.point, prior.deviation / std::sqrt(out.doubt));
   return out;

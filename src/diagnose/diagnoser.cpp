@@ -16,7 +16,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kMostCentres = 4;
+constexpr int kMostCentres = 5;
 constexpr double kReach = 2.5;  // deviations of the points that an answer may be off
 constexpr double kStays = 1.5;  // deviations of the points
 // Deviations of designs: shares of the parameters' ranges, and standard errors. Points closer than
@@ -33,7 +33,7 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
   const auto lilies = std::count_if(experiment.recordings.begin(), experiment.recordings.end(),
                                     [](const Recording& r) { return r.body == BodyKind::lily; });
   c.hold_out = told || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
-  c.search_budget = budget.search, c.flow_draws = budget.flow_draws;
+  c.flow_draws = budget.flow_draws;
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;
@@ -52,7 +52,7 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
-  search = scaled(1500, 1000), flow_draws = scaled(12, 12), centre = 70;
+  flow_draws = scaled(12, 12), centre = 70;
   nulls = scaled(200, 160), experiments = scaled(6, 6), round = scaled(110, 110);
   replicates = scaled(50, 40), comparisons = scaled(16, 12);
 }
@@ -69,17 +69,16 @@ double Diagnoser::model_cost() const {
 
 void Diagnoser::prepare(double after) {
   maps_.emplace(stages_.flow_maps());
-  CalibrationResult searched;
-  const Vector first = stages_.to_scale(stages_.search(searched));
   const FitBounds bounds = stages_.bounds();
   double effects = 0;
   for (const Effect& e : effect_catalogue(setup_.model)) {
     effects += budget_.experiments * static_cast<double>(e.paths.size());
   }
   stages_.expect(2 * budget_.centre + budget_.nulls + effects + after);
-  // Points about the answer before, until the answer stays among them.
+  // Points about the answer before, until the answer stays among them. They begin where the
+  // experiment's model is: a search would lead to where a baseline imitates what it lacks.
   const Vector range = bounds.high - bounds.low;
-  Centre now{first, kFirstSpread / kWide * range, false};
+  Centre now{stages_.to_scale(setup_.start), kFirstSpread / kWide * range, false};
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
     now = centre_of(now, round, *maps_, bounds);
   }
@@ -120,7 +119,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "5 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "6 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
