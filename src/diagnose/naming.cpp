@@ -82,7 +82,7 @@ Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
 Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape,
                             bool two_sided) const {
   Known out;
-  out.effect = effect, out.shape = shape, out.of = fingerprint;
+  out.effect = effect, out.shape = shape, out.source = fingerprint;
   // A residual has deviation one, amplitudes a mean square of some 0.7; those about found ones are
   // known with a slope as well, and their base is a mean.
   const bool local = fingerprint.local();
@@ -357,7 +357,7 @@ Explanation Naming::explain(const Vector& residual) const {
     if (k == known_.size() || round == kMostEffects) break;
     const Known& of = known_[k];
     all -= of.all.at(chosen.amplitudes);
-    chosen.moved = of.of.moved(chosen.amplitudes);
+    chosen.moved = of.source.moved(chosen.amplitudes);
     explained = std::max(explained, chosen.z);
     out.found.push_back(chosen);
   }

@@ -61,7 +61,7 @@ class Naming {
   };
   struct Known {
     int effect = -1, shape = -1;
-    Fingerprint of;
+    Fingerprint source;
     Answer named;  ///< of named numbers
     /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
     /// probability, as shapes overlap, but for which of two candidates leaves less.

@@ -68,6 +68,17 @@ std::vector<double> strengths(const SealedEffect& e, const Model& model) {
   return out;
 }
 
+// The five parameters, by path.
+std::map<std::string, double> baseline_of(const Model& tank, const Sealed& s) {
+  std::map<std::string, double> out;
+  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
+  for (std::size_t k = 0; k < five.size(); ++k) {
+    out[five[k].path] =
+        std::clamp(s.factors[k] * parameter_value(tank, five[k].path), five[k].low, five[k].high);
+  }
+  return out;
+}
+
 }  // namespace
 
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds) {
@@ -112,11 +123,13 @@ Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes
   }
   const bool two = world % 8 == 3;
   out.key.kind = two ? "two" : "named";
-  out.effects.push_back(drawn_effect(effects, seed, world, 0));
-  for (std::uint32_t k = 1; two && out.effects.size() < 2; ++k) {
-    SealedEffect second = drawn_effect(effects, seed, world, k);
+  std::uint32_t number = 0;
+  const auto next = [&] { return drawn_effect(effects, seed, world, number++); };
+  out.effects.push_back(next());
+  while (two && out.effects[0].effect.camera()) out.effects[0] = next();
+  while (two && out.effects.size() < 2) {
+    SealedEffect second = next();
     if (beside(out.effects[0].effect, second.effect)) out.effects.push_back(std::move(second));
-    if (out.effects[0].effect.camera()) out.effects[0] = drawn_effect(effects, seed, world, ++k);
   }
   for (const SealedEffect& e : out.effects) out.key.effects.push_back(e.effect.name);
   return out;
@@ -140,11 +153,8 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
   Model model = with_steps(tank, kSealedSteps);
   std::vector<std::string> paths;
   std::vector<double> values;
-  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
-  for (std::size_t k = 0; k < five.size(); ++k) {
-    paths.push_back(five[k].path);
-    values.push_back(
-        std::clamp(s.factors[k] * parameter_value(model, five[k].path), five[k].low, five[k].high));
+  for (const auto& [path, value] : baseline_of(model, s)) {
+    paths.push_back(path), values.push_back(value);
   }
   model = with_parameters(model, paths, values);
   std::vector<std::string> cameras;
@@ -164,12 +174,7 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
 }
 
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
-  std::map<std::string, double> out;
-  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
-  for (std::size_t k = 0; k < five.size(); ++k) {
-    out[five[k].path] =
-        std::clamp(s.factors[k] * parameter_value(tank, five[k].path), five[k].low, five[k].high);
-  }
+  std::map<std::string, double> out = baseline_of(tank, s);
   for (const SealedEffect& e : s.effects) {
     const std::vector<double> amplitudes = strengths(e, tank);
     for (std::size_t c = 0; c < amplitudes.size(); ++c) out[e.effect.paths[c]] = amplitudes[c];

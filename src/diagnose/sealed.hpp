@@ -33,7 +33,7 @@ struct Sealed {
 Model tank_model();
 /// At so many steps a tick.
 Model with_steps(Model model, int steps);
-/// Recordings of so many bodies and seconds.
+/// Recordings of so many bodies and seconds, each body unseen in some frames.
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds);
 
 /// The secret of one world: of eight two are complete, one has a law of no effect, one two effects.
