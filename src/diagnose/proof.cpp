@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "diagnose/diagnoser.hpp"
 #include "diagnose/sealed.hpp"
 #include "diagnose/yardstick.hpp"
 #include "io/sha256.hpp"
-#include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
-#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
-#include "lilytank/state.hpp"
-#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -151,7 +146,8 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   });
   int modelled = 0;
   for (std::size_t w = 0; w < rows.size(); ++w) {
-    ProofWorld world = sealed[w].key;
+    ProofWorld world;
+    world.kind = sealed[w].kind, world.effects = sealed[w].names;
     world.expected_z = expected_z(diagnoser, sealed[w]);
     Diagnosis d;
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);

@@ -112,17 +112,17 @@ Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes
     out.factors.push_back(1 + kOff * (2 * draw(seed, world, 40 + k) - 1));
   }
   if (world % 4 == 0) {
-    out.key.kind = "null";
+    out.kind = "null";
     return out;
   }
   if (world % 8 == 7) {
     const Shape shape = odd_law(shapes, seed, world);
-    out.key.kind = "unnamed", out.key.effects = {shape.variable};
+    out.kind = "unnamed", out.names = {shape.variable};
     out.effects.push_back(odd_effect(shape, seed, world));
     return out;
   }
   const bool two = world % 8 == 3;
-  out.key.kind = two ? "two" : "named";
+  out.kind = two ? "two" : "named";
   std::uint32_t number = 0;
   const auto next = [&] { return drawn_effect(effects, seed, world, number++); };
   out.effects.push_back(next());
@@ -131,14 +131,14 @@ Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes
     SealedEffect second = next();
     if (beside(out.effects[0].effect, second.effect)) out.effects.push_back(std::move(second));
   }
-  for (const SealedEffect& e : out.effects) out.key.effects.push_back(e.effect.name);
+  for (const SealedEffect& e : out.effects) out.names.push_back(e.effect.name);
   return out;
 }
 
 std::string key_text(const Sealed& s) {
-  std::string out = s.key.kind;
+  std::string out = s.kind;
   for (std::size_t e = 0; e < s.effects.size(); ++e) {
-    out += " " + s.key.effects[e];
+    out += " " + s.names[e];
     for (const auto& [path, value] : s.effects[e].effect.shape) {
       out += " " + path + " " + shortest(value);
     }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "diagnose/effects.hpp"
-#include "lilytank/proof.hpp"
 #include "lilytank/recording.hpp"
 
 namespace lilytank {
@@ -24,7 +23,8 @@ struct SealedEffect {
 
 /// What stands in the sealed envelope.
 struct Sealed {
-  ProofWorld key;
+  std::string kind;                ///< null, named, two, unnamed
+  std::vector<std::string> names;  ///< of the effects; of a law without one its variable
   std::vector<SealedEffect> effects;
   std::vector<double> factors;  ///< on the five parameters
 };
