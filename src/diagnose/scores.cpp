@@ -26,16 +26,22 @@ std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
   return parts;
 }
 
-// Adds a shape's two knots to the pushes of module i.
+// A wrench as the acceleration that it gives a module.
+Wrench accelerating(const Wrench& w, const Model& model) {
+  const double mass = model.module.mass;
+  return {w.fx / mass, w.fy / mass, w.torque / model.module.inertia()};
+}
+
+// Adds a shape's two knots to the pushes of a module. `unit`: acceleration by a force of size 1.
 void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, double value,
-                const Model& model, double sign, Pushes& pushes) {
+                double sign, Pushes& pushes) {
   const KnotShare at = place_on(shape.curve, value);
   const auto add = [&](int knot, double share) {
     const std::size_t f = first + static_cast<std::size_t>(knot);
     const double size = sign * share * shape.size;
-    pushes.x[f] += static_cast<float>(size * unit.fx / model.module.mass);
-    pushes.y[f] += static_cast<float>(size * unit.fy / model.module.mass);
-    pushes.turn[f] += static_cast<float>(size * unit.torque / model.module.inertia());
+    pushes.x[f] += static_cast<float>(size * unit.fx);
+    pushes.y[f] += static_cast<float>(size * unit.fy);
+    pushes.turn[f] += static_cast<float>(size * unit.torque);
   };
   add(at.first, 1 - at.share), add(at.second, at.share);
 }
@@ -90,11 +96,10 @@ class Scorer {
     Pushes& to = pushes_[i];
     to.clear();
     const Model& model = *model_;
-    const double mass = model.module.mass, inertia = model.module.inertia();
     for (std::size_t f = 0; f < features_->size(); ++f) {
-      const Wrench& w = features_->at(f, i);
-      to.x[f] = static_cast<float>(w.fx / mass), to.y[f] = static_cast<float>(w.fy / mass);
-      to.turn[f] = static_cast<float>(w.torque / inertia);
+      const Wrench w = accelerating(features_->at(f, i), model);
+      to.x[f] = static_cast<float>(w.fx), to.y[f] = static_cast<float>(w.fy);
+      to.turn[f] = static_cast<float>(w.torque);
     }
     const int body = static_cast<int>(i);
     std::array<double, kAlongs> value{};
@@ -103,14 +108,15 @@ class Scorer {
       value[v] = value_along(static_cast<Along>(v), model, frame.now, now, body);
     }
     for (std::size_t u = 0; u < kTowards; ++u) {
-      unit[u] = unit_toward(static_cast<Toward>(u), model, frame.now, now, body);
+      unit[u] =
+          accelerating(unit_toward(static_cast<Toward>(u), model, frame.now, now, body), model);
     }
     for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
       const ForceCurve& curve = plan_.shapes[s].curve;
       if (curve.along == Along::gap) continue;
       push_knots(plan_.shapes[s], scored_ + s * kKnots,
                  unit[static_cast<std::size_t>(curve.toward)],
-                 value[static_cast<std::size_t>(curve.along)], model, 1, to);
+                 value[static_cast<std::size_t>(curve.along)], 1, to);
     }
   }
 
@@ -129,9 +135,9 @@ class Scorer {
         } else if (shape.curve.toward == Toward::around) {
           unit = {-pair.dy / pair.r, pair.dx / pair.r, 0}, other = -1;
         }
-        push_knots(shape, first, unit, gap, model, other,
-                   pushes_[static_cast<std::size_t>(pair.i)]);
-        push_knots(shape, first, unit, gap, model, 1, pushes_[static_cast<std::size_t>(pair.j)]);
+        unit = accelerating(unit, model);
+        push_knots(shape, first, unit, gap, other, pushes_[static_cast<std::size_t>(pair.i)]);
+        push_knots(shape, first, unit, gap, 1, pushes_[static_cast<std::size_t>(pair.j)]);
       });
     }
   }

@@ -13,16 +13,25 @@ constexpr double kFastest = 6;        // Hz, of pulsation
 constexpr double kOversampled = 1.5;  // frequencies in a line's width
 constexpr int kPiece = 512;           // frames of a piece of a module's series
 
-// |sum of series e^(-i w t)|^2 by a turning phasor.
-double power_at(const std::vector<double>& series, double radians) {
-  const double c = std::cos(radians), s = std::sin(radians);
-  double pc = 1, ps = 0, re = 0, im = 0;
-  for (const double v : series) {
-    re += v * pc, im -= v * ps;
-    const double next = pc * c - ps * s;
-    ps = pc * s + ps * c, pc = next;
+constexpr std::size_t kBank = 16;
+
+// Adds |sum of series e^(-i w t)|^2 to the power at each of a bank of frequencies (rad a frame), by
+// phasors that turn side by side.
+void add_powers(const std::vector<double>& series, const std::array<double, kBank>& radians,
+                std::array<double, kBank>& power) {
+  std::array<double, kBank> c{}, s{}, pc{}, ps{}, re{}, im{};
+  for (std::size_t k = 0; k < kBank; ++k) {
+    const Rot turn = rotation(radians[k]);
+    c[k] = turn.c, s[k] = turn.s, pc[k] = 1;
   }
-  return re * re + im * im;
+  for (const double v : series) {
+    for (std::size_t k = 0; k < kBank; ++k) {
+      re[k] += v * pc[k], im[k] -= v * ps[k];
+      const double next = pc[k] * c[k] - ps[k] * s[k];
+      ps[k] = pc[k] * s[k] + ps[k] * c[k], pc[k] = next;
+    }
+  }
+  for (std::size_t k = 0; k < kBank; ++k) power[k] += re[k] * re[k] + im[k] * im[k];
 }
 
 class Spectrum final : public ScatterPart {
@@ -85,8 +94,13 @@ class Spectrum final : public ScatterPart {
         one.usable && slip > 0 ? (one.zy * one.slip_x - one.zx * one.slip_y) / slip : 0;
     piece.push_back(std::clamp(across, -8.0, 8.0));
     if (static_cast<int>(piece.size()) < kPiece) return;
-    for (int k = 0; k < kSwings; ++k) {
-      swing_[static_cast<std::size_t>(k)] += power_at(piece, 2 * kPi * frequency(k) / rate_);
+    for (std::size_t first = 0; first < kSwings; first += kBank) {
+      std::array<double, kBank> radians{}, power{};
+      for (std::size_t k = 0; k < kBank; ++k) {
+        radians[k] = 2 * kPi * frequency(static_cast<int>(first + k)) / rate_;
+      }
+      add_powers(piece, radians, power);
+      for (std::size_t k = 0; k < kBank; ++k) swing_[first + k] += power[k];
     }
     piece.clear();
   }
@@ -98,13 +112,19 @@ class Spectrum final : public ScatterPart {
     const double step = rate_ / (kOversampled * static_cast<double>(longest));
     const int count = static_cast<int>(kFastest / step);
     double most = 0, all = 0;
-    for (int k = 1; k <= count; ++k) {
-      double power = 0;
-      for (const auto& series : series_) power += power_at(series, 2 * kPi * k * step / rate_);
-      all += power / count;
-      if (power <= most) continue;
-      most = power;
-      if (details != nullptr) details->pulsation = k * step;
+    for (int first = 1; first <= count; first += static_cast<int>(kBank)) {
+      std::array<double, kBank> radians{}, power{};
+      for (std::size_t k = 0; k < kBank; ++k) {
+        radians[k] = 2 * kPi * (first + static_cast<int>(k)) * step / rate_;
+      }
+      for (const auto& series : series_) add_powers(series, radians, power);
+      for (int k = first; k < first + static_cast<int>(kBank) && k <= count; ++k) {
+        const double one = power[static_cast<std::size_t>(k - first)];
+        all += one / count;
+        if (one <= most) continue;
+        most = one;
+        if (details != nullptr) details->pulsation = k * step;
+      }
     }
     return std::log(std::max(most, 1e-300) / std::max(all, 1e-300));
   }

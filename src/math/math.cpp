@@ -58,7 +58,7 @@ Rot rotation(double angle) {
 }
 
 double angle_of(Rot r) {
-  // A first guess good to 0.01 rad, then Newton steps on the sine of what is left.
+  // A first guess good to 0.004 rad, and what is left by the series of the arc tangent.
   const double ax = std::fabs(r.c), ay = std::fabs(r.s);
   if (ax == 0 && ay == 0) return 0;
   const double t = ax > ay ? ay / ax : ax / ay;
@@ -66,11 +66,9 @@ double angle_of(Rot r) {
   if (ay >= ax) guess = kPi / 2 - guess;
   if (r.c < 0) guess = kPi - guess;
   if (r.s < 0) guess = -guess;
-  for (int round = 0; round < 2; ++round) {
-    const Rot left = between(rotation(guess), r);
-    const double x = left.s / left.c;
-    guess += x - x * x * x / 3;
-  }
+  const Rot left = between(rotation(guess), r);
+  const double x = left.s / left.c, q = x * x;
+  guess += x - x * q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7)));
   return guess > kPi ? kPi : guess <= -kPi ? kPi : guess;
 }
 
