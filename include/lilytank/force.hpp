@@ -49,6 +49,8 @@ struct Moment {
   double gust_gain = 1;              ///< factor on its deviation alone, beside gain
   /// m/s, [bodies] what terms that stir add to the water's velocity at each body; empty: nothing.
   std::span<const double> ux, uy;
+  /// rad/s, [bodies] and to its rotation about each body; empty where ux is.
+  std::span<const double> turning;
 };
 
 /// The flow field at that moment.
@@ -56,9 +58,10 @@ const FlowField& field_now(const Model& model, const Moment& now);
 
 /// What terms that stir do to the water.
 struct Stirring {
-  double gain = 1;           ///< factor on the field's mean and deviation
-  std::span<double> ux, uy;  ///< m/s, [bodies] added to the water's velocity at a body
-  double gust_gain = 1;      ///< factor on the field's deviation alone
+  double gain = 1;            ///< factor on the field's mean and deviation
+  std::span<double> ux, uy;   ///< m/s, [bodies] added to the water's velocity at a body
+  std::span<double> turning;  ///< rad/s, [bodies] added to its rotation there, half of its curl
+  double gust_gain = 1;       ///< factor on the field's deviation alone
 };
 
 /// Factors on twists at the end of a step; 1 leaves them alone.

@@ -6,6 +6,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kProbe = 0.02;  // m/s, and share of the gain: steps of the drag's derivatives
+constexpr double kTurned = 0.5;  // rad/s, likewise
 
 }  // namespace
 
@@ -21,9 +22,10 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
     if (force.term->name() == "face_drag") drag_only_.push_back(force);
   }
   drag_sum_ = std::make_unique<ForceSum>(model_, drag_only_);
-  for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_gain_}) of->resize(n);
-  for (auto* of : {&ux_, &uy_, &probe_, &none_}) of->resize(n);
+  for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_}) of->resize(n);
+  for (auto* of : {&ux_, &uy_, &turning_, &probe_, &turned_, &none_}) of->resize(n);
   std::fill(probe_.begin(), probe_.end(), kProbe);
+  std::fill(turned_.begin(), turned_.end(), kTurned);
   wrenches_.assign(features_.size(), std::vector<Wrench>(n));
 }
 
@@ -67,33 +69,38 @@ void Features::add(const Effect& effect, std::size_t component) {
   features_.push_back(std::move(feature));
 }
 
-// The drag's change by water that moves along x, along y, and by the gain of the whole flow.
+// The drag's change by water that moves along x, along y, that turns, and by the gain of the whole
+// flow.
 void Features::derive(const Kinematics& k, const Moment& now) {
-  const auto probe = [&](std::span<const double> ux, std::span<const double> uy, double gain,
+  const auto probe = [&](const std::vector<double>& ux, const std::vector<double>& uy,
+                         const std::vector<double>& turning, double gain, double step,
                          std::vector<Wrench>& out) {
     Moment other = now;
-    other.ux = ux, other.uy = uy, other.gain = gain;
+    other.ux = ux, other.uy = uy, other.turning = turning, other.gain = gain;
     (*drag_sum_)(k, other, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i].fx = (out[i].fx - drag_[i].fx) / kProbe;
-      out[i].fy = (out[i].fy - drag_[i].fy) / kProbe;
-      out[i].torque = (out[i].torque - drag_[i].torque) / kProbe;
+      out[i].fx = (out[i].fx - drag_[i].fx) / step;
+      out[i].fy = (out[i].fy - drag_[i].fy) / step;
+      out[i].torque = (out[i].torque - drag_[i].torque) / step;
     }
   };
-  probe(probe_, none_, 1, by_x_), probe(none_, probe_, 1, by_y_);
-  probe(none_, none_, 1 + kProbe, by_gain_);
+  probe(probe_, none_, none_, 1, kProbe, by_x_), probe(none_, probe_, none_, 1, kProbe, by_y_);
+  probe(none_, none_, turned_, 1, kTurned, by_turning_);
+  probe(none_, none_, none_, 1 + kProbe, kProbe, by_gain_);
 }
 
 void Features::stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
                     const Moment& now, std::vector<Wrench>& out) {
-  std::fill(ux_.begin(), ux_.end(), 0.0), std::fill(uy_.begin(), uy_.end(), 0.0);
-  Stirring water{1, ux_, uy_, 1};
+  for (auto* of : {&ux_, &uy_, &turning_}) std::fill(of->begin(), of->end(), 0.0);
+  Stirring water{1, ux_, uy_, turning_, 1};
   term.stir(model_, k, now, p, water);
   const double gain = water.gain - 1;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].fx = by_x_[i].fx * ux_[i] + by_y_[i].fx * uy_[i] + by_gain_[i].fx * gain;
-    out[i].fy = by_x_[i].fy * ux_[i] + by_y_[i].fy * uy_[i] + by_gain_[i].fy * gain;
-    out[i].torque = by_x_[i].torque * ux_[i] + by_y_[i].torque * uy_[i] + by_gain_[i].torque * gain;
+    const Wrench &x = by_x_[i], &y = by_y_[i], &turned = by_turning_[i], &all = by_gain_[i];
+    const double ux = ux_[i], uy = uy_[i], turning = turning_[i];
+    out[i].fx = x.fx * ux + y.fx * uy + turned.fx * turning + all.fx * gain;
+    out[i].fy = x.fy * ux + y.fy * uy + turned.fy * turning + all.fy * gain;
+    out[i].torque = x.torque * ux + y.torque * uy + turned.torque * turning + all.torque * gain;
   }
 }
 

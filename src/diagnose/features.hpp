@@ -36,8 +36,8 @@ class Features {
   std::vector<Feature> features_;
   std::vector<ActiveForce> drag_only_;
   std::unique_ptr<ForceSum> base_, drag_sum_;
-  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_gain_;
-  std::vector<double> ux_, uy_, probe_, none_;
+  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_turning_, by_gain_;
+  std::vector<double> ux_, uy_, turning_, probe_, turned_, none_;
   std::vector<std::vector<Wrench>> wrenches_;
 };
 

@@ -48,10 +48,11 @@ class FaceDrag final : public ForceTerm {
       DragBlock block{};
       DragSums sums;
       load_block(k, first, count, model.module.shadowing, block);
-      // Water that moves faster is a module that moves slower.
+      // Water that moves and turns faster is a module that does so slower.
       for (int i = 0; i < count && !now.ux.empty(); ++i) {
         block.vx[i] = static_cast<float>(k.vx[first + i] - now.ux[first + i]);
         block.vy[i] = static_cast<float>(k.vy[first + i] - now.uy[first + i]);
+        block.omega[i] = static_cast<float>(k.omega[first + i] - now.turning[first + i]);
       }
       settings.draw.body = static_cast<std::uint32_t>(first);
       face_drag_sums(settings, block, sums);

@@ -12,15 +12,16 @@ ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
   }
   if (stirring_.empty()) return;
   stirred_x_.resize(static_cast<std::size_t>(model.bodies()));
-  stirred_y_.resize(stirred_x_.size());
+  stirred_y_.resize(stirred_x_.size()), stirred_turning_.resize(stirred_x_.size());
 }
 
 void ForceSum::stir(const Kinematics& k, Moment& now) {
   if (stirring_.empty()) return;
   std::fill(stirred_x_.begin(), stirred_x_.end(), 0.0);
   std::fill(stirred_y_.begin(), stirred_y_.end(), 0.0);
-  now.ux = stirred_x_, now.uy = stirred_y_;
-  Stirring water{1, stirred_x_, stirred_y_, 1};
+  std::fill(stirred_turning_.begin(), stirred_turning_.end(), 0.0);
+  now.ux = stirred_x_, now.uy = stirred_y_, now.turning = stirred_turning_;
+  Stirring water{1, stirred_x_, stirred_y_, stirred_turning_, 1};
   for (const ActiveForce* force : stirring_) {
     force->term->stir(*model_, k, now, force->p, water);
     now.gain = water.gain, now.gust_gain = water.gust_gain;

@@ -24,7 +24,8 @@ class ForceSum {
   const Model* model_;
   const std::vector<ActiveForce>* forces_;
   std::vector<const ActiveForce*> stirring_, transforming_;
-  std::vector<double> stirred_x_, stirred_y_;  // m/s, [bodies] added to the water's velocity
+  // [bodies] added to the water's velocity, m/s, and rotation, rad/s.
+  std::vector<double> stirred_x_, stirred_y_, stirred_turning_;
 };
 
 }  // namespace lilytank

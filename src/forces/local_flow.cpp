@@ -29,6 +29,7 @@ class LocalFlow final : public ForceTerm {
       const double dx = k.x[i] - p[2], dy = k.y[i] - p[3];
       const double share = exp_portable(-(dx * dx + dy * dy) / (2 * p[4] * p[4]));
       water.ux[i] += p[0] * share, water.uy[i] += p[1] * share;
+      water.turning[i] += share * (dy * p[0] - dx * p[1]) / (2 * p[4] * p[4]);
     }
   }
 };

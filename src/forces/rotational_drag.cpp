@@ -15,14 +15,15 @@ class RotationalDrag final : public ForceTerm {
   std::string_view name() const override { return "rotational_drag"; }
   std::string_view summary() const override { return "the water turns a module along with itself"; }
   std::string_view equation() const override {
-    return "torque = coefficient (curl u / 2 - omega), u the mean flow";
+    return "torque = coefficient (curl u / 2 - omega), u the flow without gusts";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
-      const double turning = gradient_at(model, now, k.x[i], k.y[i]).curl() / 2;
+      double turning = gradient_at(model, now, k.x[i], k.y[i]).curl() / 2;
+      if (!now.turning.empty()) turning += now.turning[i];
       out[i].torque += p[0] * (turning - k.omega[i]);
     }
   }

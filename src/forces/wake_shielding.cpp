@@ -18,7 +18,7 @@ constexpr double kWide = 5;  // deviations beyond which the lee is nothing
 
 // The moment without what terms have added to the water so far.
 Moment still(Moment now) {
-  now.ux = now.uy = {};
+  now.ux = now.uy = now.turning = {};
   return now;
 }
 

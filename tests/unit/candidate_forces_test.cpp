@@ -16,13 +16,14 @@ using test::wrenches;
 
 // What a term does to the water at each body.
 struct Stirred {
-  std::vector<double> x, y;
+  std::vector<double> x, y, turning;
   double gain = 1, gust_gain = 1;
 };
 Stirred stirred(const Model& model, const MovingBodies& bodies, const ActiveForce& f,
                 const Moment& now) {
-  Stirred s{std::vector<double>(bodies.x.size(), 0.0), std::vector<double>(bodies.x.size(), 0.0)};
-  Stirring water{1, s.x, s.y, 1};
+  const std::vector<double> none(bodies.x.size(), 0.0);
+  Stirred s{none, none, none};
+  Stirring water{1, s.x, s.y, s.turning, 1};
   f.term->stir(model, bodies.view(), now, f.p, water);
   s.gain = water.gain, s.gust_gain = water.gust_gain;
   return s;
@@ -242,6 +243,32 @@ TEST(CandidateForces, EddiesHaveTheirDeviationTimeAndLength) {
   // A flow without divergence is longer correlated along its direction than across.
   EXPECT_GT(along / worlds / unit, std::exp(-0.5) - error);
   EXPECT_LT(across / worlds / unit, std::exp(-0.5) - 0.1);
+}
+
+// Half of the curl, by the velocities on the four sides of a module.
+TEST(CandidateForces, WaterThatIsStirredTurnsModulesByItsCurl) {
+  const Model model = uniform(0);
+  const double h = model.module.side / 2;
+  MovingBodies b(5, 0, 1, 0);
+  b.x = {0.01, 0.01 + h, 0.01 - h, 0.01, 0.01}, b.y = {0.02, 0.02, 0.02, 0.02 + h, 0.02 - h};
+  for (const auto& [term, error] :
+       {std::pair{force("correlated_gusts", {0.05, 0.5, 0.03}), 1e-9},
+        std::pair{force("local_flow", {0.1, -0.04, 0, 0, 0.2}), 2e-3}}) {  // (h / width)^2 / 2
+    const Stirred s = stirred(model, b, term, {.time = 1, .seed = 7});
+    const double curl = (s.y[1] - s.y[2] - s.x[3] + s.x[4]) / (2 * h);
+    EXPECT_NEAR(s.turning[0], curl / 2, error * std::fabs(curl)) << term.term->name();
+    EXPECT_GT(std::fabs(curl), 1e-3);
+  }
+  // A module that turns with the water feels no torque.
+  Model still = uniform(0);
+  still.flow.at = FlowAt::centre;
+  MovingBodies turning = lone(0);
+  turning.omega = {2};
+  const std::vector<double> none{0}, water{2};
+  const ActiveForce drag = force("face_drag", {0.5, 10});
+  EXPECT_EQ(wrenches(still, turning, drag, {.ux = none, .uy = none, .turning = water})[0].torque,
+            0);
+  EXPECT_LT(wrenches(still, turning, drag, {})[0].torque, -1e-9);
 }
 
 // Eddies in the place of gusts leave the water's variance what it was.
