@@ -57,6 +57,14 @@ Design design_of(const Matrix& points, const std::vector<std::vector<double>>& r
   return out;
 }
 
+Design part_of(const Design& design, int fold, int folds, bool inside) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
+    if ((i % folds == fold) == inside) rows.push_back(i);
+  }
+  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
+}
+
 double correlation_shrinkage(const Matrix& z) {
   const auto n = static_cast<double>(z.rows());
   const Matrix r = z.transpose() * z / n;

@@ -17,6 +17,9 @@ Eigen::MatrixXd scattered(const Eigen::VectorXd& centre, const Eigen::MatrixXd& 
 /// left out. Throws InputError if these are more than half.
 Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);
 
+/// The rows of one fold of a design, every `folds`-th from `fold` on, or all others.
+Design part_of(const Design& design, int fold, int folds, bool inside);
+
 /// How much correlations are drawn towards none: their summed sampling variance over their summed
 /// squares [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 2005]. `z`: an observation a
 /// row, divided by the deviations.

@@ -28,15 +28,6 @@ constexpr double kFarOff = 100;   // deviations
 constexpr double kLearned = 1.2;  // sizes
 constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
 
-// The rows of a design of one fold, or all others.
-Design part_of(const Design& design, int fold, bool inside) {
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
-    if ((i % kFolds == fold) == inside) rows.push_back(i);
-  }
-  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
-}
-
 // Scores less their mean at the parameters that the summary asks for, of every experiment by local
 // models that did not know it: as it will be with data.
 Matrix held_out_residuals(const Design& summaries, const Design& numbers) {
@@ -44,8 +35,8 @@ Matrix held_out_residuals(const Design& summaries, const Design& numbers) {
   FitBounds free;
   free.reach = kReach;
   for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel parameters(part_of(summaries, fold, false));
-    const LocalModel scores(part_of(numbers, fold, false));
+    const LocalModel parameters(part_of(summaries, fold, kFolds, false));
+    const LocalModel scores(part_of(numbers, fold, kFolds, false));
     for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
       const LocalFit fit = parameters.fit(summaries.numbers.row(i).transpose(), free);
       out.row(i) = numbers.numbers.row(i) - scores.mean(fit.point).transpose();

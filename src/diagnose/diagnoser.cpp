@@ -53,8 +53,8 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
   flow_draws = scaled(12, 12), centre = 70;
-  nulls = scaled(200, 160), experiments = scaled(6, 6), round = scaled(110, 110);
-  replicates = scaled(50, 40), comparisons = scaled(16, 12);
+  nulls = scaled(160, 140), experiments = scaled(5, 5), round = scaled(80, 80);
+  comparisons = scaled(16, 12);
 }
 
 Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& options)
@@ -64,7 +64,7 @@ Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& optio
       stages_(begin(setup_, options)) {}
 
 double Diagnoser::model_cost() const {
-  return 2 * budget_.round + budget_.replicates + 2 * budget_.comparisons;
+  return 2 * budget_.round + 2 * budget_.comparisons;
 }
 
 void Diagnoser::prepare(double after) {
@@ -119,7 +119,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "6 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "7 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

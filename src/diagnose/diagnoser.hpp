@@ -14,7 +14,7 @@ namespace lilytank {
 
 /// Simulations of each kind; ten minutes on two cores by default.
 struct DiagnosisBudget {
-  int flow_draws, centre, nulls, experiments, round, replicates, comparisons;
+  int flow_draws, centre, nulls, experiments, round, comparisons;
   explicit DiagnosisBudget(double minutes);
 };
 

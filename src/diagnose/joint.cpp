@@ -17,37 +17,54 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostRounds = 5;
-constexpr double kSettled = 1.8;          // deviations of the design
-constexpr double kReplicateSpread = 0.7;  // of replicates, as a share of the last design's
+constexpr double kSettled = 1.8;  // deviations of the design
+constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
+constexpr int kFolds = 8;
 constexpr std::uint64_t kMix = 7;
 
-// Summary and named scores, the scores by their deviations.
-Vector joined(const Vectors& v, const Atlas& atlas) {
-  const Eigen::Index named = atlas.named_numbers();
-  Vector out(v.summary.size() + named);
-  out << v.summary, v.scores.head(named).cwiseQuotient(atlas.deviations().head(named));
-  return out;
-}
+// Summary, named scores, and those of the curves that are fitted, the scores by their deviations.
+class Numbers {
+ public:
+  Numbers(const Atlas& atlas, const std::vector<JointEffect>& effects) : atlas_(atlas) {
+    for (Eigen::Index k = 0; k < atlas.named_numbers(); ++k) scores_.push_back(k);
+    for (const JointEffect& e : effects) {
+      for (int k = 0; e.shape >= 0 && k < kKnots; ++k) {
+        scores_.push_back(atlas.named_numbers() + e.shape * kKnots + k);
+      }
+    }
+  }
+  Vector operator()(const Vectors& v) const {
+    Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()));
+    out << v.summary, v.scores(scores_).cwiseQuotient(atlas_.deviations()(scores_));
+    return out;
+  }
+
+ private:
+  const Atlas& atlas_;
+  std::vector<Eigen::Index> scores_;
+};
 
 class Joint {
  public:
-  Joint(Stages& stages, const FlowMaps& maps, const Atlas& atlas, JointFit& fit)
+  Joint(Stages& stages, const FlowMaps& maps, const Atlas& atlas, const Numbers& numbers,
+        JointFit& fit)
       : stages_(stages),
         maps_(maps),
         atlas_(atlas),
+        numbers_(numbers),
         fit_(fit),
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
-  std::vector<std::vector<double>> simulate(const std::string& stage, const Matrix& points,
-                                            std::uint64_t seed) {
-    return stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+  Design simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
+    const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
       const auto field = loosened(*maps_.draw(derived_seed(seed, kMix), i), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
       if (!made) return std::vector<double>{};
-      const Vector all = joined(atlas_.vectors(*made), atlas_);
+      const Vector all = numbers_(atlas_.vectors(*made));
       return std::vector<double>(all.begin(), all.end());
     });
+    return design_of(points, rows);
   }
   std::vector<double> values(const Vector& point) const {
     std::vector<double> out;
@@ -67,24 +84,23 @@ class Joint {
   Stages& stages_;
   const FlowMaps& maps_;
   const Atlas& atlas_;
+  const Numbers& numbers_;
   JointFit& fit_;
   Emulator emulator_;
 };
 
 // The list of what is fitted, and the centre and spread of the first design.
-void begin(const Stages& stages, const std::vector<Effect>& effects,
-           const std::vector<Vector>& amplitudes, const JointStart& baseline, JointFit& fit,
-           Vector& centre, Matrix& width) {
+void begin(const Stages& stages, const std::vector<JointEffect>& effects,
+           const JointStart& baseline, JointFit& fit, Vector& centre, Matrix& width) {
   const CalibrationSetup& setup = stages.setup();
   fit.parameters = setup.parameters, fit.model = setup.model;
   std::vector<double> at(baseline.point.begin(), baseline.point.end()),
       wide(baseline.deviation.begin(), baseline.deviation.end());
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    const Effect& effect = effects[e];
+  for (const auto& [effect, amplitudes, shape] : effects) {
     std::vector<double> sizes;
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {
       const ModelParameter of = model_parameter(effect.paths[c]);
-      const double a = amplitudes[e](static_cast<Eigen::Index>(c)), size = effect.sizes[c];
+      const double a = amplitudes(static_cast<Eigen::Index>(c)), size = effect.sizes[c];
       const double absent = effect.absent(setup.model, c);
       const double value = std::clamp(absent + a * size, of.low, of.high);
       fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
@@ -103,12 +119,12 @@ void begin(const Stages& stages, const std::vector<Effect>& effects,
 }
 
 // Where the amplitudes of each effect begin among the parameters.
-std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<Effect>& effects) {
+std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<JointEffect>& effects) {
   std::vector<Eigen::Index> out;
   auto at = static_cast<Eigen::Index>(stages.setup().parameters.size());
-  for (const Effect& e : effects) {
+  for (const JointEffect& e : effects) {
     out.push_back(at);
-    at += static_cast<Eigen::Index>(e.paths.size() + e.refine.size());
+    at += static_cast<Eigen::Index>(e.effect.paths.size() + e.effect.refine.size());
   }
   return out;
 }
@@ -116,16 +132,16 @@ std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<Effe
 // The effect after the first, strongest one that the data ask for least, by Wald's distance of its
 // amplitudes from nothing; none (the list's size) if all are asked for. `point` then becomes the
 // answer without it.
-std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
+std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
                      const Matrix& covariance, double keep, Vector& point) {
   const std::vector<Eigen::Index> places = places_of(stages, effects);
   const auto size = [&](std::size_t e) {
-    return static_cast<Eigen::Index>(effects[e].paths.size());
+    return static_cast<Eigen::Index>(effects[e].effect.paths.size());
   };
   const auto off = [&](std::size_t e) {
     Vector out = point.segment(places[e], size(e));
     for (Eigen::Index c = 0; c < out.size(); ++c) {
-      out(c) -= effects[e].absent(stages.setup().model, static_cast<std::size_t>(c));
+      out(c) -= effects[e].effect.absent(stages.setup().model, static_cast<std::size_t>(c));
     }
     return out;
   };
@@ -145,14 +161,13 @@ std::size_t needless(const Stages& stages, const std::vector<Effect>& effects,
 }
 
 // What a point says of the effects: their amplitudes by their sizes, and what is refined of them.
-void read_point(const Stages& stages, const Vector& point, std::vector<Effect>& effects,
-                std::vector<Vector>& amplitudes) {
+void read_point(const Stages& stages, const Vector& point, std::vector<JointEffect>& effects) {
   const std::vector<Eigen::Index> places = places_of(stages, effects);
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    Effect& effect = effects[e];
+    Effect& effect = effects[e].effect;
     Eigen::Index at = places[e];
     for (std::size_t c = 0; c < effect.paths.size(); ++c, ++at) {
-      amplitudes[e](static_cast<Eigen::Index>(c)) =
+      effects[e].amplitudes(static_cast<Eigen::Index>(c)) =
           (point(at) - effect.absent(stages.setup().model, c)) / effect.sizes[c];
     }
     for (const FitParameter& p : effect.refine) {
@@ -180,20 +195,51 @@ Vector prior_of(const FitBounds& bounds, const Matrix& width) {
   return (kPrior * (bounds.high - bounds.low)).cwiseMax(width.diagonal());
 }
 
-// What replicates of known parameters make of the answer: estimates are drawn to the design's
-// centre by the noise of the local model's slopes, and the line through replicates' estimates tells
-// by how much.
-void tell(const LocalModel& model, const Design& replicates, const Vector& centre,
-          const Vector& prior, const Vector& data, JointFit& fit) {
+// More simulations below those that there are.
+void append(const Design& more, Design& all) {
+  if (all.points.size() == 0) {
+    all = more;
+    return;
+  }
+  const Eigen::Index before = all.points.rows();
+  all.points.conservativeResize(before + more.points.rows(), Eigen::NoChange);
+  all.numbers.conservativeResize(before + more.points.rows(), Eigen::NoChange);
+  all.points.bottomRows(more.points.rows()) = more.points;
+  all.numbers.bottomRows(more.points.rows()) = more.numbers;
+}
+
+// Simulations of all rounds that are about the centre.
+Design about(const Design& all, const Vector& centre, const Matrix& width) {
+  std::vector<Eigen::Index> near;
+  const Vector inverse = width.diagonal().cwiseInverse();
+  for (Eigen::Index i = 0; i < all.points.rows(); ++i) {
+    const Vector off = inverse.cwiseProduct(all.points.row(i).transpose() - centre);
+    if (off.squaredNorm() <= kOverlap * kOverlap * static_cast<double>(off.size())) {
+      near.push_back(i);
+    }
+  }
+  return {all.points(near, Eigen::all), all.numbers(near, Eigen::all)};
+}
+
+// Answers are drawn to the design's centre by the noise of the local model's slopes. Each
+// simulation is estimated by a model that did not know it: their estimates are a line in the truth,
+// and its inverse at the data's estimate by the same models gives the values.
+void tell(const Design& design, const Vector& centre, const Vector& prior, const Vector& data,
+          JointFit& fit) {
   FitBounds free;
   free.reach = 5;
-  const Eigen::Index n = replicates.points.rows();
-  Matrix estimates(n, centre.size());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    estimates.row(i) = model.fit(replicates.numbers.row(i).transpose(), free).point;
+  Matrix estimates(design.points.rows(), centre.size());
+  Vector answer = Vector::Zero(centre.size());
+  for (int fold = 0; fold < kFolds; ++fold) {
+    const LocalModel model(part_of(design, fold, kFolds, false), Misfit::covariance,
+                           Slopes::shrunk);
+    for (Eigen::Index i = fold; i < estimates.rows(); i += kFolds) {
+      estimates.row(i) = model.fit(design.numbers.row(i).transpose(), free).point;
+    }
+    answer += model.fit(data, free).point / kFolds;
   }
-  const Line line = line_through(replicates.points.rowwise() - centre.transpose(), estimates);
-  const Scatter scatter = scatter_of(line, centre, model.fit(data, free).point, prior);
+  const Line line = line_through(design.points.rowwise() - centre.transpose(), estimates);
+  const Scatter scatter = scatter_of(line, centre, answer, prior);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];
@@ -207,57 +253,54 @@ void tell(const LocalModel& model, const Design& replicates, const Vector& centr
 }  // namespace
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
-                     std::vector<Effect> effects, std::vector<Vector> amplitudes,
-                     const Vectors& observed, const JointStart& baseline, int round, int replicates,
-                     double keep, const std::string& tag, std::uint64_t seed) {
+                     std::vector<JointEffect> effects, const Vectors& observed,
+                     const JointStart& baseline, int round, double keep, const std::string& tag,
+                     std::uint64_t seed) {
   JointFit fit;
   for (std::size_t e = 0; e < effects.size(); ++e) fit.kept.push_back(e);
   Vector centre;
   Matrix width;
-  begin(stages, effects, amplitudes, baseline, fit, centre, width);
+  begin(stages, effects, baseline, fit, centre, width);
   FitBounds bounds = bounds_of(fit);
-  std::optional<Joint> joint(std::in_place, stages, maps, atlas, fit);
-  const Vector data = joined(observed, atlas);
-  std::optional<LocalModel> model;
-  LocalFit answer;
+  const Numbers numbers(atlas, effects);
+  const Vector data = numbers(observed);
+  std::optional<Joint> joint(std::in_place, stages, maps, atlas, numbers, fit);
+  Design all, design;
   int most = kMostRounds;
-  for (int k = 1; k <= most && !fit.settled; ++k) {
+  for (int k = 1; k <= most; ++k) {
     const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
-    const Matrix points = scattered(centre, width, round, bounds, own);
-    const std::string stage = "joint " + tag + " " + std::to_string(k);
-    model.emplace(design_of(points, joint->simulate(stage, points, own)), Misfit::covariance,
-                  Slopes::shrunk);
+    append(joint->simulate("joint " + tag + " " + std::to_string(k),
+                           scattered(centre, width, round, bounds, own), own),
+           all);
+    design = about(all, centre, width);
+    const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
     FitBounds near = bounds;
     near.reach = 2.5;
     Vector expected = centre;
     expected.head(baseline.expected.size()) = baseline.expected;
-    const KnownFit known = model->fit(data, near, {expected, prior_of(bounds, width)});
-    answer = known.fit;
-    Vector point = answer.point;
+    const KnownFit known = model.fit(data, near, {expected, prior_of(bounds, width)});
+    Vector point = known.fit.point;
     const std::size_t dropped =
         needless(stages, effects, known.covariance / known.doubt, keep, point);
     if (dropped < effects.size()) {
-      read_point(stages, point, effects, amplitudes);
+      read_point(stages, point, effects);
       const auto at = static_cast<std::ptrdiff_t>(dropped);
-      effects.erase(effects.begin() + at), amplitudes.erase(amplitudes.begin() + at);
-      fit.kept.erase(fit.kept.begin() + at);
-      begin(stages, effects, amplitudes,
+      effects.erase(effects.begin() + at), fit.kept.erase(fit.kept.begin() + at);
+      begin(stages, effects,
             {baseline.expected, point.head(baseline.point.size()), baseline.deviation}, fit, centre,
             width);
       bounds = bounds_of(fit);
       centre = centre.cwiseMax(bounds.low).cwiseMin(bounds.high);
-      joint.emplace(stages, maps, atlas, fit);
-      ++most;
+      joint.emplace(stages, maps, atlas, numbers, fit);
+      all = {}, ++most;
       continue;
     }
-    const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(answer.point - centre);
-    fit.settled = !answer.at_reach && moved.cwiseAbs().maxCoeff() < kSettled;
-    if (!fit.settled) centre = answer.point;
+    const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(point - centre);
+    fit.settled = !known.fit.at_reach && moved.cwiseAbs().maxCoeff() < kSettled;
+    if (fit.settled || k == most) break;
+    centre = point;
   }
-  const std::uint64_t own = derived_seed(seed, 99);
-  const Matrix points = scattered(answer.point, kReplicateSpread * width, replicates, bounds, own);
-  tell(*model, design_of(points, joint->simulate("joint " + tag + " replicates", points, own)),
-       answer.point, prior_of(bounds, width), data, fit);
+  tell(design, centre, prior_of(bounds, width), data, fit);
   return fit;
 }
 

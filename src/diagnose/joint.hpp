@@ -27,15 +27,21 @@ struct JointStart {
   Eigen::VectorXd point, deviation;  ///< where the first design is, and how wide
 };
 
+/// An effect that was found, and how much of it.
+struct JointEffect {
+  Effect effect;
+  Eigen::VectorXd amplitudes;  ///< the naming's, in units of the effect's sizes
+  int shape = -1;              ///< the plan's, if it is one: then its own scores speak as well
+};
+
 /// Effects are dropped, weakest first, that the data no longer ask for once everything is fitted
 /// together: a name may have stood for a baseline that another effect had pushed aside. At least
-/// one is kept. `keep`: z by which an effect's amplitudes must differ from nothing. `amplitudes`:
-/// the naming's, in units of each effect's sizes. `baseline`: where its parameters are expected
-/// beside them, and how surely (deviations of the first design). `round`: simulations of a round;
-/// `replicates`: for the intervals. `tag`: for the names of what is kept.
+/// one is kept. `keep`: z by which an effect's amplitudes must differ from nothing. `baseline`:
+/// where its parameters are expected beside them, and how surely (deviations of the first design).
+/// `round`: simulations of a round. `tag`: for the names of what is kept.
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
-                     std::vector<Effect> effects, std::vector<Eigen::VectorXd> amplitudes,
-                     const Vectors& observed, const JointStart& baseline, int round, int replicates,
-                     double keep, const std::string& tag, std::uint64_t seed);
+                     std::vector<JointEffect> effects, const Vectors& observed,
+                     const JointStart& baseline, int round, double keep, const std::string& tag,
+                     std::uint64_t seed);
 
 }  // namespace lilytank

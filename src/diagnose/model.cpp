@@ -42,35 +42,36 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
                          setup_.parameters[i].unit + ", fitted along");
   }
   if (out.verdict != Verdict::missing) return;
-  std::vector<Effect> effects;
-  std::vector<Vector> amplitudes;
+  std::vector<JointEffect> found;
   // Where the effects left the baseline, less how far they had moved it.
   Vector moved = Vector::Zero(baseline.point.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
-    effects.push_back(f.effect >= 0
-                          ? atlas_->plan().effects[static_cast<std::size_t>(f.effect)]
-                          : effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]));
-    amplitudes.push_back(f.amplitudes);
-    if (effects.back().name == "flow_pulsation") {
-      effects.back().shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
+    const ScorePlan& plan = atlas_->plan();
+    Effect effect = f.effect >= 0 ? plan.effects[static_cast<std::size_t>(f.effect)]
+                                  : effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
+    if (effect.name == "flow_pulsation") {
+      effect.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
     }
-    if (effects.back().name == "heterogeneous_module") {
-      effects.back().shape = {
+    if (effect.name == "heterogeneous_module") {
+      effect.shape = {
           {"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
     }
+    found.push_back({std::move(effect), f.amplitudes, f.shape});
   }
   const FitBounds bounds = stages_.bounds();
   const JointStart start{stages_.to_scale(setup_.start),
                          (baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, effects, amplitudes, observed, start,
-                                   budget_.round, budget_.replicates, naming_->effect_threshold(),
-                                   judged.tag, derived_seed(options_.seed, 700));
+  const JointFit fit =
+      fit_jointly(stages_, *maps_, *atlas_, found, observed, start, budget_.round,
+                  naming_->effect_threshold(), judged.tag, derived_seed(options_.seed, 700));
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
-  keep_only(fit.kept, out.findings), keep_only(fit.kept, effects);
+  keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
+  std::vector<Effect> effects;
+  for (const JointEffect& one : found) effects.push_back(one.effect);
   tell_parameters(fit, effects, out);
   show(fit, before, held_out, out);
 }

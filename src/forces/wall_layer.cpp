@@ -13,6 +13,8 @@ constexpr Parameter kParameters[] = {
     {"thickness", "m", 0.01, 0.001, 0.1, "distance from the wall over which the layer falls by e"},
 };
 
+constexpr double kNothing = 1e-9;
+
 class WallLayer final : public ForceTerm {
  public:
   std::string_view name() const override { return "wall_layer"; }
@@ -29,9 +31,14 @@ class WallLayer final : public ForceTerm {
     for (int i = 0; i < k.size(); ++i) {
       const double r = std::sqrt(k.x[i] * k.x[i] + k.y[i] * k.y[i]);
       const double depth = std::fmax(0, model.tank.radius - r);
-      const Vec2 missing =
-          p[0] * exp_portable(-depth / p[1]) * mean_flow(model, now, k.x[i], k.y[i]);
-      water.ux[i] -= missing.x(), water.uy[i] -= missing.y();
+      const double fall = exp_portable(-depth / p[1]), share = p[0] * fall;
+      if (!(fall > kNothing)) continue;
+      const Vec2 flow = mean_flow(model, now, k.x[i], k.y[i]);
+      water.ux[i] -= share * flow.x(), water.uy[i] -= share * flow.y();
+      // Half the curl of what is missing: the flow's own, and the layer's fall across the stream.
+      const double around = r > 0 ? (k.x[i] * flow.y() - k.y[i] * flow.x()) / r : 0;
+      const double curl = gradient_at(model, now, k.x[i], k.y[i]).curl() + around / p[1];
+      water.turning[i] -= 0.5 * share * curl;
     }
   }
 };

@@ -27,7 +27,8 @@ std::vector<Scene> scenes() {
           {"moment-matched gusts", test::drawn_scene(Gusts::moment_matched, FlowAt::points), 30,
            "b80ad9a98e0a1110"},
           {"one gust a module", test::drawn_scene(Gusts::per_module, FlowAt::centre), 30,
-           "20f884eea9b5e777"}};
+           "20f884eea9b5e777"},
+          {"eddies and streams", test::stirred_scene(), 30, "feafce8b069891a3"}};
 }
 
 std::string final_hash(const Model& model, std::uint64_t seed, double seconds) {

@@ -44,4 +44,15 @@ inline Model drawn_scene(Gusts gusts, FlowAt at) {
   return model;
 }
 
+/// The same in eddies and local streams.
+inline Model stirred_scene() {
+  Model model = drawn_scene(Gusts::per_point, FlowAt::points);
+  for (const char* name : {"correlated_gusts", "local_flow", "wall_layer"}) {
+    ActiveForce force = with_defaults(*find_force(name));
+    force.p[0] = 0.05;
+    model.forces.push_back(force);
+  }
+  return model;
+}
+
 }  // namespace lilytank::test
