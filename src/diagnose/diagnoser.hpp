@@ -65,6 +65,8 @@ class Diagnoser {
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
   Fingerprint shape_fingerprint(int shape);
+  Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
+                           const Eigen::VectorXd& residual) const;
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
                                const Judged& judged, int number);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,

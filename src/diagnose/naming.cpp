@@ -21,6 +21,7 @@ constexpr int kMostEffects = 3;
 constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
 constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
                                    // are known to some per cent only
+constexpr double kRough = 0.2;     // the same of a curve: six straight pieces are off by more
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 constexpr double kPrice = 4;          // of an amplitude, in squared distance
 constexpr double kMostSize = 6;       // sizes beyond which a fingerprint is no guide
@@ -348,17 +349,17 @@ std::size_t Naming::best(const Vector& all, double floor, const std::vector<Effe
 Explanation Naming::explain(const Vector& residual) const {
   Explanation out;
   Vector all = whitened(residual - centre_);
-  double explained = 0;
+  double floor = 0;
   for (int round = 0;; ++round) {
     EffectFit chosen;
-    const std::size_t k = best(all, kInexact * explained, out.found, chosen, out.left_effect);
+    const std::size_t k = best(all, floor, out.found, chosen, out.left_effect);
     out.left_shape = strongest_shape(all);
     if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
     if (k == known_.size() || round == kMostEffects) break;
     const Known& of = known_[k];
     all -= of.all.at(chosen.amplitudes);
     chosen.moved = of.source.moved(chosen.amplitudes);
-    explained = std::max(explained, chosen.z);
+    floor = std::max(floor, (chosen.shape >= 0 ? kRough : kInexact) * chosen.z);
     out.found.push_back(chosen);
   }
   return out;

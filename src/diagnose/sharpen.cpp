@@ -1,5 +1,6 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
+#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 
@@ -65,6 +66,15 @@ Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& b
       derived_seed(options_.seed, 900 + static_cast<std::uint64_t>(number)));
 }
 
+// A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
+// numbers would lead astray.
+Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
+                           const Vector& residual) const {
+  const Eigen::Index first = atlas_->named_numbers() + shape * kKnots;
+  const Eigen::MatrixXd own = fingerprint.first.middleRows(first, kKnots);
+  return own.colPivHouseholderQr().solve(residual.segment(first, kKnots));
+}
+
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
 // experiments of its own strength. First those that might be it, then whatever leads.
 Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
@@ -72,19 +82,20 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
   if (e.found.empty() || e.found[0].z < kStrong || plain(naming, e, residual)) return e;
   std::map<std::pair<int, int>, Fingerprint> known;
   int asked = 0;
-  const auto sharpen = [&](const EffectFit& f) {
+  const auto sharpen = [&](EffectFit f) {
     const auto before = known.find({f.effect, f.shape});
     const Fingerprint from = before != known.end() ? before->second
                              : f.effect >= 0
                                  ? atlas_->fingerprints()[static_cast<std::size_t>(f.effect)]
                                  : shape_fingerprint(f.shape);
+    if (f.shape >= 0 && before == known.end()) f.amplitudes = knots_of(f.shape, from, residual);
     const Fingerprint to = fingerprint_near(f, from, judged, asked++);
     known[{f.effect, f.shape}] = to;
     naming.sharpen(f, to);
   };
   const auto blunt = [&](const EffectFit& f) {
     const bool told = known.count({f.effect, f.shape}) > 0;
-    return f.amplitudes.norm() > kLeastAmplitude && (!told || (f.at_reach && f.effect >= 0));
+    return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
   };
   for (const EffectFit& f : naming.leading(residual, kRivals)) {
     if (blunt(f)) sharpen(f);
