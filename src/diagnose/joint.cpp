@@ -19,6 +19,7 @@ using Vector = Eigen::VectorXd;
 constexpr int kMostRounds = 5;
 constexpr double kSettled = 1.8;  // deviations of the design
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
+constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kFolds = 8;
 constexpr std::uint64_t kMix = 7;
 
@@ -210,6 +211,7 @@ void append(const Design& more, Design& all) {
 
 // Simulations of all rounds that are about the centre.
 Design about(const Design& all, const Vector& centre, const Matrix& width) {
+  if (all.points.size() == 0) return all;
   std::vector<Eigen::Index> near;
   const Vector inverse = width.diagonal().cwiseInverse();
   for (Eigen::Index i = 0; i < all.points.rows(); ++i) {
@@ -269,8 +271,11 @@ JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
   int most = kMostRounds;
   for (int k = 1; k <= most; ++k) {
     const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
+    // Where rounds before have been as well, fewer will do.
+    const bool known_ground = 2 * about(all, centre, width).points.rows() >= round;
+    const int count = known_ground ? static_cast<int>(kLater * round) : round;
     append(joint->simulate("joint " + tag + " " + std::to_string(k),
-                           scattered(centre, width, round, bounds, own), own),
+                           scattered(centre, width, count, bounds, own), own),
            all);
     design = about(all, centre, width);
     const LocalModel model(design, Misfit::covariance, Slopes::shrunk);

@@ -23,6 +23,7 @@ constexpr double kInexact = 0.12;  // share of what was found that a remainder m
                                    // are known to some per cent only
 constexpr double kRough = 0.2;     // the same of a curve: six straight pieces are off by more
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
+constexpr double kCurve = 0.85;       // of a curve's gain: it may bend to what names leave
 constexpr double kPrice = 4;          // of an amplitude, in squared distance
 constexpr double kMostSize = 6;       // sizes beyond which a fingerprint is no guide
 // How far from its own amplitudes a fingerprint about found ones holds.
@@ -338,7 +339,8 @@ std::size_t Naming::best(const Vector& all, double floor, const std::vector<Effe
         one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
     if (one.z <= std::max(effect_threshold_, floor) && !own) continue;
     EffectFit whole = fit_all(known_[k], all);
-    const double gain = whole.gain - kPrice * static_cast<double>(whole.amplitudes.size());
+    double gain = whole.gain - kPrice * static_cast<double>(whole.amplitudes.size());
+    if (whole.shape >= 0) gain *= kCurve;
     if (gain <= most) continue;
     whole.z = own ? std::max(one.z, shape.z) : one.z;
     most = gain, index = k, out = whole;

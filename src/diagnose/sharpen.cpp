@@ -1,6 +1,6 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 
@@ -15,6 +15,7 @@ using Vector = Eigen::VectorXd;
 constexpr double kStrong = 10;  // z above which fingerprints must be sharper than they are
 constexpr double kLeastAmplitude = 0.2, kRival = 0.5, kNear = 0.85;
 constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
+constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
 constexpr int kRivals = 3, kMostSharpened = 6;
 
 }  // namespace
@@ -67,12 +68,16 @@ Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& b
 }
 
 // A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
-// numbers would lead astray.
+// numbers would lead astray. Knots that bodies hardly visit stay near nothing.
 Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
                            const Vector& residual) const {
   const Eigen::Index first = atlas_->named_numbers() + shape * kKnots;
   const Eigen::MatrixXd own = fingerprint.first.middleRows(first, kKnots);
-  return own.colPivHouseholderQr().solve(residual.segment(first, kKnots));
+  const Vector scores = residual.segment(first, kKnots);
+  const double error = 1 + kInexact * kInexact * scores.squaredNorm() / kKnots;
+  Eigen::MatrixXd normal = own.transpose() * own;
+  normal.diagonal().array() += error / (kUsual * kUsual);
+  return normal.ldlt().solve(own.transpose() * scores);
 }
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
