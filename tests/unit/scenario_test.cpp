@@ -1,61 +1,16 @@
 #include "lilytank/scenario.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <fstream>
 
 #include "io/scenario_keys.hpp"
 #include "io/scenario_values.hpp"
-#include "support/temporary_directory.hpp"
+#include "support/scenario_files.hpp"
 
 namespace lilytank {
 namespace {
 
-using Texts = std::vector<std::string>;
-
-class ScenarioTest : public testing::Test {
- protected:
-  /// Loads one file of this content.
-  Scenario load(const std::string& content, const Texts& sets = {}) const {
-    return load_scenario({dir_.write("s.toml", content)}, sets);
-  }
-  std::string refusal(const std::string& content, const Texts& sets = {}) const {
-    try {
-      load(content, sets);
-    } catch (const InputError& e) {
-      // Without the temporary directory's name.
-      std::string what = e.what();
-      for (auto at = what.find(dir_.path()); at != std::string::npos; at = what.find(dir_.path())) {
-        what.erase(at, dir_.path().size());
-      }
-      return what;
-    }
-    return "(accepted)";
-  }
-  static const ScenarioEntry& entry(const Scenario& scenario, const std::string& path) {
-    const auto found = std::find_if(scenario.entries.begin(), scenario.entries.end(),
-                                    [&](const ScenarioEntry& e) { return e.path == path; });
-    EXPECT_NE(found, scenario.entries.end()) << path;
-    return *found;
-  }
-  static double parameter(const Scenario& scenario, const std::string& term, std::size_t i) {
-    for (const ActiveForce& force : scenario.model.forces) {
-      if (force.term->name() == term) return force.p.at(i);
-    }
-    ADD_FAILURE() << term << " is not on";
-    return 0;
-  }
-  static bool is_on(const Scenario& scenario, const std::string& term) {
-    return std::any_of(scenario.model.forces.begin(), scenario.model.forces.end(),
-                       [&](const ActiveForce& force) { return force.term->name() == term; });
-  }
-  TemporaryDirectory dir_;
-};
-
-const std::string kRules =
-    "lilytank ruleset 1\nname pair\nhops counter-clockwise\ntarget\n  ##\nend\n"
-    "join: (0,0) (0,0) -> (1,1)-(2,1)  p=1\npart: (1,1)-(2,1) -> (0,0) (0,0)  p=0.5\n";
+using test::kRules;
+using test::ScenarioTest;
 
 TEST_F(ScenarioTest, EmptyFileIsTheStandardModel) {
   const Scenario s = load("");
@@ -270,150 +225,6 @@ TEST_F(ScenarioTest, TheManualListsEveryKeyWithItsDefault) {
     const std::string row = "| `" + key.path + "` | " + value_text(key);
     EXPECT_NE(manual.find(row), std::string::npos) << row;
   }
-}
-
-struct Refusal {
-  std::string content, message;
-};
-
-// Every message of the loader, once. Places count from 1.
-TEST_F(ScenarioTest, RefusesWithPlaceAndAdvice) {
-  const std::vector<Refusal> all{
-      {"\n[forces.face_drag]\nK_f = 1\n",
-       "s.toml:3:1: unknown key 'forces.face_drag.K_f' - did you mean 'K_F'?"},
-      {"[forces.face_drga]\nK_F = 1\n",
-       "s.toml:1:9: unknown key 'forces.face_drga.K_F' - did you mean 'face_drag'?"},
-      {"[forces.face_drga]\n",
-       "s.toml:1:9: unknown key 'forces.face_drga' - did you mean 'face_drag'?"},
-      {"radius = 1\n", "s.toml:1:1: unknown key 'radius' - did you mean 'tank.radius'?"},
-      {"[tank]\nviscosity = 1\n", "s.toml:2:1: unknown key 'tank.viscosity' - 'tank' has radius"},
-      {"[tank]\nradius.x = 1\n", "s.toml:2:8: 'tank.radius' is a value and has no 'x'"},
-      {"tank = 1\n", "s.toml:1:8: 'tank' is a table with radius"},
-      {"[tank]\n\nradius = 300\n",
-       "s.toml:3:10: tank.radius = 300 m is outside 0.05 .. 5 m - if this is in mm, write \"300 "
-       "mm\""},
-      {"[tank]\nradius = \"300 m\"\n", "s.toml:2:10: tank.radius = 300 m is outside 0.05 .. 5 m"},
-      {"[tank]\nradius = \"3 km\"\n",
-       "s.toml:2:10: tank.radius = 3 km (3000 m) is outside 0.05 .. 5 m"},
-      {"[tank]\nradius = \"3 kg\"\n", "s.toml:2:10: tank.radius is a length in m; 'kg' is not"},
-      {"[tank]\nradius = true\n", "s.toml:2:10: tank.radius is a length in m, not a switch"},
-      {"[tank]\nradius = [1]\n", "s.toml:2:10: tank.radius is a length in m, not a list"},
-      {"[tank]\nradius = nan\n", "s.toml:2:10: tank.radius = nan is not a finite number"},
-      {"[tank]\nradius = -inf\n", "s.toml:2:10: tank.radius = -inf is not a finite number"},
-      {"[run]\nseed = 1.5\n", "s.toml:2:8: run.seed is a whole number; 1.5 is not"},
-      {"[run]\nseed = -1\n", "s.toml:2:8: run.seed = -1 is outside 0 .. 1e+18"},
-      {"[control]\nreply_ticks = 254\n",
-       "s.toml:2:15: control.reply_ticks = 254 is outside 1 .. 253"},
-      {"[run]\nseed = \"1\"\n", "s.toml:2:8: run.seed is a whole number, not text"},
-      {"[module]\nshadowing = 1\n",
-       "s.toml:2:13: module.shadowing is a switch, true or false, not a whole number"},
-      {"title = 1979-05-27\n", "s.toml:1:9: title is text in quotes, not a date or time"},
-      {"[flow]\ngusts = \"per_modul\"\n",
-       "s.toml:2:9: flow.gusts = \"per_modul\" is none of per_point, per_module, moment_matched - "
-       "did you mean "
-       "'per_module'?"},
-      {"[forces.stochastic]\nsigma_stoch = 126.82\n",
-       "s.toml:2:15: forces.stochastic.sigma_stoch = 126.82 N is outside 0 .. 1 N - the paper's "
-       "table is in 1e-4 N: write 0.012682, in N"},
-      {"[forces.face_drag]\nsegments = 2.5\n",
-       "s.toml:2:12: forces.face_drag.segments is a whole number; 2.5 is not"},
-      {"[run]\ndt = 0.007\n",
-       "s.toml:2:6: run.dt = 0.007 s is not 25 ms divided by a whole number - the nearest is "
-       "0.00625 s, 25 ms / 4"},
-      {"[module]\ncount = 0\n",
-       "s.toml:2:9: there is nothing to simulate: module.count and ball.count are both 0"},
-      {"[start]\nradius = 0.4\n",
-       "s.toml:2:10: start.radius = 0.4 m is beyond tank.radius = 0.3 m"},
-      {"[start]\nlayout = \"lattice\"\ndistance = 0.02\n",
-       "s.toml:3:12: start.distance = 0.02 m: bodies of 0.035 m would overlap on the lattice"},
-      {"[start]\nlayout = \"poses\"\n", "s.toml:2:10: start.layout = \"poses\" needs start.file"},
-      {"[flow]\nsource = \"file\"\n", "s.toml:2:10: flow.source = \"file\" needs flow.file"},
-      {"[flow]\nfile = \"no.csv\"\n",
-       "s.toml:2:8: cannot read 'no.csv': No such file or directory"},
-      {"[ruleset]\nfile = \"no.rules\"\n",
-       "s.toml:2:8: cannot read 'no.rules': No such file or directory"},
-      {"command = 3\n",
-       "s.toml:1:11: command is a list of tables, each under its own line [[command]]"},
-      {"[[command]]\ndo = \"pause\"\n",
-       "s.toml:1:1: command.at is missing: when, as 3600 or \"1 h\" - or command.copies, as 2"},
-      {"[[command]]\nat = 1\ncopies = 1\ndo = \"ruleset\"\n",
-       "s.toml:3:10: a command has either a time, at, or copies"},
-      {"[[command]]\ncopies = 1.5\ndo = \"pump_power\"\n",
-       "s.toml:2:10: command.copies = 1.5 is not 1, 2, 3, ..."},
-      {"[[command]]\ncopies = 1\ndo = \"pause\"\n",
-       "s.toml:2:10: command.copies goes with do = \"ruleset\" and \"pump_power\" only"},
-      {"[[command]]\nat = 1\ndo = \"pump_power\"\n",
-       "s.toml:1:1: command.power is missing: how much, as \"50 %\""},
-      {"[[command]]\nat = 1\ndo = \"pump_power\"\npower = 120\n",
-       "s.toml:4:9: command.power = 120 % is outside 0 .. 100 %"},
-      {"[[command]]\nat = 1\n", "s.toml:1:1: command.do is missing: what, as \"pause\""},
-      {"[[command]]\nat = -1\ndo = \"pause\"\n",
-       "s.toml:2:6: command.at = -1 s is outside 0 .. 1e+08 s"},
-      {"[[command]]\nat = \"1 m\"\n", "s.toml:2:6: command.at is a time in s; 'm' is not"},
-      {"[[command]]\nat = 1\ndo = \"paus\"\n",
-       "s.toml:3:6: command.do = \"paus\" is none of pause, resume, switch_off, ruleset, query, "
-       "pump_power - "
-       "did you mean 'pause'?"},
-      {"[[command]]\nat = 1\ndo = \"pause\"\nmoduls = [1]\n",
-       "s.toml:4:1: unknown key 'command.moduls' - did you mean 'modules'?"},
-      {"[[command]]\nat = 1\ndo = \"pause\"\nmodules = [15]\n",
-       "s.toml:4:11: command.modules names 15; modules are numbered 0 .. 14"},
-      {"[[command]]\nat = 1\ndo = \"pause\"\nmodules = 1\n",
-       "s.toml:4:11: command.modules is a list of module numbers, not a whole number"},
-      {"[[command]]\nat = 1\ndo = \"pause\"\nfile = \"x\"\n",
-       "s.toml:4:8: command.file goes with do = \"ruleset\" only"},
-      {"[[command]]\nat = 1\ndo = \"ruleset\"\n",
-       "s.toml:1:1: command.file is missing: the ruleset to go on with"},
-      {"[[command]]\nat = 1\ndo = \"ruleset\"\nfile = \"no.rules\"\n",
-       "s.toml:4:8: cannot read 'no.rules': No such file or directory"},
-  };
-  for (const Refusal& r : all) EXPECT_EQ(refusal(r.content), r.message) << r.content;
-}
-
-TEST_F(ScenarioTest, SyntaxErrorsHaveTheirLine) {
-  EXPECT_TRUE(refusal("[tank]\nradius = = 1\n").starts_with("s.toml:2:"));
-  EXPECT_TRUE(refusal("[tank]\nradius = 1\nradius = 2\n").starts_with("s.toml:3:"));
-  EXPECT_TRUE(refusal("[tank\n").starts_with("s.toml:1:"));
-  EXPECT_EQ(refusal("title = \"\xff\"\n").find('\n'), std::string::npos);  // one line
-}
-
-TEST_F(ScenarioTest, RefusesBadSets) {
-  EXPECT_EQ(refusal("", {"tank.radius"}),
-            "--set tank.radius: write --set path=value, as in --set tank.radius=0.3");
-  EXPECT_EQ(refusal("", {"tank radius=3"}),
-            "--set tank radius=3: 'tank radius' is not a path such as tank.radius");
-  EXPECT_EQ(refusal("", {"base=x.toml"}), "--set base=x.toml: 'base' can be given in files only");
-  EXPECT_EQ(refusal("", {"tank.radius=300"}),
-            "--set tank.radius=300: tank.radius = 300 m is outside 0.05 .. 5 m - if this is in mm, "
-            "write \"300 mm\"");
-  EXPECT_EQ(refusal("", {"tank.raduis=1"}),
-            "--set tank.raduis=1: unknown key 'tank.raduis' - did you mean 'radius'?");
-  EXPECT_EQ(load("", {"title=7"}).title, "7");
-  EXPECT_EQ(load("", {"title=two words"}).title, "two words");
-  EXPECT_EQ(load("", {"tank.radius=25 cm"}).model.tank.radius, 0.25);
-}
-
-TEST_F(ScenarioTest, RefusesFilesThatDoNotFit) {
-  dir_.write("r.rules", kRules);
-  dir_.write("p.csv", "id,x,y,theta\n0,0,0,0\n");
-  EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"), "p.csv: 1 poses for 15 bodies");
-  dir_.write("p.csv", "id,x,y,theta\n0,0,0,nan\n");
-  EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"),
-            "p.csv:2:7: theta 'nan' is not a finite number");
-  dir_.write("p.csv", "id,x,y,theta\n1,0,0,0\n");
-  EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"), "p.csv:2:1: id '1' instead of 0");
-  dir_.write("p.csv", "id,x,y,theta\n0,0,0\n");
-  EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"), "p.csv:2:1: 3 columns instead of 4");
-  dir_.write("p.csv", "x,y\n");
-  EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"),
-            "p.csv:1:1: the first line is not \"id,x,y,theta\"");
-  EXPECT_EQ(refusal("[[command]]\nat = 1\ndo = \"ruleset\"\nfile = \"r.rules\"\n"),
-            "command: a command replaces the ruleset, but no ruleset.file is set to begin with");
-  EXPECT_EQ(refusal("[[command]]\ncopies = 1\ndo = \"pump_power\"\npower = 5\n"),
-            "command: command.copies needs a ruleset.file");
-  EXPECT_EQ(refusal("[flow]\nsource = \"still\"\n"
-                    "[[command]]\nat = 1\ndo = \"pump_power\"\npower = 5\n"),
-            "s.toml:2:10: still water has no pumps to set");
 }
 
 }  // namespace
