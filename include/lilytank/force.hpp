@@ -87,7 +87,8 @@ class ForceTerm {
   }
   /// Whether stir() does anything.
   virtual bool stirs() const { return false; }
-  /// Changes the water that all other terms see: multiplies `water.gain`, adds to its velocities.
+  /// Changes the water that all other terms see: multiplies `water.gain`, adds to its velocities
+  /// and its rotation, which are to agree: bodies turn with half the curl of what moves them.
   /// Called before any add(); `now` holds what terms before this one did. Never throws or
   /// allocates.
   virtual void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,

@@ -57,10 +57,10 @@ Design design_of(const Matrix& points, const std::vector<std::vector<double>>& r
   return out;
 }
 
-Design part_of(const Design& design, int fold, int folds, bool inside) {
+Design without_fold(const Design& design, int fold, int folds) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
-    if ((i % folds == fold) == inside) rows.push_back(i);
+    if (i % folds != fold) rows.push_back(i);
   }
   return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
 }

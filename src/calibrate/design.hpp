@@ -17,8 +17,8 @@ Eigen::MatrixXd scattered(const Eigen::VectorXd& centre, const Eigen::MatrixXd& 
 /// left out. Throws InputError if these are more than half.
 Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);
 
-/// The rows of one fold of a design, every `folds`-th from `fold` on, or all others.
-Design part_of(const Design& design, int fold, int folds, bool inside);
+/// All rows but those of one fold, which are every `folds`-th from `fold` on.
+Design without_fold(const Design& design, int fold, int folds);
 
 /// How much correlations are drawn towards none: their summed sampling variance over their summed
 /// squares [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 2005]. `z`: an observation a

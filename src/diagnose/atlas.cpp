@@ -35,8 +35,8 @@ Matrix held_out_residuals(const Design& summaries, const Design& numbers) {
   FitBounds free;
   free.reach = kReach;
   for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel parameters(part_of(summaries, fold, kFolds, false));
-    const LocalModel scores(part_of(numbers, fold, kFolds, false));
+    const LocalModel parameters(without_fold(summaries, fold, kFolds));
+    const LocalModel scores(without_fold(numbers, fold, kFolds));
     for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
       const LocalFit fit = parameters.fit(summaries.numbers.row(i).transpose(), free);
       out.row(i) = numbers.numbers.row(i) - scores.mean(fit.point).transpose();

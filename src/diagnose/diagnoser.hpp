@@ -78,7 +78,7 @@ class Diagnoser {
   void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                      Diagnosis& out) const;
   void blame_camera(const Explanation& e, Diagnosis& out) const;
-  void tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
+  void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                        Diagnosis& out) const;
   void show(const JointFit& fit, const std::vector<double>& before,
             const std::vector<Recording>& recordings, Diagnosis& out);

@@ -233,8 +233,7 @@ void tell(const Design& design, const Vector& centre, const Vector& prior, const
   Matrix estimates(design.points.rows(), centre.size());
   Vector answer = Vector::Zero(centre.size());
   for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel model(part_of(design, fold, kFolds, false), Misfit::covariance,
-                           Slopes::shrunk);
+    const LocalModel model(without_fold(design, fold, kFolds), Misfit::covariance, Slopes::shrunk);
     for (Eigen::Index i = fold; i < estimates.rows(); i += kFolds) {
       estimates.row(i) = model.fit(design.numbers.row(i).transpose(), free).point;
     }

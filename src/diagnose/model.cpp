@@ -70,35 +70,33 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
   keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
-  std::vector<Effect> effects;
-  for (const JointEffect& one : found) effects.push_back(one.effect);
-  tell_parameters(fit, effects, out);
+  tell_parameters(fit, found, out);
   show(fit, before, held_out, out);
 }
 
-void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<Effect>& effects,
+void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                                 Diagnosis& out) const {
   for (std::size_t i = 0; i < out.parameters.size(); ++i) {
     out.parameters[i].with_effects = fit.value[i];
     out.parameters[i].low = fit.low[i], out.parameters[i].high = fit.high[i];
   }
   std::size_t at = setup_.parameters.size();
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    const std::size_t count = effects[e].paths.size() + effects[e].refine.size();
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const Effect& effect = found[e].effect;
+    const std::size_t count = effect.paths.size() + effect.refine.size();
     for (std::size_t k = 0; k < count; ++k, ++at) {
       const FitParameter& p = fit.parameters[at];
       out.findings[e].parameters.push_back({p.path.substr(p.path.rfind('.') + 1), p.path,
                                             fit.value[at], fit.low[at], fit.high[at], p.unit});
     }
-    for (const auto& [path, value] : effects[e].shape) {
-      const bool refined = std::any_of(effects[e].refine.begin(), effects[e].refine.end(),
+    for (const auto& [path, value] : effect.shape) {
+      const bool refined = std::any_of(effect.refine.begin(), effect.refine.end(),
                                        [&p = path](const FitParameter& r) { return r.path == p; });
-      if (refined || effects[e].name == "empirical_force") continue;
-      const ModelParameter of{path, "", 0, 0, ""};
+      if (refined || effect.name == "empirical_force") continue;
       out.findings[e].parameters.push_back(
-          {of.path.substr(of.path.rfind('.') + 1), path, value, value, value, ""});
+          {path.substr(path.rfind('.') + 1), path, value, value, value, ""});
     }
-    if (effects[e].name == "empirical_force") {
+    if (effect.name == "empirical_force") {
       for (int k = 0; k < kKnots; ++k) {
         out.findings[e].curve.value[static_cast<std::size_t>(k)] =
             out.findings[e].parameters[static_cast<std::size_t>(k)].value;
@@ -113,10 +111,10 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<Effect>& 
   for (const MovedParameter& p : out.parameters) {
     text += p.path + " = " + shortest(p.with_effects) + "\n";
   }
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (effects[e].name == "empirical_force") {
-      for (const auto& [path, value] : effects[e].shape)
-        text += path + " = " + shortest(value) + "\n";
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const Effect& effect = found[e].effect;
+    if (effect.name == "empirical_force") {
+      for (const auto& [path, value] : effect.shape) text += path + " = " + shortest(value) + "\n";
     }
     for (const FoundParameter& p : out.findings[e].parameters) {
       text += p.path + " = " + shortest(p.value) + "  # " + shortest(p.low) + " .. " +

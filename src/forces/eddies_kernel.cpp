@@ -12,16 +12,6 @@ HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
 namespace {
 
-template <int kTerms>
-HWY_INLINE Float polynomial(const float (&coefficients)[kTerms], Float y) {
-  const Floats d;
-  Float sum = hn::Set(d, coefficients[kTerms - 1]);
-  for (int k = kTerms - 2; k >= 0; --k) {
-    sum = hn::Add(hn::Mul(sum, y), hn::Set(d, coefficients[k]));
-  }
-  return sum;
-}
-
 // Chebyshev's interpolations of cos(2 pi r) and sin(2 pi r) / r in r^2, |r| <= 1/2: 8e-7 and 2e-7.
 constexpr float kCosine[] = {0.9999991998f,   -19.7389781759f, 64.9285878399f,
                              -85.2708436269f, 58.7869407632f,  -21.0654294077f};
@@ -33,7 +23,7 @@ struct Turned {
 };
 HWY_INLINE Turned turned(Float turns) {
   const Float r = hn::Sub(turns, hn::Round(turns)), square = hn::Mul(r, r);
-  return {polynomial(kCosine, square), hn::Mul(r, polynomial(kSine, square))};
+  return {poly<5>(square, kCosine), hn::Mul(r, poly<5>(square, kSine))};
 }
 
 }  // namespace

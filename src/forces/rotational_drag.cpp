@@ -15,7 +15,7 @@ class RotationalDrag final : public ForceTerm {
   std::string_view name() const override { return "rotational_drag"; }
   std::string_view summary() const override { return "the water turns a module along with itself"; }
   std::string_view equation() const override {
-    return "torque = coefficient (curl u / 2 - omega), u the flow without gusts";
+    return "torque = coefficient (curl u / 2 - omega), u the mean flow and what stirs it";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
 

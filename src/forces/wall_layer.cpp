@@ -13,7 +13,7 @@ constexpr Parameter kParameters[] = {
     {"thickness", "m", 0.01, 0.001, 0.1, "distance from the wall over which the layer falls by e"},
 };
 
-constexpr double kNothing = 1e-9;
+constexpr double kNothing = 1e-9;  // a share of the layer that nobody could see: far from the wall
 
 class WallLayer final : public ForceTerm {
  public:
