@@ -41,6 +41,9 @@ configure() {
   shift
   local options=(-S . -B "$tree" "$@")
   [[ -f $tree/CMakeCache.txt ]] || options+=(-G Ninja)
-  ! command -v ccache > /dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  # Precompiled headers are cached only where the compiler and the cache are told so.
+  ! command -v ccache > /dev/null ||
+    options+=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache"
+              -DCMAKE_CXX_FLAGS=-fpch-preprocess)
   cmake "${options[@]}" --log-level=NOTICE
 }

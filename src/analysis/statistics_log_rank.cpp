@@ -1,7 +1,7 @@
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "analysis/linear.hpp"
 #include "lilytank/statistics.hpp"
 
 namespace lilytank {
@@ -70,13 +70,11 @@ TestResult log_rank(const std::vector<std::vector<Duration>>& groups) {
   if (groups.empty() || !(excess.covariance.diagonal().maxCoeff() > 0)) return {};
   // The covariance is singular along (1, 1, ...), and along each group that was empty at every
   // event; what is left are the degrees of freedom.
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-10);
-  solver.compute(excess.covariance);
+  const RankedSolution solved = solve_ranked(excess.covariance, excess.events, 1e-10);
   TestResult result;
-  result.degrees = static_cast<double>(solver.rank());
-  if (solver.rank() == 0) return result;
-  result.statistic = std::max(0.0, excess.events.dot(solver.solve(excess.events)));
+  result.degrees = static_cast<double>(solved.rank);
+  if (solved.rank == 0) return result;
+  result.statistic = std::max(0.0, excess.events.dot(solved.x));
   result.p = cdf(complement(boost::math::chi_squared(result.degrees), result.statistic));
   return result;
 }

@@ -1,6 +1,6 @@
 #include "bodies/filter.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 

@@ -1,9 +1,10 @@
 #include "bodies/fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "analysis/linear.hpp"
 
 namespace lilytank::bodies {
 namespace {
@@ -150,7 +151,7 @@ Eigen::VectorXd step_of(const Eigen::MatrixXd& I, const Eigen::VectorXd& g, doub
                         const std::vector<bool>& logarithm) {
   Eigen::MatrixXd A = I;
   for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * I(i, i) + 1e-9;
-  Eigen::VectorXd step = A.ldlt().solve(g);
+  Eigen::VectorXd step = solve_symmetric(A, g);
   double largest = 0;
   for (Eigen::Index i = 0; i < step.size(); ++i) {
     if (logarithm[static_cast<std::size_t>(i)]) largest = std::max(largest, std::fabs(step[i]));
@@ -207,7 +208,7 @@ Fitted fit_group(const Group& group, const BodyModel& from, bool held, int round
   const auto n = static_cast<Eigen::Index>(top.q.size());
   Eigen::MatrixXd I = top.information;
   I.diagonal().array() += 1e-9;
-  const Eigen::MatrixXd C = I.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd C = symmetric_inverse(I);
   for (Eigen::Index i = 0; i < n; ++i) out.deviation.push_back(std::sqrt(std::max(C(i, i), 0.0)));
   return out;
 }

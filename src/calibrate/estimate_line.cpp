@@ -1,9 +1,8 @@
 #include "calibrate/estimate_line.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
+
+#include "analysis/linear.hpp"
 
 namespace lilytank {
 namespace {
@@ -35,7 +34,7 @@ Line line_through(const Matrix& off, const Matrix& values) {
   Matrix x(n, 1 + p);
   x.col(0).setOnes();
   x.rightCols(p) = off.leftCols(p);
-  const Matrix found = x.colPivHouseholderQr().solve(values);
+  const Matrix found = least_squares(x, values);
   Line out;
   out.at_centre = found.row(0);
   out.slope = p > 0 ? Matrix(found.bottomRows(p).transpose())
@@ -43,15 +42,13 @@ Line line_through(const Matrix& off, const Matrix& values) {
   out.residuals = values - x * found;
   out.freedom = static_cast<double>(n - 1 - p);
   out.covariance = out.residuals.transpose() * out.residuals / out.freedom;
-  out.inverse = (x.transpose() * x).ldlt().solve(Matrix::Identity(1 + p, 1 + p));
+  out.inverse = symmetric_inverse(x.transpose() * x);
   return out;
 }
 
 Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer) {
   Scatter out;
-  const Eigen::FullPivLU<Matrix> lu(line.slope);
-  out.back = lu.isInvertible() ? Matrix(lu.inverse())
-                               : Matrix(Matrix::Identity(centre.size(), centre.size()));
+  out.back = inverse(line.slope).value_or(Matrix::Identity(centre.size(), centre.size()));
   const Vector off = out.back * (answer - line.at_centre);
   out.estimate = centre + off;
   tell_spread(line, out.back * line.covariance * out.back.transpose(), off, out);
@@ -64,7 +61,7 @@ Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer,
   Scatter out;
   const Matrix before = prior.array().square().matrix().asDiagonal();
   const Matrix answers = line.slope * before * line.slope.transpose() + line.covariance;
-  out.back = answers.ldlt().solve(line.slope * before).transpose();
+  out.back = solve_symmetric(answers, Matrix(line.slope * before)).transpose();
   const Vector off = out.back * (answer - line.at_centre);
   out.estimate = centre + off;
   tell_spread(line, before - out.back * line.slope * before, off, out);

@@ -1,11 +1,10 @@
 #include "lilytank/local_model.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 
 namespace lilytank {
@@ -34,14 +33,14 @@ LocalModel::LocalModel(const Design& design, Misfit misfit, Slopes slopes) : kin
   const Matrix off = design.points.rowwise() - centre_.transpose();
   Matrix spread = off.transpose() * off / static_cast<double>(n - 1);
   spread.diagonal().array() += 1e-14;
-  unit_ = spread.llt().matrixL();
-  to_unit_ = unit_.triangularView<Eigen::Lower>().solve(Matrix::Identity(p, p));
+  unit_ = lower_root(spread);
+  to_unit_ = lower_inverse(unit_);
   Matrix x(n, q);
   for (Eigen::Index i = 0; i < n; ++i) x.row(i) = basis(standard(design.points.row(i)));
-  coefficients_ = x.colPivHouseholderQr().solve(design.numbers).transpose();
+  coefficients_ = least_squares(x, design.numbers).transpose();
   find_covariance(design.numbers - x * coefficients_.transpose(), static_cast<double>(n - q));
   if (slopes == Slopes::found) return;
-  const Vector errors = (x.transpose() * x).ldlt().solve(Matrix::Identity(q, q)).diagonal();
+  const Vector errors = symmetric_inverse(x.transpose() * x).diagonal();
   shrink(errors.cwiseSqrt());
 }
 
@@ -71,8 +70,7 @@ void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
   correlation *= 1 - correlation_shrinkage(z);
   correlation.diagonal().setOnes();
   covariance_ = deviation.asDiagonal() * correlation * deviation.asDiagonal();
-  const Matrix root = correlation.llt().matrixL();
-  whitener_ = root.triangularView<Eigen::Lower>().solve(Matrix::Identity(d, d));
+  whitener_ = lower_inverse(lower_root(correlation));
   for (Eigen::Index k = 0; k < d; ++k) {
     whitener_.col(k) *= deviation(k) > kNeverVaries ? 1 / deviation(k) : 0;
   }
@@ -122,7 +120,7 @@ Matrix LocalModel::parameter_covariance(const Vector& point) const {
   const Matrix a = whitener_ * slope(point);
   Matrix information = a.transpose() * a;
   information.diagonal().array() += 1e-12 * information.trace();
-  const Matrix back = information.ldlt().solve(a.transpose() * whitener_);
+  const Matrix back = solve_symmetric(information, Matrix(a.transpose() * whitener_));
   return back * covariance_ * back.transpose();
 }
 
@@ -130,7 +128,7 @@ Matrix LocalModel::parameter_covariance(const Vector& point, const Vector& prior
   const Matrix a = whitener_ * slope(point);
   Matrix information = a.transpose() * a;
   information.diagonal() += prior.cwiseAbs2().cwiseInverse();
-  return information.ldlt().solve(Matrix::Identity(prior.size(), prior.size()));
+  return symmetric_inverse(information);
 }
 
 LocalFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds) const {
@@ -193,7 +191,7 @@ struct LocalModel::Problem {
       if (stuck) h.row(k).setZero(), h.col(k).setZero(), g(k) = 0;
       h(k, k) += damping * h(k, k) + 1e-12 * most + (stuck ? most : 0);
     }
-    return (point + h.ldlt().solve(g)).cwiseMax(low).cwiseMin(high);
+    return (point + solve_symmetric(h, g)).cwiseMax(low).cwiseMin(high);
   }
 };
 

@@ -1,8 +1,8 @@
 // Designs of simulations that move to the answer and shrink about it.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
@@ -44,7 +44,7 @@ class Simulated {
   Design near(const Vector& centre, const Matrix& spread) const {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Vector z = spread.triangularView<Eigen::Lower>().solve(points_[i] - centre);
+      const Vector z = solve_lower(spread, points_[i] - centre);
       if (z.norm() < kNear * std::sqrt(static_cast<double>(z.size()))) chosen.push_back(i);
     }
     Design out;
@@ -68,7 +68,7 @@ class Simulated {
 Matrix spread_of(const Matrix& covariance, const Vector& most) {
   Matrix c = covariance;
   for (Eigen::Index k = 0; k < c.rows(); ++k) c(k, k) += 1e-8 * most(k) * most(k);
-  Matrix root = kRoughSpread * Matrix(c.llt().matrixL());
+  Matrix root = kRoughSpread * lower_root(c);
   for (Eigen::Index k = 0; k < c.rows(); ++k) {
     const double size = root.row(k).norm();
     if (size > most(k)) root.row(k) *= most(k) / size;
@@ -135,7 +135,7 @@ class Way {
     FitBounds near = bounds_;
     near.reach = kReach;
     const LocalFit fit = model.fit(observed_, near);
-    const Vector moved = spread_.triangularView<Eigen::Lower>().solve(fit.point - centre_);
+    const Vector moved = solve_lower(spread_, fit.point - centre_);
     const bool settled = close && !stretched_ && !fit.at_reach && moved.norm() < kSettled;
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_reach, stages_.from_scale(fit.point)});
@@ -155,13 +155,13 @@ class Way {
     if (fixed_) {
       const double wide = kLastSpread / kRoughSpread;
       const Matrix asked = wide * spread_of(covariance, kWidest / wide * most_);
-      own_ = (least_ * least_.transpose() + asked * asked.transpose()).llt().matrixL();
+      own_ = lower_root(least_ * least_.transpose() + asked * asked.transpose());
     }
     // Parameters that hardly differ in what they do make a long and narrow valley: points that are
     // scattered along the way taken so far lead through it in a few rounds.
     stretched_ = fit.at_reach || moved.norm() > kFarOff;
     spread_ = own_;
-    if (stretched_) spread_ = (own_ * own_.transpose() + step * step.transpose()).llt().matrixL();
+    if (stretched_) spread_ = lower_root(own_ * own_.transpose() + step * step.transpose());
     return taken_.back();
   }
 

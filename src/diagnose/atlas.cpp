@@ -1,10 +1,9 @@
 #include "diagnose/atlas.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
@@ -210,7 +209,7 @@ double Atlas::displacement_misfit(const Vector& summary) const {
   }
   const Vector off = (summary - parameters_->mean(calibrated(summary).point))(of);
   const Matrix covariance = parameters_->covariance()(of, of);
-  return off.dot(covariance.ldlt().solve(off));
+  return off.dot(solve_symmetric(covariance, off));
 }
 
 Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
@@ -223,11 +222,10 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   // residuals are.
   Matrix normal = x.transpose() * x;
   for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
-  const auto solver = normal.ldlt();
-  const Matrix seen = solver.solve(x.transpose() * made.residuals);
+  const Matrix seen = solve_symmetric(normal, Matrix(x.transpose() * made.residuals));
   Matrix plain = made.amplitudes.transpose() * made.amplitudes;
   plain.diagonal().array() += kBend;
-  const Matrix moved = plain.ldlt().solve(made.amplitudes.transpose() * made.moved);
+  const Matrix moved = solve_symmetric(plain, Matrix(made.amplitudes.transpose() * made.moved));
   Fingerprint out;
   out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
@@ -254,7 +252,7 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   Matrix normal = x.transpose() * x;
   for (Eigen::Index c = 0; c < m; ++c) normal(1 + c, 1 + c) += kSlopeKnown;
   const Matrix solved =
-      normal.ldlt().solve(x.transpose() * (made.residuals - off * secant.transpose()));
+      solve_symmetric(normal, Matrix(x.transpose() * (made.residuals - off * secant.transpose())));
   Fingerprint out = from;
   out.about = amplitudes, out.base = solved.row(0).transpose();
   out.first = secant + solved.bottomRows(m).transpose();

@@ -1,9 +1,9 @@
 #include "diagnose/joint.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
 #include "diagnose/slack.hpp"
@@ -148,7 +148,7 @@ std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effec
   };
   // An effect's own covariance, applied backwards to how far it is from nothing.
   const auto weighed = [&](std::size_t e) -> Vector {
-    return covariance.block(places[e], places[e], size(e), size(e)).ldlt().solve(off(e));
+    return solve_symmetric(covariance.block(places[e], places[e], size(e), size(e)), off(e));
   };
   std::size_t weakest = effects.size();
   double least = keep * keep;

@@ -1,11 +1,10 @@
 #include "diagnose/naming.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "lilytank/statistics.hpp"
 
@@ -39,9 +38,7 @@ Matrix whitener_of(const Matrix& rows) {
   Matrix r = z.transpose() * z / n;
   r *= 1 - std::max(kLeastShrinkage, correlation_shrinkage(z));
   r.diagonal().setOnes();
-  Matrix out = Matrix(r.llt().matrixL())
-                   .triangularView<Eigen::Lower>()
-                   .solve(Matrix::Identity(r.rows(), r.cols()));
+  Matrix out = lower_inverse(lower_root(r));
   return out * deviation.cwiseInverse().asDiagonal();
 }
 
@@ -69,9 +66,7 @@ Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
         nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
     Matrix covariance = block.transpose() * block / (n - 1);
     covariance.diagonal().array() += 1e-3;
-    root_.push_back(Matrix(covariance.llt().matrixL())
-                        .triangularView<Eigen::Lower>()
-                        .solve(Matrix::Identity(kKnots, kKnots)));
+    root_.push_back(lower_inverse(lower_root(covariance)));
     shape_scale_.push_back(1);
   }
   for (std::size_t e = 0; e < atlas.plan().effects.size(); ++e) {
@@ -146,7 +141,7 @@ EffectFit Naming::Answer::fit(const Vector& data) const {
       const Matrix slope = first + 2 * second * (a - about).asDiagonal();
       Matrix normal = slope.transpose() * slope;
       normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-      a += normal.ldlt().solve(slope.transpose() * (data - at(a)));
+      a += solve_symmetric(normal, Vector(slope.transpose() * (data - at(a))));
       a = a.cwiseMax(least).cwiseMin(most);
     }
     const double distance = (data - at(a)).squaredNorm();
@@ -194,7 +189,7 @@ void Naming::calibrate(double false_alarms) {
       if (i % kFolds != fold) others.row(at++) = nulls.row(i);
     }
     const Matrix fold_whitener = whitener_of(others.leftCols(named));
-    const Matrix change = fold_whitener * whitener.inverse();
+    const Matrix change = fold_whitener * lower_inverse(whitener);
     std::vector<Known> known = known_;
     for (Known& k : known) {
       k.named.first = change * k.named.first, k.named.second = change * k.named.second;
@@ -316,7 +311,7 @@ bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) 
     Matrix normal = basis.transpose() * basis;
     normal.diagonal().array() += 1e-6 * (1 + normal.diagonal().maxCoeff());
     const Matrix& own = of.all.first;
-    const Matrix left = own - basis * normal.ldlt().solve(basis.transpose() * own);
+    const Matrix left = own - basis * solve_symmetric(normal, Matrix(basis.transpose() * own));
     if (left.squaredNorm() < kBeyondCurve * own.squaredNorm()) return true;
   }
   return false;

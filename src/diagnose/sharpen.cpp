@@ -1,9 +1,9 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
 
+#include "analysis/linear.hpp"
 #include "diagnose/diagnoser.hpp"
 #include "lilytank/random.hpp"
 
@@ -77,7 +77,7 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
   const double error = 1 + kInexact * kInexact * scores.squaredNorm() / kKnots;
   Eigen::MatrixXd normal = own.transpose() * own;
   normal.diagonal().array() += error / (kUsual * kUsual);
-  return normal.ldlt().solve(own.transpose() * scores);
+  return solve_symmetric(normal, Vector(own.transpose() * scores));
 }
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by

@@ -1,10 +1,10 @@
 #include "diagnose/yardstick.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "diagnose/features.hpp"
 #include "lilytank/math.hpp"
 
@@ -126,7 +126,7 @@ KeptTerm sparse_regression(const ScorePlan& plan, const std::vector<Recording>& 
   while (!kept.empty()) {
     Matrix part = normal(kept, kept);
     part.diagonal() *= 1 + 1e-9;
-    const Matrix inverse = part.ldlt().solve(Matrix::Identity(part.rows(), part.cols()));
+    const Matrix inverse = symmetric_inverse(part);
     const Vector coefficient = inverse * sums.right()(kept);
     t = coefficient.cwiseQuotient(
         (sums.variance() * inverse.diagonal()).cwiseMax(1e-300).cwiseSqrt());

@@ -1,9 +1,9 @@
 #include "flow/smooth_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {
@@ -81,7 +81,7 @@ SmoothSolver::Change SmoothSolver::draw(int run) const {
   const Eigen::Index gusts = gusts_.mean.size(), means = now_.mean.size();
   Eigen::MatrixXd covariance = gusts_.covariance;
   covariance.diagonal().array() += 1e-10 * covariance.trace() / static_cast<double>(gusts);
-  const Eigen::MatrixXd root = covariance.llt().matrixL();
+  const Eigen::MatrixXd root = lower_root(covariance);
   const Eigen::VectorXd c = root * normals(gusts, 1);
   const Eigen::VectorXd scaled = normals(means, 2).cwiseQuotient(factor_.vectorD().cwiseSqrt());
   const Eigen::VectorXd ordered = factor_.matrixU().solve(scaled);
