@@ -65,6 +65,11 @@ void linear_ticks(Axis& axis, int wanted, bool whole) {
   double step = round_step((axis.high - axis.low) / wanted);
   // Few whole numbers are all labelled: 0 1 2 3 rather than 0 2.
   if (whole) step = axis.high - axis.low < wanted + 2.5 ? 1 : std::max(step, 1.0);
+  // One label is no scale.
+  const auto labelled = [&] {
+    return std::floor(axis.high / step) - std::ceil(axis.low / step) + 1;
+  };
+  while (!whole && labelled() < 2) step = round_step(0.39 * step);
   const Shortening cut = shorten(axis.low, axis.high);
   const double factor = std::pow(10.0, -cut.exponent);
   const int decimals = std::clamp(-exponent_of(step * factor), 0, 15);

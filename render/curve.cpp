@@ -153,6 +153,7 @@ void draw_bars(const Canvas& canvas, const PlotArea& area, const Curve& curve, i
 }
 
 void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
+  if (!curve.line) return;
   const Saved saved(canvas);
   const std::size_t n = points_of(curve);
   cairo_rectangle(canvas.get(), area.left - 1, area.top - 1, area.width + 2, area.height + 2);
@@ -211,7 +212,7 @@ void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, 
     canvas.fill(faded(colour_of_curve(index), 0.18));
   }
   set_dashes(canvas, index);
-  canvas.line(x, y, x + width, y, colour_of_curve(index), kLine);
+  if (curve.line) canvas.line(x, y, x + width, y, colour_of_curve(index), kLine);
   cairo_set_dash(canvas.get(), nullptr, 0, 0);
   if (!curve.markers) return;
   marker_path(canvas, index, x + width / 2, y);

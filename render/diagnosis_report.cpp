@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "lilytank/render.hpp"
@@ -19,22 +20,52 @@ std::string unit_of(const FoundCurve& c) {
   return c.value_unit == "N" ? "force (mN)" : "acceleration (" + c.value_unit + ")";
 }
 
-// One curve with the band in which nothing would lie.
+// What the horizontal axis of a curve shows.
+std::string label_of(const FoundCurve& c) {
+  static const std::map<std::string, std::string> kLabels = {
+      {"radius", "distance from the centre"},
+      {"pair", "gap to another module"},
+      {"slip", "speed through the water"},
+      {"position", "position x"},
+      {"turn", "rate of turning"},
+  };
+  const auto known = kLabels.find(c.variable);
+  return (known == kLabels.end() ? c.variable : known->second) + " (" + c.unit + ")";
+}
+
+// A value that is this much less certain than most of its curve is told by next to nothing: bodies
+// were hardly ever there.
+constexpr double kUntold = 20;
+
+double uncertain_from(const FoundCurve& c) {
+  std::vector<double> sorted = c.deviation;
+  if (sorted.empty()) return 0;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return kUntold * *middle;
+}
+
+// One curve with the band in which nothing would lie; gaps where the data tell nothing.
 Plot curve_plot(const FoundCurve& c, bool small) {
   Plot plot;
   char z[24];
   std::snprintf(z, sizeof z, ", z %.1f", c.z);
   plot.title = c.direction + z;
-  plot.x_label = c.variable + " (" + c.unit + ")", plot.y_label = unit_of(c);
+  plot.x_label = label_of(c), plot.y_label = unit_of(c);
   plot.zero_line = true;
+  if (!c.at.empty()) {
+    const auto [first, last] = std::minmax_element(c.at.begin(), c.at.end());
+    plot.x_low = *first, plot.x_high = *last;
+  }
   if (small) plot.width = 460, plot.height = 330;
-  const double scale = scale_of(c);
+  const double scale = scale_of(c), untold = uncertain_from(c);
   Curve nothing{"nothing there, 95 %", c.at, {}, {}, {}}, found{"found", c.at, {}, {}, {}};
   for (std::size_t k = 0; k < c.at.size(); ++k) {
-    const double band = 1.96 * c.deviation[k] * scale;
-    nothing.y.push_back(0), nothing.low.push_back(-band), nothing.high.push_back(band);
-    found.y.push_back(c.value[k] * scale);
+    const double gap = c.deviation[k] > untold ? NAN : 1, band = 1.96 * c.deviation[k] * scale;
+    nothing.y.push_back(0 * gap), found.y.push_back(c.value[k] * scale * gap);
+    nothing.low.push_back(-band * gap), nothing.high.push_back(band * gap);
   }
+  if (small) found.name = nothing.name = "";  // the page says what they are
   found.markers = true;
   plot.curves = {found, nothing};
   return plot;
@@ -43,6 +74,7 @@ Plot curve_plot(const FoundCurve& c, bool small) {
 PlotPage maps_page(const Diagnosis& d) {
   PlotPage page;
   page.columns = 4;
+  page.title = "What the baseline leaves unexplained (line), and 95 % of what chance would (band)";
   std::vector<FoundCurve> maps = d.maps;
   std::stable_sort(maps.begin(), maps.end(),
                    [](const FoundCurve& a, const FoundCurve& b) { return a.z > b.z; });
@@ -64,21 +96,47 @@ PlotPage laws_page(const Diagnosis& d) {
   return page;
 }
 
-// Mean squares of deviations of each group, on the x axis by number.
+// A group of numbers in words.
+std::string words_for(const std::string& group) {
+  static const std::map<std::string, std::string> kWords = {
+      {"balance", "balance of momentum"},
+      {"camera", "gaps at contact, over the picture"},
+      {"contact", "bounces"},
+      {"displacement", "displacement (MSD)"},
+      {"kicks", "jolts between frames"},
+      {"module", "differences between modules"},
+      {"neighbours", "distance of neighbours"},
+      {"noise", "size and memory of gusts"},
+      {"place", "place in the tank, mean flow"},
+      {"spectrum", "rhythms"},
+      {"turning", "turning and its memory"},
+      {"velocity", "speed and its memory"},
+  };
+  const auto known = kWords.find(group);
+  return known == kWords.end() ? group : known->second;
+}
+
+// Mean squares of deviations, a row a group of numbers.
 Plot fit_plot(const Diagnosis& d) {
   Plot plot;
-  plot.title = "Recordings that had no part in it: distance from simulations";
-  plot.x_label = "group of numbers, as in the table", plot.y_label = "mean square deviation";
-  plot.log_y = true;
+  plot.title = "Held-out recordings: distance from simulations, before and after";
+  plot.x_label = "mean square deviation (chance: 1)";
+  plot.log_x = true;
+  plot.height = 120 + 36 * static_cast<int>(d.held_out.size());
   Curve before{"baseline", {}, {}, {}, {}}, after{"with what was found", {}, {}, {}, {}};
-  Curve chance{"chance", {1, static_cast<double>(d.held_out.size())}, {1, 1}, {}, {}};
+  Curve chance{"chance", {1, 1}, {-0.5, static_cast<double>(d.held_out.size()) - 0.5}, {}, {}};
   for (std::size_t k = 0; k < d.held_out.size(); ++k) {
-    const auto x = static_cast<double>(k + 1);
-    before.x.push_back(x), after.x.push_back(x);
-    before.y.push_back(std::max(1e-2, d.held_out[k].before));
-    after.y.push_back(std::max(1e-2, d.held_out[k].after));
+    plot.y_names.push_back(words_for(d.held_out[k].group));
+    before.y.push_back(static_cast<double>(k)), after.y.push_back(static_cast<double>(k));
+    before.x.push_back(std::max(1e-2, d.held_out[k].before));
+    after.x.push_back(std::max(1e-2, d.held_out[k].after));
+    for (const double x : {before.x.back(), after.x.back(), 1.0}) {
+      plot.x_low = std::min(k == 0 ? x : plot.x_low, x / 1.2);
+      plot.x_high = std::max(plot.x_high, x * 1.2);
+    }
   }
   before.markers = after.markers = true;
+  before.line = after.line = false;
   plot.curves = {before, after, chance};
   return plot;
 }
@@ -132,22 +190,14 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& d, const std::string& t
   }
   if (!d.held_out.empty()) {
     figures.push_back({"fit",
-                       "Before and after, on recordings that were not used. Groups: " +
-                           [&] {
-                             std::string list;
-                             for (std::size_t k = 0; k < d.held_out.size(); ++k) {
-                               list += (k > 0 ? ", " : "") + std::to_string(k + 1) + " " +
-                                       d.held_out[k].group;
-                             }
-                             return list;
-                           }() +
-                           ".",
+                       "Before and after, on recordings that were not used: groups of numbers "
+                       "that describe the motion, each in units of what chance alone would give.",
                        {{fit_plot(d)}, 1}});
   }
   if (!d.maps.empty()) {
     figures.push_back({"maps",
-                       "Maps of the one-step innovations, strongest first: force that the baseline "
-                       "lacks, and the band of nothing.",
+                       "Maps of the one-step innovations, strongest first. Values that the data "
+                       "hardly tell are left out.",
                        maps_page(d)});
   }
   std::vector<std::string> names;

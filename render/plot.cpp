@@ -57,6 +57,16 @@ bool is_range(double low, double high) {
   return low < high && std::isfinite(low) && std::isfinite(high);
 }
 
+// From the last name at the bottom to the first at the top.
+Axis named_axis(const std::vector<std::string>& names) {
+  const auto n = static_cast<double>(names.size());
+  Axis axis{n - 0.5, -0.5, false, {}, {}};
+  for (std::size_t k = names.size(); k-- > 0;) {
+    axis.ticks.push_back({static_cast<double>(k), names[k], true});
+  }
+  return axis;
+}
+
 void choose_axes(const Plot& plot, PlotArea& area) {
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
@@ -64,6 +74,10 @@ void choose_axes(const Plot& plot, PlotArea& area) {
   if (is_range(plot.x_low, plot.x_high)) low = plot.x_low, high = plot.x_high;
   area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110),
                      data.x.whole() && !data.x.empty());
+  if (!plot.y_names.empty()) {
+    area.y = named_axis(plot.y_names);
+    return;
+  }
   low = data.y.empty() ? (plot.log_y ? 0.1 : 0) : data.y.low();
   high = data.y.empty() ? (plot.log_y ? 10 : 1) : data.y.high();
   if (is_range(plot.y_low, plot.y_high))
@@ -216,6 +230,7 @@ void check_size(int width, int height) {
 
 // Where each plot of a page lies, and the page's own size.
 struct PageLayout {
+  static constexpr int kTitle = 44;
   struct At {
     int x = 0, y = 0;
   };
@@ -227,6 +242,7 @@ PageLayout layout(const PlotPage& page) {
   PageLayout out;
   const auto columns = static_cast<std::size_t>(std::max(1, page.columns));
   int x = 0, row = 0;
+  if (!page.title.empty()) out.height = PageLayout::kTitle;
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     if (i > 0 && i % columns == 0) out.height += row, x = row = 0;
     out.at.push_back({x, out.height});
@@ -248,6 +264,8 @@ void draw_plots(const PlotPage& page, const std::string& file) {
   Canvas canvas = Canvas::page(format, places.width, places.height, kPixels);
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
+  canvas.text(places.width / 2.0, 30, canvas.fitted(page.title, places.width - 20, kTitleText),
+              kTitleText);
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     const Plot& plot = page.plots[i];
     const Saved saved(canvas);

@@ -53,15 +53,18 @@ struct Curve {
   bool markers = false;
   std::vector<double> marks;  ///< x of short upright strokes on the curve, such as censored times
   bool bars = false;          ///< `low` and `high` as bars at the points instead of a band
+  bool line = true;           ///< false: markers alone
 };
 /// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
 struct Plot {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
-  bool zero_line = false;         ///< a thin line at y = 0
-  double y_low = 0, y_high = 0;   ///< equal: from the data
-  double x_low = 0, x_high = 0;   ///< equal: from the data
+  bool zero_line = false;        ///< a thin line at y = 0
+  double y_low = 0, y_high = 0;  ///< equal: from the data
+  double x_low = 0, x_high = 0;  ///< equal: from the data
+  /// Names of the values 0, 1, ... of y, the first at the top, instead of numbers.
+  std::vector<std::string> y_names;
   int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
 void draw_plot(const Plot& plot, const std::string& file);
@@ -70,6 +73,7 @@ void draw_plot(const Plot& plot, const std::string& file);
 struct PlotPage {
   std::vector<Plot> plots;
   int columns = 1;
+  std::string title;  ///< above them all
 };
 void draw_plots(const PlotPage& page, const std::string& file);
 

@@ -25,6 +25,14 @@ TEST(Axes, TicksAreRoundNumbers) {
   EXPECT_EQ(labels(make_axis(0, 3.2, false, 4, true)), (Texts{"0", "1", "2", "3"}));
 }
 
+TEST(Axes, OneLabelIsNoScale) {
+  EXPECT_EQ(labels(make_axis(-15.4, 14, false, 2, false)), (Texts{"−10", "0", "10"}));
+  for (int k = 1; k < 200; ++k) {
+    const double low = -0.37 * k, high = 0.011 * k * k;
+    EXPECT_GE(labels(make_axis(low, high, false, 2, false)).size(), 2U) << low << " .. " << high;
+  }
+}
+
 TEST(Axes, LongNumbersAreShortenedByANote) {
   const Axis small = make_axis(0, 4e-7, false, 4, false);
   EXPECT_EQ(small.note, "×10⁻⁷");

@@ -114,6 +114,8 @@ TEST(PlotPage, PutsPlotsBesideAndBelowEachOther) {
   plot.width = 300, plot.height = 200;
   draw_plots({{plot, plot, plot}, 2}, folder.file("a.png"));
   EXPECT_EQ(sample::png_size(folder.file("a.png")), (sample::Size{1200, 800}));
+  draw_plots({{plot, plot, plot}, 2, "above them all"}, folder.file("c.png"));
+  EXPECT_GT(sample::png_size(folder.file("c.png")).height, 800);
   EXPECT_THROW(draw_plots({}, folder.file("b.png")), InputError);
 }
 

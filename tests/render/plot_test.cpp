@@ -78,6 +78,30 @@ TEST(Plot, GivenLimitsHold) {
   EXPECT_NO_THROW(draw_plot(plot, folder.file("a.png")));
 }
 
+TEST(Plot, RowsHaveNamesFromTheTop) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  const Folder folder;
+  Plot plot;
+  plot.width = 400, plot.height = 300;
+  plot.y_names = {"first", "second", "third"};
+  Curve dots{"", {1}, {0}, {}, {}};
+  dots.markers = true, dots.line = false;
+  plot.x_low = 0, plot.x_high = 2;
+  plot.curves = {dots};
+  draw_plot(plot, folder.file("rows.png"));
+  const sample::Pixels pixels(folder.file("rows.png"));
+  ASSERT_TRUE(pixels.read());
+  int above = 0, below = 0;  // blue of the only marker, in the row of the first name
+  for (int y = 0; y < 600; ++y) {
+    for (int x = 300; x < 720; ++x) {
+      const sample::Pixel p = pixels.at(x, y);
+      if (p.b > p.r + 60) ++(y < 300 ? above : below);
+    }
+  }
+  EXPECT_GT(above, 50);
+  EXPECT_EQ(below, 0);
+}
+
 TEST(Plot, ManyAndLongNamesFit) {
   const Folder folder;
   Plot plot;
