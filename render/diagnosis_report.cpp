@@ -121,7 +121,7 @@ Plot fit_plot(const Diagnosis& d) {
   Plot plot;
   plot.title = "Held-out recordings: distance from simulations, before and after";
   plot.x_label = "mean square deviation (chance: 1)";
-  plot.log_x = true;
+  plot.log_x = true, plot.x_low = plot.x_high = 1;
   plot.height = 120 + 36 * static_cast<int>(d.held_out.size());
   Curve before{"baseline", {}, {}, {}, {}}, after{"with what was found", {}, {}, {}, {}};
   Curve chance{"chance", {1, 1}, {-0.5, static_cast<double>(d.held_out.size()) - 0.5}, {}, {}};
@@ -130,9 +130,8 @@ Plot fit_plot(const Diagnosis& d) {
     before.y.push_back(static_cast<double>(k)), after.y.push_back(static_cast<double>(k));
     before.x.push_back(std::max(1e-2, d.held_out[k].before));
     after.x.push_back(std::max(1e-2, d.held_out[k].after));
-    for (const double x : {before.x.back(), after.x.back(), 1.0}) {
-      plot.x_low = std::min(k == 0 ? x : plot.x_low, x / 1.2);
-      plot.x_high = std::max(plot.x_high, x * 1.2);
+    for (const double x : {before.x.back(), after.x.back()}) {
+      plot.x_low = std::min(plot.x_low, x / 1.2), plot.x_high = std::max(plot.x_high, x * 1.2);
     }
   }
   before.markers = after.markers = true;
