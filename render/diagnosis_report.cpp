@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "analysis/median.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
@@ -37,14 +38,6 @@ std::string label_of(const FoundCurve& c) {
 // were hardly ever there.
 constexpr double kUntold = 20;
 
-double uncertain_from(const FoundCurve& c) {
-  std::vector<double> sorted = c.deviation;
-  if (sorted.empty()) return 0;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return kUntold * *middle;
-}
-
 // One curve with the band in which nothing would lie; gaps where the data tell nothing.
 Plot curve_plot(const FoundCurve& c, bool small) {
   Plot plot;
@@ -58,7 +51,7 @@ Plot curve_plot(const FoundCurve& c, bool small) {
     plot.x_low = *first, plot.x_high = *last;
   }
   if (small) plot.width = 460, plot.height = 330;
-  const double scale = scale_of(c), untold = uncertain_from(c);
+  const double scale = scale_of(c), untold = kUntold * median(c.deviation);
   Curve nothing{"nothing there, 95 %", c.at, {}, {}, {}}, found{"found", c.at, {}, {}, {}};
   for (std::size_t k = 0; k < c.at.size(); ++k) {
     const double gap = c.deviation[k] > untold ? NAN : 1, band = 1.96 * c.deviation[k] * scale;

@@ -1,5 +1,5 @@
-// Solvers of small dense systems, compiled once: every source that instantiates Eigen's own takes
-// ten seconds longer to compile. Loops of fixed small size use Eigen directly.
+// Solvers of small dense systems, compiled once: each of Eigen's own costs every source that uses
+// it seconds of compiling. Matrices of a fixed small size use Eigen directly.
 #pragma once
 #include <Eigen/Core>
 #include <optional>

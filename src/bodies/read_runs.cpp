@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/median.hpp"
 #include "bodies/law.hpp"
 #include "io/bodies_file.hpp"
 #include "recording/table.hpp"
@@ -141,9 +142,7 @@ class TableReader {
     std::vector<double> steps;
     for (std::size_t k = 1; k < n; ++k) steps.push_back(r.time[k] - r.time[k - 1]);
     if (steps.size() + 1 < kLeast) return;
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    const double usual = steps[steps.size() / 2];
+    const double usual = median(std::move(steps));
     for (std::size_t from = 0, k = 1, piece = 1; k <= n; ++k) {
       if (k < n && r.time[k] - r.time[k - 1] <= kLongest * usual) continue;
       if (k - from >= kLeast) {

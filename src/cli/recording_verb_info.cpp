@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "analysis/median.hpp"
 #include "analysis/text_table.hpp"
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
@@ -61,10 +62,7 @@ Numbers numbers_of(const Recording& r) {
       steps.push_back(std::hypot(track.x[i] - track.x[i - 1], track.y[i] - track.y[i - 1]));
     }
   }
-  if (steps.empty()) return n;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  n.typical_step = *middle;
+  if (!steps.empty()) n.typical_step = median(std::move(steps));
   return n;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "analysis/median.hpp"
 #include "analysis/text_table.hpp"
 #include "lilytank/flow_report.hpp"
 
@@ -13,13 +14,6 @@ struct Summary {
   double speed = 0, around = 0, inward = 0, deviation = 0;
   double mean_error = 0, deviation_error = 0;  // medians
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Summary summary_of(const FlowEstimate& e) {
   Summary s;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/median.hpp"
 #include "recording/checks.hpp"
 
 namespace lilytank {
@@ -14,12 +15,6 @@ struct Instant {
   double time;
   std::size_t row;  ///< the first at it
 };
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class ClockFinder {
  public:

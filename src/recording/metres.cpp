@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/median.hpp"
 #include "lilytank/math.hpp"
 #include "recording/checks.hpp"
 
@@ -30,12 +31,6 @@ Map map_of(const Sightings& s, const RecordingOptions& options) {
   map.angle = clockwise ? -1 : 1;
   if (c.angles == AngleUnit::degrees) map.angle *= kPi / 180;
   return map;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// What the user may have meant, if positions reach from the tank's centre to `reach` (m), around a

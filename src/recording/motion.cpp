@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "analysis/median.hpp"
 #include "lilytank/math.hpp"
 #include "recording/checks.hpp"
 
@@ -31,13 +32,6 @@ struct Rate {
 Rate rate_between(const Point& a, const Point& b) {
   const double frames = b.frame - a.frame;
   return {(b.x - a.x) / frames, (b.y - a.y) / frames, wrapped(b.theta - a.theta) / frames};
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The seen points of a path.
