@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 
 namespace lilytank {
 
@@ -41,6 +42,12 @@ std::optional<Matrix> inverse(const Matrix& a) {
   const Eigen::FullPivLU<Matrix> lu(a);
   if (!lu.isInvertible()) return std::nullopt;
   return lu.inverse();
+}
+
+Matrix floored_inverse(const Matrix& a, double least) {
+  const Eigen::JacobiSVD<Matrix> of(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector inverse = of.singularValues().cwiseMax(least).cwiseInverse();
+  return of.matrixV() * inverse.asDiagonal() * of.matrixU().transpose();
 }
 
 RankedSolution solve_ranked(const Matrix& a, const Vector& b, double threshold) {

@@ -23,6 +23,8 @@ Eigen::MatrixXd symmetric_inverse(const Eigen::MatrixXd& a);
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y);
 /// None if `a` is singular to within rounding.
 std::optional<Eigen::MatrixXd> inverse(const Eigen::MatrixXd& a);
+/// The inverse of a square `a` whose singular values below `least` are raised to it.
+Eigen::MatrixXd floored_inverse(const Eigen::MatrixXd& a, double least);
 
 /// The shortest x that makes |a x - b| least, and the rank of `a`: how many of its singular
 /// directions are larger than `threshold` times the largest.

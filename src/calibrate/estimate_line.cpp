@@ -10,12 +10,6 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Two-sided 95 % point of Student's t [Cornish and Fisher's expansion about the normal].
-double student(double freedom) {
-  const double z = 1.959964;
-  return z + (z * z * z + z) / (4 * freedom);
-}
-
 // From the covariance of what is told, and how far it is from the line's centre.
 void tell_spread(const Line& line, const Matrix& covariance, const Vector& off, Scatter& out) {
   out.deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -24,10 +18,15 @@ void tell_spread(const Line& line, const Matrix& covariance, const Vector& off, 
   Vector x = Vector::Zero(line.inverse.rows());
   x(0) = 1;
   if (x.size() > 1) x.tail(x.size() - 1) = off;
-  out.wide = student(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
+  out.wide = student_95(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
 }
 
 }  // namespace
+
+double student_95(double freedom) {
+  const double z = 1.959964;
+  return z + (z * z * z + z) / (4 * freedom);
+}
 
 Line line_through(const Matrix& off, const Matrix& values) {
   const Eigen::Index n = off.rows(), p = off.isZero(0) ? 0 : off.cols();
@@ -43,15 +42,6 @@ Line line_through(const Matrix& off, const Matrix& values) {
   out.freedom = static_cast<double>(n - 1 - p);
   out.covariance = out.residuals.transpose() * out.residuals / out.freedom;
   out.inverse = symmetric_inverse(x.transpose() * x);
-  return out;
-}
-
-Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer) {
-  Scatter out;
-  out.back = inverse(line.slope).value_or(Matrix::Identity(centre.size(), centre.size()));
-  const Vector off = out.back * (answer - line.at_centre);
-  out.estimate = centre + off;
-  tell_spread(line, out.back * line.covariance * out.back.transpose(), off, out);
   return out;
 }
 

@@ -18,6 +18,9 @@ struct Line {
 /// a point.
 Line line_through(const Eigen::MatrixXd& off, const Eigen::MatrixXd& values);
 
+/// Two-sided 95 % point of Student's t [Cornish and Fisher's expansion about the normal].
+double student_95(double freedom);
+
 /// Parameters of data from what the local model takes them for.
 struct Scatter {
   Eigen::VectorXd estimate, deviation;
@@ -25,12 +28,9 @@ struct Scatter {
   double wide = 0;  ///< half width of a 95 % interval in deviations
 };
 /// The local model's slopes carry noise, which draws its answers to its centre. Experiments of
-/// known parameters tell by how much: `line` is through their answers, and this is its inverse at
-/// `answer`.
-Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer);
-
-/// The same where parameters are known to be near the centre, to `prior` (deviations): what answers
-/// hardly tell stays there, and its interval is no wider than that.
+/// known parameters tell by how much: `line` is through their answers, and this is what `answer`
+/// then says, where parameters are known to be near the centre, to `prior` (deviations): what
+/// answers hardly tell stays there, and its interval is no wider than that.
 Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer,
                    const Eigen::VectorXd& prior);
 

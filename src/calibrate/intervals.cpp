@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
+#include "calibrate/cross_fit.hpp"
+#include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
@@ -14,36 +17,107 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kReplicateSeed = 2000;
-constexpr double kReplicateSpread = 0.7;  // of their parameters, as a share of the last design's
+constexpr double kReplicateSpread = 0.8;  // of their parameters, as a share of the last design's
+constexpr double kReach = 5;              // deviations of the points that an estimate may be off
 constexpr int kProfilePoints = 41;
 constexpr double kProfileReach = 4;      // standard errors
 constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two parameters are one
 constexpr double kTellsNothing = 0.5;    // share of the bounds that an interval takes up
 constexpr double kMisfits = 0.01;        // probability below which the model does not explain data
 
-FitBounds bounds_for(const Stages& stages) {
-  FitBounds bounds = stages.bounds();
-  // Estimates of replicates may lie beyond a bound, as the estimate itself might have: otherwise an
-  // interval near a bound would be too short. Where the numbers hardly depend on a parameter that
-  // would lead anywhere, so the paper's objective stays within.
-  if (stages.setup().options.objective != CalibrationObjective::msd) {
-    bounds.low.resize(0), bounds.high.resize(0);
-  }
-  bounds.reach = 5;
-  return bounds;
+// Experiments of known parameters, estimated as the data are.
+struct Replicates {
+  Design made;
+  Matrix errors;  ///< of their estimates, a row each
+  Vector misfits;
+  Vector middle;  ///< what the data's estimate says of their parameters
+  Matrix covariance;
+  double wide;  ///< half width of a 95 % interval in deviations
+  double misfit;
+  LocalModel model;  ///< of all simulations that count
+};
+
+// By models that did not know them. All simulations about the answer count, and the line through
+// their estimates makes good that slopes are noise in part.
+Replicates by_others(const LocalAnswer& answer, Design made, const Vector& observed) {
+  const Eigen::Index n = made.points.rows(), before = answer.design.points.rows();
+  Design all{Matrix(before + n, made.points.cols()), Matrix(before + n, observed.size())};
+  all.points << answer.design.points, made.points;
+  all.numbers << answer.design.numbers, made.numbers;
+  const CrossFit fit = cross_fit(all, observed, Misfit::covariance, Slopes::found);
+  const HonestFit honest = turned_round(all, fit, 0);
+  return {std::move(made),     honest.errors.bottomRows(n),
+          fit.misfits.tail(n), honest.point,
+          honest.covariance,   honest.wide,
+          fit.misfit,          LocalModel(all)};
 }
 
-void tell_parameters(const Stages& stages, const LocalFit& fit, const Scatter& scatter,
+// The paper's objective has flat directions, along which no line could be turned round: its
+// estimates stay within the bounds, and all replicates are at the answer.
+Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design made) {
+  FitBounds bounds = stages.bounds();
+  bounds.reach = kReach;
+  const Eigen::Index n = made.points.rows();
+  Replicates out{
+      std::move(made), Matrix(n, answer.fit.point.size()), Vector(n), {}, {}, 0, answer.fit.misfit,
+      answer.model};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LocalFit fit = answer.model.fit(out.made.numbers.row(i).transpose(), bounds);
+    out.errors.row(i) = fit.point.transpose() - out.made.points.row(i);
+    out.misfits(i) = fit.misfit;
+  }
+  const Vector bias = out.errors.colwise().mean().transpose();
+  out.errors.rowwise() -= bias.transpose();
+  const auto count = static_cast<double>(n);
+  out.covariance = out.errors.transpose() * out.errors / (count - 1);
+  out.wide = student_95(count - 1) * std::sqrt(1 + 1 / count);
+  out.middle = answer.fit.point - bias;
+  return out;
+}
+
+void tell_parameters(const Stages& stages, const LocalAnswer& answer, const Replicates& replicates,
                      CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
+  const Vector deviation = replicates.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     CalibratedParameter& p = out.parameters[i];
     const FitParameter& of = p.parameter;
-    const double middle = scatter.estimate(k), half = scatter.wide * scatter.deviation(k);
-    p.bias = fit.point(k) - middle, p.deviation = scatter.deviation(k);
+    const double middle = replicates.middle(k), half = replicates.wide * deviation(k);
+    p.bias = answer.fit.point(k) - middle, p.deviation = deviation(k);
     const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
     p.estimate = within(middle), p.low = within(middle - half), p.high = within(middle + half);
+    for (Eigen::Index l = 0; l < deviation.size(); ++l) {
+      out.correlation.push_back(replicates.covariance(k, l) /
+                                std::max(deviation(k) * deviation(l), 1e-300));
+    }
+  }
+  for (Eigen::Index i = 0; i < replicates.errors.rows(); ++i) {
+    const Vector of = replicates.middle + replicates.errors.row(i).transpose();
+    out.replicate_estimates.emplace_back(of.begin(), of.end());
+  }
+  const auto n = static_cast<double>(replicates.misfits.size());
+  const auto larger = (replicates.misfits.array() >= replicates.misfit).count();
+  out.misfit = replicates.misfit;
+  out.misfit_p = (static_cast<double>(larger) + 1) / (n + 1);
+}
+
+// Observed numbers beside those that are expected at the estimate, by a plane through replicates.
+void tell_numbers(const Stages& stages, const Replicates& replicates, const Vector& centre,
+                  const Vector& observed, CalibrationResult& out) {
+  const Line line =
+      line_through(replicates.made.points.rowwise() - centre.transpose(), replicates.made.numbers);
+  Vector estimate(centre.size());
+  for (Eigen::Index k = 0; k < centre.size(); ++k) {
+    const CalibratedParameter& p = out.parameters[static_cast<std::size_t>(k)];
+    estimate(k) = p.parameter.to_scale(p.estimate);
+  }
+  Vector expected = line.at_centre;
+  if (line.inverse.rows() > 1) expected += line.slope * (estimate - centre);
+  const std::vector<SummaryEntry> entries = stages.setup().entries();
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    out.numbers.push_back({entries[k], observed(i), expected(i), std::sqrt(line.covariance(i, i))});
   }
 }
 
@@ -65,20 +139,23 @@ Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const V
   return points;
 }
 
-void tell_profiles(const LocalAnswer& answer, const Vector& observed, const FitBounds& bounds,
+void tell_profiles(const Stages& stages, const Replicates& replicates, const Vector& observed,
                    CalibrationResult& out) {
+  FitBounds bounds = stages.bounds();
+  bounds.reach = kReach;
+  const LocalFit best = replicates.model.fit(observed, bounds);
   for (std::size_t i = 0; i < out.parameters.size(); ++i) {
     CalibratedParameter& p = out.parameters[i];
     if (p.parameter.nuisance) continue;
     const auto k = static_cast<Eigen::Index>(i);
     for (int j = 0; j < kProfilePoints; ++j) {
       const double share = 2.0 * j / (kProfilePoints - 1) - 1;
-      const double at = answer.fit.point(k) + share * kProfileReach * p.deviation;
+      const double at = replicates.middle(k) + share * kProfileReach * p.deviation;
       const double value = p.parameter.from_scale(at);
       if (value < p.parameter.low || value > p.parameter.high) continue;
-      const LocalFit held = answer.model.fit_with(observed, static_cast<int>(k), at, bounds);
+      const LocalFit held = replicates.model.fit_with(observed, static_cast<int>(k), at, bounds);
       p.profile_value.push_back(value);
-      p.profile_rise.push_back(std::max(0.0, held.misfit - answer.fit.misfit));
+      p.profile_rise.push_back(std::max(0.0, held.misfit - best.misfit));
     }
   }
 }
@@ -129,47 +206,16 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
                     const Vector& observed, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
-  const int wanted = setup.options.replicates;
   const Vector centre = stages.to_scale(stages.from_scale(answer.fit.point));
   const std::uint64_t seed = derived_seed(setup.options.seed, kReplicateSeed);
   const Matrix points = replicate_points(stages, answer, centre, seed);
-  const auto rows = stages.simulate("replicates", points, seed, maps);
-  const FitBounds bounds = bounds_for(stages);
-  const auto n = std::count_if(rows.begin(), rows.end(), [](const auto& r) { return !r.empty(); });
-  if (2 * n < wanted) throw InputError("worlds at the estimate diverge: is the step too long?");
-  Matrix off(n, centre.size()), estimates(n, centre.size()), told(n, observed.size());
-  Eigen::Index at = 0;
-  int larger = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].empty()) continue;
-    told.row(at) = Eigen::Map<const Vector>(rows[i].data(), observed.size());
-    const LocalFit fit = answer.model.fit(told.row(at), bounds);
-    estimates.row(at) = fit.point;
-    off.row(at) = points.row(static_cast<Eigen::Index>(i)) - centre.transpose();
-    larger += fit.misfit >= answer.fit.misfit ? 1 : 0;
-    ++at;
-  }
-  const Line line = line_through(off, estimates);
-  const Scatter scatter = scatter_of(line, centre, answer.fit.point);
-  tell_parameters(stages, answer.fit, scatter, out);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Vector of = scatter.estimate + scatter.back * line.residuals.row(i).transpose();
-    out.replicate_estimates.emplace_back(of.begin(), of.end());
-  }
-  out.correlation.assign(scatter.correlation.data(),
-                         scatter.correlation.data() + scatter.correlation.size());
-  out.misfit = answer.fit.misfit;
-  out.misfit_p = (larger + 1.0) / (static_cast<double>(n) + 1.0);
-  const Line numbers = line_through(off, told);
-  Vector expected = numbers.at_centre;
-  if (numbers.inverse.rows() > 1) expected += numbers.slope * (scatter.estimate - centre);
-  const std::vector<SummaryEntry> entries = setup.entries();
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    out.numbers.push_back(
-        {entries[k], observed(i), expected(i), std::sqrt(numbers.covariance(i, i))});
-  }
-  tell_profiles(answer, observed, bounds, out);
+  Design made = design_of(points, stages.simulate("replicates", points, seed, maps));
+  const Replicates replicates = setup.options.objective == CalibrationObjective::msd
+                                    ? by_the_answer(stages, answer, std::move(made))
+                                    : by_others(answer, std::move(made), observed);
+  tell_parameters(stages, answer, replicates, out);
+  tell_numbers(stages, replicates, centre, observed, out);
+  tell_profiles(stages, replicates, observed, out);
   warn(stages, answer, out);
 }
 

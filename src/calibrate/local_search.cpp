@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/linear.hpp"
+#include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
@@ -15,12 +16,17 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kFirstSpread = 0.04;  // deviation of the first design, as a share of the ranges
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
-constexpr double kRoughSpread = 3, kLastSpread = 4;  // of designs, in standard errors
-constexpr double kSettled = 1.5;  // deviations of the design that the answer may be off its centre
-constexpr double kFarOff = 2;     // ... beyond which the next design is stretched that way
-constexpr double kWidest = 2;     // most of both, in deviations of the first design
-constexpr double kNear = 1.6;     // farthest points that count, over the root of their dimension
-constexpr double kReach = 2;      // deviations of the design that a round may go
+constexpr double kRoughSpread = 3, kLastSpread = 2.5;  // of designs, in standard errors
+constexpr double kNarrowest =
+    0.4;                           // of whole experiments' first design, as a share of pieces' last
+constexpr double kSettled = 2;   // deviations of the design that the answer may be off its centre
+constexpr double kFarOff = 2;      // ... beyond which the next design is stretched that way
+constexpr double kWidest = 2;      // most of both, in deviations of the first design
+constexpr double kWidestLast = 3;  // the same of whole experiments
+constexpr double kLeastSlope = 0.25;  // of an answer in the truth
+constexpr double kResolved = 1.5;     // times a design that is wide enough would be wider
+constexpr double kNear = 1.6;  // farthest points that count, over the root of their dimension
+constexpr double kReach = 2;   // deviations of the design that a round may go
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // All simulations so far; those of worlds that diverged are left out.
@@ -64,11 +70,11 @@ class Simulated {
   std::vector<std::vector<double>> rows_;
 };
 
-// The next design's spread: so many standard errors, along no axis more than the first one's.
-Matrix spread_of(const Matrix& covariance, const Vector& most) {
+// The next design's spread: so many standard errors, along no axis more than `most`.
+Matrix spread_of(const Matrix& covariance, double errors, const Vector& most) {
   Matrix c = covariance;
   for (Eigen::Index k = 0; k < c.rows(); ++k) c(k, k) += 1e-8 * most(k) * most(k);
-  Matrix root = kRoughSpread * lower_root(c);
+  Matrix root = errors * lower_root(c);
   for (Eigen::Index k = 0; k < c.rows(); ++k) {
     const double size = root.row(k).norm();
     if (size > most(k)) root.row(k) *= most(k) / size;
@@ -110,9 +116,8 @@ class Way {
       const std::uint64_t seed = derived_seed(stages_.setup().options.seed, seed_++);
       const Matrix points = scattered(centre_, spread_, phase.round, bounds_, seed);
       simulated.add(points, stages_.simulate(name, points, seed, maps_, phase.of));
-      const Design design = simulated.near(centre_, spread_);
-      const LocalRound last = look(design, close || fixed_, name);
-      if (answer_->settled && design.points.rows() >= phase.enough) return;
+      const LocalRound last = look(simulated.near(centre_, spread_), close || fixed_, name);
+      if (answer_->settled && last.simulations >= phase.enough) return;
       close = !last.at_reach;
     }
   }
@@ -121,7 +126,7 @@ class Way {
   /// narrower: a covariance from slopes that are known too little is too small, and narrower points
   /// would know them even less. They are wider where the errors ask for it.
   void narrow() {
-    own_ *= std::min(1.0, kLastSpread / kRoughSpread * std::sqrt(stages_.piece_cost()));
+    own_ *= std::clamp(std::sqrt(stages_.piece_cost()), kNarrowest, 1.0);
     spread_ = least_ = own_, stretched_ = false, fixed_ = true;
   }
 
@@ -130,39 +135,62 @@ class Way {
 
  private:
   // Asks one local model, and puts the next round's points where it points to.
-  LocalRound look(const Design& design, bool close, const std::string& name) {
+  LocalRound look(Design design, bool close, const std::string& name) {
     LocalModel model(design, kind_);
     FitBounds near = bounds_;
     near.reach = kReach;
-    const LocalFit fit = model.fit(observed_, near);
+    LocalFit fit = model.fit(observed_, near);
+    Matrix next = own_;
+    if (fixed_ && kind_ == Misfit::covariance) {
+      const CrossFit by_others = cross_fit(design, observed_, kind_, Slopes::found);
+      const HonestFit honest = turned_round(design, by_others, kLeastSlope);
+      fit = within_reach(honest.point, by_others.misfit);
+      next = next_spread(honest.covariance);
+    } else if (fixed_) {
+      next = next_spread(model.parameter_covariance(fit.point));
+    } else if (!fit.at_reach) {
+      next = rough_spread(model, fit);
+    }
     const Vector moved = solve_lower(spread_, fit.point - centre_);
-    const bool settled = close && !stretched_ && !fit.at_reach && moved.norm() < kSettled;
+    const bool wide = (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0;
+    const bool settled = close && wide && !stretched_ && !fit.at_reach && moved.norm() < kSettled;
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_reach, stages_.from_scale(fit.point)});
-    const Matrix covariance = model.parameter_covariance(fit.point);
-    answer_.emplace(
-        LocalAnswer{std::move(model), fit, static_cast<int>(taken_.size()), settled, own_});
+    answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
+                                static_cast<int>(taken_.size()), settled, own_});
     // A centre that is good enough stays, so that all simulations about it count.
     if (settled) return taken_.back();
     Vector step = fit.point - centre_;
     step *= std::min(1.0, kWidest / step.cwiseAbs().cwiseQuotient(most_).maxCoeff());
-    centre_ = fit.point;
-    // Where the numbers are not explained yet, errors are larger than their covariance says.
-    const auto freedom = static_cast<double>(observed_.size() - centre_.size());
-    const double unexplained =
-        kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
-    if (!fixed_ && !fit.at_reach) own_ = spread_of(unexplained * covariance, most_);
-    if (fixed_) {
-      const double wide = kLastSpread / kRoughSpread;
-      const Matrix asked = wide * spread_of(covariance, kWidest / wide * most_);
-      own_ = lower_root(least_ * least_.transpose() + asked * asked.transpose());
-    }
+    centre_ = fit.point, own_ = next;
     // Parameters that hardly differ in what they do make a long and narrow valley: points that are
     // scattered along the way taken so far lead through it in a few rounds.
     stretched_ = fit.at_reach || moved.norm() > kFarOff;
     spread_ = own_;
     if (stretched_) spread_ = lower_root(own_ * own_.transpose() + step * step.transpose());
     return taken_.back();
+  }
+
+  // As far along the way to a point as the round may go.
+  LocalFit within_reach(const Vector& point, double misfit) const {
+    const Vector step = solve_lower(spread_, point - centre_);
+    const double far = step.cwiseAbs().maxCoeff() / kReach;
+    const Vector at = centre_ + spread_ * step / std::max(1.0, far);
+    return {at.cwiseMax(bounds_.low).cwiseMin(bounds_.high), misfit, far > 1};
+  }
+
+  // Where the numbers are not explained yet, errors are larger than their covariance says.
+  Matrix rough_spread(const LocalModel& model, const LocalFit& fit) const {
+    const auto freedom = static_cast<double>(observed_.size() - centre_.size());
+    const double unexplained =
+        kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;
+    return spread_of(unexplained * model.parameter_covariance(fit.point), kRoughSpread, most_);
+  }
+
+  // As wide as the errors ask for: whole experiments are never nearer to each other than at first.
+  Matrix next_spread(const Matrix& errors) const {
+    const Matrix asked = spread_of(errors, kLastSpread, kWidestLast * most_);
+    return lower_root(least_ * least_.transpose() + asked * asked.transpose());
   }
 
   Stages& stages_;

@@ -58,8 +58,9 @@ class Stages {
          spent_ = 0;  ///< in simulated experiments
 };
 
-/// A local model about the answer, and the data's fit.
+/// A local model about the answer, what it rests on, and the data's fit.
 struct LocalAnswer {
+  Design design;
   LocalModel model;
   LocalFit fit;
   int rounds = 0;

@@ -8,6 +8,8 @@
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::uint64_t kNullSeed = 1, kEffectSeed = 100, kFieldSeed = 7;
+constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
 constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
@@ -63,6 +65,11 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   return out;
 }
 
+// How far from found amplitudes the experiments about them are.
+Vector apart(const Vector& amplitudes) {
+  return kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+}
+
 // Amplitudes about found ones, in pairs opposite each other.
 Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
   Matrix out(kAbout, amplitudes.size());
@@ -72,8 +79,7 @@ Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
       out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
     }
   }
-  const Vector reach = kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
-  out = (out * reach.asDiagonal()).rowwise() + amplitudes.transpose();
+  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
   return out.cwiseMax(two_sided ? -1e9 : 0);
 }
 
@@ -236,13 +242,19 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
                                      const Effect& effect, const Vector& calibrated,
-                                     const std::string& stage, std::uint64_t seed) {
+                                     const std::string& name) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
   const Vector point =
       (calibrated - from.moved(amplitudes)).cwiseMax(bounds.low).cwiseMin(bounds.high);
-  const Answers made =
-      answers(effect, stage, point, about(amplitudes, effect.two_sided, seed), seed);
+  if (const Local* known = learned_near(name, amplitudes, point)) return known->fingerprint;
+  // By what is simulated, not by who asked first.
+  Fnv place;
+  place.add(std::span(amplitudes.data(), static_cast<std::size_t>(m)));
+  place.add(std::span(point.data(), static_cast<std::size_t>(point.size())));
+  const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
+  const Answers made = answers(effect, "sharp " + name + " " + hex(place.value()), point,
+                               about(amplitudes, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
@@ -259,7 +271,24 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.second = Matrix::Zero(out.first.rows(), m);
   out.moved_base = made.moved.colwise().mean().transpose();
   out.experiments = static_cast<int>(off.rows());
+  local_[name].push_back({point, out});
   return out;
+}
+
+// The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
+const Atlas::Local* Atlas::learned_near(const std::string& name, const Vector& amplitudes,
+                                        const Vector& point) const {
+  const auto all = local_.find(name);
+  if (all == local_.end()) return nullptr;
+  const Local* nearest = nullptr;
+  double least = 1;
+  for (const Local& one : all->second) {
+    const Vector& at = one.fingerprint.about;
+    const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();
+    const double off = solve_lower(spread_, point - one.point).cwiseAbs().maxCoeff();
+    if (std::max(far, off) <= least) least = std::max(far, off), nearest = &one;
+  }
+  return nearest;
 }
 
 }  // namespace lilytank

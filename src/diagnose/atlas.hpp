@@ -9,6 +9,7 @@
 // fingerprint in residuals. [Gallant and Tauchen 1996; Allen and Tett 1999]
 #pragma once
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,10 +69,11 @@ class Atlas {
   /// The fingerprint of an effect that is not in the plan's list.
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
   /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
-  /// at the parameters at which calibration then finds `calibrated` in spite of the effect.
+  /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
+  /// that was learned there before serves again. `name`: of the effect or shape, its own.
   Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
                                 const Effect& effect, const Eigen::VectorXd& calibrated,
-                                const std::string& stage, std::uint64_t seed);
+                                const std::string& name);
   const LocalModel& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
@@ -85,6 +87,13 @@ class Atlas {
   };
   Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                   const Eigen::MatrixXd& amplitudes, std::uint64_t seed);
+  /// A fingerprint about amplitudes, and the parameters it was learned at.
+  struct Local {
+    Eigen::VectorXd point;
+    Fingerprint fingerprint;
+  };
+  const Local* learned_near(const std::string& name, const Eigen::VectorXd& amplitudes,
+                            const Eigen::VectorXd& point) const;
   Eigen::Index summary_numbers() const;
   Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
   Stages& stages_;
@@ -98,6 +107,7 @@ class Atlas {
   Eigen::MatrixXd null_residuals_;
   Eigen::Index named_ = 0;
   std::vector<Fingerprint> fingerprints_;
+  std::map<std::string, std::vector<Local>> local_;  ///< by name
 };
 
 }  // namespace lilytank

@@ -119,7 +119,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "7 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "8 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

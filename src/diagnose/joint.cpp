@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/linear.hpp"
+#include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
 #include "diagnose/slack.hpp"
@@ -20,7 +21,6 @@ constexpr int kMostRounds = 5;
 constexpr double kSettled = 1.8;  // deviations of the design
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
-constexpr int kFolds = 8;
 constexpr std::uint64_t kMix = 7;
 
 // Summary, named scores, and those of the curves that are fitted, the scores by their deviations.
@@ -228,19 +228,9 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
 // and its inverse at the data's estimate by the same models gives the values.
 void tell(const Design& design, const Vector& centre, const Vector& prior, const Vector& data,
           JointFit& fit) {
-  FitBounds free;
-  free.reach = 5;
-  Matrix estimates(design.points.rows(), centre.size());
-  Vector answer = Vector::Zero(centre.size());
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel model(without_fold(design, fold, kFolds), Misfit::covariance, Slopes::shrunk);
-    for (Eigen::Index i = fold; i < estimates.rows(); i += kFolds) {
-      estimates.row(i) = model.fit(design.numbers.row(i).transpose(), free).point;
-    }
-    answer += model.fit(data, free).point / kFolds;
-  }
-  const Line line = line_through(design.points.rowwise() - centre.transpose(), estimates);
-  const Scatter scatter = scatter_of(line, centre, answer, prior);
+  const CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
+  const Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
+  const Scatter scatter = scatter_of(line, centre, by_others.answer, prior);
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];

@@ -56,15 +56,13 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
-                                        const Judged& judged, int number) {
+                                        const Judged& judged) {
   const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
   const ScorePlan& plan = atlas_->plan();
   const Effect effect = f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]);
-  const std::string stage = "sharp " + judged.tag + " " + std::to_string(number) +
-                            (f.effect >= 0 ? " effect " : " shape ") + std::to_string(id);
-  return atlas_->fingerprint_about(
-      f.amplitudes, before, effect, atlas_->calibrated(judged.observed.summary).point, stage,
-      derived_seed(options_.seed, 900 + static_cast<std::uint64_t>(number)));
+  const std::string name = (f.effect >= 0 ? "effect " : "shape ") + std::to_string(id);
+  return atlas_->fingerprint_about(f.amplitudes, before, effect,
+                                   atlas_->calibrated(judged.observed.summary).point, name);
 }
 
 // A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
@@ -86,7 +84,6 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                                  const Vector& residual) {
   if (e.found.empty() || e.found[0].z < kStrong || plain(naming, e, residual)) return e;
   std::map<std::pair<int, int>, Fingerprint> known;
-  int asked = 0;
   const auto sharpen = [&](EffectFit f) {
     const auto before = known.find({f.effect, f.shape});
     const Fingerprint from = before != known.end() ? before->second
@@ -94,7 +91,7 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                                  ? atlas_->fingerprints()[static_cast<std::size_t>(f.effect)]
                                  : shape_fingerprint(f.shape);
     if (f.shape >= 0 && before == known.end()) f.amplitudes = knots_of(f.shape, from, residual);
-    const Fingerprint to = fingerprint_near(f, from, judged, asked++);
+    const Fingerprint to = fingerprint_near(f, from, judged);
     known[{f.effect, f.shape}] = to;
     naming.sharpen(f, to);
   };

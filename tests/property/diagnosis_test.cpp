@@ -71,6 +71,9 @@ TEST(SmallTank, IsDiagnosed) {
   const Diagnosis pumps = of(with("forces.flow_pulsation.share", 0.25), 41);
   ASSERT_EQ(pumps.verdict, Verdict::missing) << diagnosis_text(pumps);
   EXPECT_EQ(pumps.findings.front().effect, "flow_pulsation") << diagnosis_text(pumps);
+  // What was simulated for one question serves the next ones: asked again, the same answer.
+  const Diagnosis again = of(with("forces.flow_pulsation.share", 0.25), 41);
+  EXPECT_EQ(diagnosis_text(again), diagnosis_text(pumps));
   Diagnosis camera;
   diagnoser.judge(filmed(small_tank(), 61, 0.06), camera);
   EXPECT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);

@@ -33,6 +33,15 @@ TEST(Linear, SymmetricSystemsAreSolved) {
   EXPECT_TRUE((symmetric_inverse(kSymmetric) * kSymmetric).isIdentity(kRounding));
 }
 
+TEST(Linear, AFlooredInverseIsOneWhereNothingIsBelow) {
+  const Matrix a = (Matrix(2, 2) << 2, 1, -1, 3).finished();
+  EXPECT_TRUE((floored_inverse(a, 0.1) * a).isIdentity(kRounding));
+  // Of a turn of (4, 0.01) by another turn only the small one is raised.
+  const Matrix thin = (Matrix(2, 2) << 0, 0.01, 4, 0).finished();
+  const Matrix expected = (Matrix(2, 2) << 0, 0.25, 2, 0).finished();
+  EXPECT_TRUE(floored_inverse(thin, 0.5).isApprox(expected, kRounding));
+}
+
 TEST(Linear, LeastSquaresLeaveWhatIsOrthogonal) {
   const Matrix x = (Matrix(4, 2) << 1, 0, 1, 1, 1, 2, 1, 3).finished();
   const Matrix y = (Matrix(4, 1) << 1, 3, 4, 9).finished();

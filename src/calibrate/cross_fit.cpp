@@ -1,0 +1,57 @@
+#include "calibrate/cross_fit.hpp"
+
+#include <cmath>
+
+#include "analysis/linear.hpp"
+#include "calibrate/design.hpp"
+#include "calibrate/estimate_line.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr int kFolds = 8;
+constexpr double kReach = 5;  // deviations of the design that an estimate may be off its centre
+
+}  // namespace
+
+CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit misfit,
+                   Slopes slopes) {
+  FitBounds free;
+  free.reach = kReach;
+  const Eigen::Index n = design.points.rows(), p = design.points.cols();
+  CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), Eigen::VectorXd::Zero(p)};
+  for (int fold = 0; fold < kFolds; ++fold) {
+    const LocalModel model(without_fold(design, fold, kFolds), misfit, slopes);
+    for (Eigen::Index i = fold; i < n; i += kFolds) {
+      const LocalFit fit = model.fit(design.numbers.row(i).transpose(), free);
+      out.estimates.row(i) = fit.point, out.misfits(i) = fit.misfit;
+    }
+    const LocalFit fit = model.fit(data, free);
+    out.answer += fit.point / kFolds, out.misfit += fit.misfit / kFolds;
+  }
+  return out;
+}
+
+HonestFit turned_round(const Design& design, const CrossFit& fit, double least) {
+  using Matrix = Eigen::MatrixXd;
+  const Eigen::VectorXd centre = design.points.colwise().mean().transpose();
+  const Matrix off = design.points.rowwise() - centre.transpose();
+  // By the design's own deviations, in which a slope that is not known at all is as wrong one way
+  // as another.
+  Matrix spread = off.transpose() * off / static_cast<double>(off.rows() - 1);
+  spread.diagonal().array() += 1e-14;
+  const Matrix unit = lower_root(spread), to_unit = lower_inverse(unit);
+  const Line line =
+      line_through(off * to_unit.transpose(),
+                   (fit.estimates.rowwise() - centre.transpose()) * to_unit.transpose());
+  const Matrix back = floored_inverse(line.slope, least);
+  const Eigen::VectorXd z = back * (to_unit * (fit.answer - centre) - line.at_centre);
+  Eigen::VectorXd x(z.size() + 1);
+  x << 1, z;
+  const Matrix root = unit * back;
+  return {centre + unit * z, root * line.covariance * root.transpose(),
+          line.residuals * root.transpose(),
+          student_95(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
+}
+
+}  // namespace lilytank
