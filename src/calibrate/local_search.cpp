@@ -19,7 +19,7 @@ constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scal
 constexpr double kRoughSpread = 3, kLastSpread = 2.5;  // of designs, in standard errors
 constexpr double kNarrowest =
     0.4;                           // of whole experiments' first design, as a share of pieces' last
-constexpr double kSettled = 2;   // deviations of the design that the answer may be off its centre
+constexpr double kSettled = 2;     // deviations of the design that the answer may be off its centre
 constexpr double kFarOff = 2;      // ... beyond which the next design is stretched that way
 constexpr double kWidest = 2;      // most of both, in deviations of the first design
 constexpr double kWidestLast = 3;  // the same of whole experiments
