@@ -19,6 +19,7 @@ using Vector = Eigen::VectorXd;
 constexpr std::uint64_t kReplicateSeed = 2000;
 constexpr double kReplicateSpread = 0.8;  // of their parameters, as a share of the last design's
 constexpr double kReach = 5;              // deviations of the points that an estimate may be off
+constexpr double kLeastSlope = 0.1;       // of an estimate in the truth: less is noise
 constexpr int kProfilePoints = 41;
 constexpr double kProfileReach = 4;      // standard errors
 constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two parameters are one
@@ -45,7 +46,7 @@ Replicates by_others(const LocalAnswer& answer, Design made, const Vector& obser
   all.points << answer.design.points, made.points;
   all.numbers << answer.design.numbers, made.numbers;
   const CrossFit fit = cross_fit(all, observed, Misfit::covariance, Slopes::found);
-  const HonestFit honest = turned_round(all, fit, 0);
+  const HonestFit honest = turned_round(all, fit, kLeastSlope);
   return {std::move(made),     honest.errors.bottomRows(n),
           fit.misfits.tail(n), honest.point,
           honest.covariance,   honest.wide,
