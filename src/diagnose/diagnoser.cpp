@@ -90,7 +90,9 @@ void Diagnoser::prepare(double after) {
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
-  naming_ = std::make_unique<Naming>(*atlas_, options_.false_alarms);
+  naming_ = std::make_unique<Naming>(atlas_->null_residuals(), atlas_->plan().effects,
+                                     atlas_->fingerprints(), atlas_->plan().shapes.size(),
+                                     options_.false_alarms);
 }
 
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {

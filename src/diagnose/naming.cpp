@@ -16,15 +16,8 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kFolds = 5;
 constexpr double kLeastShrinkage = 0.02;
-constexpr int kMostEffects = 3;
-constexpr double kNoisy = 2.5;     // standard errors below which an entry of a fingerprint is noise
-constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
-                                   // are known to some per cent only
-constexpr double kRough = 0.2;     // the same of a curve: six straight pieces are off by more
-constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
-constexpr double kCurve = 0.85;       // of a curve's gain: it may bend to what names leave
-constexpr double kPrice = 4;          // of an amplitude, in squared distance
-constexpr double kMostSize = 6;       // sizes beyond which a fingerprint is no guide
+constexpr double kNoisy = 2.5;   // standard errors below which an entry of a fingerprint is noise
+constexpr double kMostSize = 6;  // sizes beyond which a fingerprint is no guide
 // How far from its own amplitudes a fingerprint about found ones holds.
 constexpr double kNear = 0.5, kNearLeast = 0.4;
 constexpr double kEulerGamma = 0.57721566490153286;
@@ -55,13 +48,15 @@ double extreme(const std::vector<double>& values, double probability) {
 
 }  // namespace
 
-Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
-  const Matrix& nulls = atlas.null_residuals();
+Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
+               const std::vector<Fingerprint>& fingerprints, std::size_t curves,
+               double false_alarms)
+    : named_(nulls.cols() - static_cast<Eigen::Index>(curves) * kKnots) {
   centre_ = nulls.colwise().mean().transpose();
-  whitener_ = whitener_of(nulls.leftCols(atlas.named_numbers()));
+  whitener_ = whitener_of(nulls.leftCols(named_));
   const auto n = static_cast<double>(nulls.rows());
-  for (std::size_t s = 0; s < atlas.plan().shapes.size(); ++s) {
-    const Eigen::Index first = atlas.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
+  for (std::size_t s = 0; s < curves; ++s) {
+    const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     const Matrix block =
         nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
     Matrix covariance = block.transpose() * block / (n - 1);
@@ -69,11 +64,11 @@ Naming::Naming(const Atlas& atlas, double false_alarms) : atlas_(atlas) {
     root_.push_back(lower_inverse(lower_root(covariance)));
     shape_scale_.push_back(1);
   }
-  for (std::size_t e = 0; e < atlas.plan().effects.size(); ++e) {
-    known_.push_back(
-        known(atlas.fingerprints()[e], static_cast<int>(e), -1, atlas.plan().effects[e].two_sided));
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    terms_.push_back(effects[e].paths[0]);
+    known_.push_back(known(fingerprints[e], static_cast<int>(e), -1, effects[e].two_sided));
   }
-  calibrate(false_alarms);
+  calibrate(nulls, false_alarms);
 }
 
 Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape,
@@ -91,17 +86,16 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
   out.all = {fingerprint.about, whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
              whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
              two_sided};
-  out.named = out.all.top(atlas_.named_numbers());
+  out.named = out.all.top(named_);
   return out;
 }
 
 // Columns of residuals, the named numbers and every shape's knots each by their covariance.
 Matrix Naming::whitened(const Matrix& residuals) const {
-  const Eigen::Index named = atlas_.named_numbers();
   Matrix out(residuals.rows(), residuals.cols());
-  out.topRows(named) = whitener_ * residuals.topRows(named);
+  out.topRows(named_) = whitener_ * residuals.topRows(named_);
   for (std::size_t s = 0; s < root_.size(); ++s) {
-    const Eigen::Index first = named + static_cast<Eigen::Index>(s) * kKnots;
+    const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     out.middleRows(first, kKnots) = root_[s] * residuals.middleRows(first, kKnots);
   }
   return out;
@@ -176,9 +170,8 @@ EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
 }
 
 // Scales and thresholds by nulls that had no part in the covariance they are judged by.
-void Naming::calibrate(double false_alarms) {
-  const Matrix& nulls = atlas_.null_residuals();
-  const Eigen::Index named = atlas_.named_numbers(), n = nulls.rows();
+void Naming::calibrate(const Matrix& nulls, double false_alarms) {
+  const Eigen::Index n = nulls.rows();
   const Matrix whitener = whitener_;
   std::vector<std::vector<EffectFit>> effects(static_cast<std::size_t>(n)),
       shapes(static_cast<std::size_t>(n));
@@ -188,7 +181,7 @@ void Naming::calibrate(double false_alarms) {
     for (Eigen::Index i = 0; i < n; ++i) {
       if (i % kFolds != fold) others.row(at++) = nulls.row(i);
     }
-    const Matrix fold_whitener = whitener_of(others.leftCols(named));
+    const Matrix fold_whitener = whitener_of(others.leftCols(named_));
     const Matrix change = fold_whitener * lower_inverse(whitener);
     std::vector<Known> known = known_;
     for (Known& k : known) {
@@ -197,13 +190,13 @@ void Naming::calibrate(double false_alarms) {
     }
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const Vector off = nulls.row(i).transpose() - centre_;
-      const Vector whitened = fold_whitener * off.head(named);
+      const Vector whitened = fold_whitener * off.head(named_);
       auto& mine = effects[static_cast<std::size_t>(i)];
       for (const Known& k : known) mine.push_back(fit(k, whitened));
       for (std::size_t s = 0; s < root_.size(); ++s) {
         shapes[static_cast<std::size_t>(i)].push_back(
             fit_shape(static_cast<int>(s),
-                      off.segment(named + static_cast<Eigen::Index>(s) * kKnots, kKnots)));
+                      off.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots)));
       }
     }
   }
@@ -236,7 +229,7 @@ void Naming::calibrate(double false_alarms) {
 }
 
 std::vector<EffectFit> Naming::effects(const Vector& residual) const {
-  const Vector whitened = whitener_ * (residual - centre_).head(atlas_.named_numbers());
+  const Vector whitened = whitener_ * (residual - centre_).head(named_);
   std::vector<EffectFit> out;
   for (const Known& k : known_) out.push_back(fit(k, whitened));
   std::stable_sort(out.begin(), out.end(),
@@ -247,7 +240,7 @@ std::vector<EffectFit> Naming::effects(const Vector& residual) const {
 std::vector<EffectFit> Naming::shapes(const Vector& residual) const {
   std::vector<EffectFit> out;
   for (std::size_t s = 0; s < root_.size(); ++s) {
-    const Eigen::Index first = atlas_.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
+    const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     out.push_back(fit_shape(static_cast<int>(s), (residual - centre_).segment(first, kKnots)));
   }
   std::stable_sort(out.begin(), out.end(),
@@ -266,100 +259,6 @@ void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
     k = known(fingerprint, k.effect, k.shape, k.named.two_sided);
     k.scale = scale;
   }
-}
-
-std::vector<EffectFit> Naming::leading(const Vector& residual, int count) const {
-  const Vector all = whitened(residual - centre_);
-  std::vector<EffectFit> out;
-  for (const Known& k : known_) out.push_back(fit_all(k, all));
-  std::stable_sort(out.begin(), out.end(),
-                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
-  out.resize(std::min(out.size(), static_cast<std::size_t>(count)));
-  return out;
-}
-
-EffectFit Naming::strongest_shape(const Vector& all) const {
-  EffectFit out;
-  for (std::size_t s = 0; s < root_.size(); ++s) {
-    const Eigen::Index first = atlas_.named_numbers() + static_cast<Eigen::Index>(s) * kKnots;
-    const double gain = all.segment(first, kKnots).squaredNorm();
-    const double z = z_of(gain, shape_scale_[s], kKnots);
-    if (z > out.z) out.shape = static_cast<int>(s), out.gain = gain, out.z = z;
-  }
-  return out;
-}
-
-// One term has one strength: another variant of what was found is no other finding.
-bool Naming::told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const {
-  const std::vector<Effect>& effects = atlas_.plan().effects;
-  return std::any_of(found.begin(), found.end(), [&](const EffectFit& other) {
-    if (fit.effect < 0 || other.effect < 0) return fit.effect < 0 && other.effect < 0;
-    return effects[static_cast<std::size_t>(fit.effect)].paths ==
-           effects[static_cast<std::size_t>(other.effect)].paths;
-  });
-}
-
-// Whether a curve that was found can do what this effect does: a constant torque beside a torque
-// over headings would only share out the curve's mean.
-bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) const {
-  for (const EffectFit& f : found) {
-    if (f.shape < 0 || of.effect < 0) continue;
-    const auto curve = std::find_if(known_.begin(), known_.end(),
-                                    [&](const Known& k) { return k.shape == f.shape; });
-    if (curve == known_.end()) continue;
-    const Matrix& basis = curve->all.first;
-    Matrix normal = basis.transpose() * basis;
-    normal.diagonal().array() += 1e-6 * (1 + normal.diagonal().maxCoeff());
-    const Matrix& own = of.all.first;
-    const Matrix left = own - basis * solve_symmetric(normal, Matrix(basis.transpose() * own));
-    if (left.squaredNorm() < kBeyondCurve * own.squaredNorm()) return true;
-  }
-  return false;
-}
-
-// Of the candidates that are significant, the one that leaves least.
-std::size_t Naming::best(const Vector& all, double floor, const std::vector<EffectFit>& found,
-                         EffectFit& out, EffectFit& strongest) const {
-  const Vector named = all.head(atlas_.named_numbers());
-  const EffectFit shape = strongest_shape(all);
-  std::size_t index = known_.size();
-  double most = 0;
-  strongest = EffectFit{};
-  for (std::size_t k = 0; k < known_.size(); ++k) {
-    const EffectFit one = fit(known_[k], named);
-    if (one.z > strongest.z) strongest = one;
-    if (told_already(one, found) || within_curve(known_[k], found)) continue;
-    // A curve speaks by its own knots as well.
-    const bool own =
-        one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
-    if (one.z <= std::max(effect_threshold_, floor) && !own) continue;
-    EffectFit whole = fit_all(known_[k], all);
-    double gain = whole.gain - kPrice * static_cast<double>(whole.amplitudes.size());
-    if (whole.shape >= 0) gain *= kCurve;
-    if (gain <= most) continue;
-    whole.z = own ? std::max(one.z, shape.z) : one.z;
-    most = gain, index = k, out = whole;
-  }
-  return index;
-}
-
-Explanation Naming::explain(const Vector& residual) const {
-  Explanation out;
-  Vector all = whitened(residual - centre_);
-  double floor = 0;
-  for (int round = 0;; ++round) {
-    EffectFit chosen;
-    const std::size_t k = best(all, floor, out.found, chosen, out.left_effect);
-    out.left_shape = strongest_shape(all);
-    if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
-    if (k == known_.size() || round == kMostEffects) break;
-    const Known& of = known_[k];
-    all -= of.all.at(chosen.amplitudes);
-    chosen.moved = of.source.moved(chosen.amplitudes);
-    floor = std::max(floor, (chosen.shape >= 0 ? kRough : kInexact) * chosen.z);
-    out.found.push_back(chosen);
-  }
-  return out;
 }
 
 double Naming::smallest_seen(int effect) const {

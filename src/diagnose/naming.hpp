@@ -29,8 +29,11 @@ struct Explanation {
 
 class Naming {
  public:
-  /// `false_alarms`: share of experiments with nothing missing that may be called otherwise.
-  Naming(const Atlas& atlas, double false_alarms);
+  /// `nulls`: residuals of experiments in which nothing is missing, a row each, those of `curves`
+  /// times kKnots knots at the end; `fingerprints`: the effects'; `false_alarms`: share of
+  /// experiments with nothing missing that may be called otherwise.
+  Naming(const Eigen::MatrixXd& nulls, const std::vector<Effect>& effects,
+         const std::vector<Fingerprint>& fingerprints, std::size_t curves, double false_alarms);
 
   /// Every effect alone, strongest first.
   std::vector<EffectFit> effects(const Eigen::VectorXd& residual) const;
@@ -74,14 +77,15 @@ class Naming {
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
-  void calibrate(double false_alarms);
+  void calibrate(const Eigen::MatrixXd& nulls, double false_alarms);
   bool told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const;
   bool within_curve(const Known& of, const std::vector<EffectFit>& found) const;
   std::size_t best(const Eigen::VectorXd& all, double floor, const std::vector<EffectFit>& found,
                    EffectFit& out, EffectFit& strongest) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
 
-  const Atlas& atlas_;
+  Eigen::Index named_;                 ///< numbers before the shapes' knots
+  std::vector<std::string> terms_;     ///< of each effect: the path of its first amplitude
   Eigen::VectorXd centre_;             ///< mean of the nulls' residuals
   Eigen::MatrixXd whitener_;           ///< of the named numbers
   std::vector<Eigen::MatrixXd> root_;  ///< whitens each shape's knots
