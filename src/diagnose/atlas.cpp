@@ -28,6 +28,7 @@ constexpr int kAbout = 10;
 constexpr double kFarOff = 100;   // deviations
 constexpr double kLearned = 1.2;  // sizes
 constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
+constexpr double kSlopesFitted = 0.5;  // degrees of freedom that a slope takes, being held so
 
 // Scores less their mean at the parameters that the summary asks for, of every experiment by local
 // models that did not know it: as it will be with data.
@@ -176,10 +177,38 @@ Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
+Vector Fingerprint::at(const Vector& amplitudes) const {
+  const Vector d = amplitudes - about;
+  return base + first * d + second * d.array().square().matrix();
+}
+
 Vector Fingerprint::moved(const Vector& amplitudes) const {
   if (local()) return moved_base;
   // Beyond the sizes it was learned at, calibration soon cannot follow any more.
   return moved_first * amplitudes * std::min(1.0, kLearned / amplitudes.cwiseAbs().maxCoeff());
+}
+
+Fingerprint together(const std::vector<Fingerprint>& fingerprints,
+                     const std::vector<Vector>& amplitudes) {
+  Eigen::Index m = 0, at = 0;
+  for (const Vector& a : amplitudes) m += a.size();
+  const Fingerprint& one = fingerprints.front();
+  Fingerprint out;
+  out.about.resize(m), out.base = Vector::Zero(one.base.size());
+  out.first.resize(one.base.size(), m), out.second = Matrix::Zero(one.base.size(), m);
+  out.moved_first = Matrix::Zero(one.moved_base.size(), m);
+  out.moved_base = Vector::Zero(one.moved_base.size());
+  out.experiments = one.experiments;
+  for (std::size_t i = 0; i < fingerprints.size(); ++i) {
+    const Fingerprint& f = fingerprints[i];
+    const Vector& a = amplitudes[i];
+    out.about.segment(at, a.size()) = a;
+    out.first.middleCols(at, a.size()) = f.first + 2 * f.second * (a - f.about).asDiagonal();
+    out.base += f.at(a), out.moved_base += f.moved(a);
+    out.experiments = std::min(out.experiments, f.experiments);
+    at += a.size();
+  }
+  return out;
 }
 
 Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
@@ -270,6 +299,9 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.first = secant + solved.bottomRows(m).transpose();
   out.second = Matrix::Zero(out.first.rows(), m);
   out.moved_base = made.moved.colwise().mean().transpose();
+  const auto n = static_cast<double>(off.rows());
+  out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
+                std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
   out.experiments = static_cast<int>(off.rows());
   local_[name].push_back({point, out});
   return out;

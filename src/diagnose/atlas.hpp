@@ -35,10 +35,16 @@ struct Fingerprint {
   /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
   Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
   Eigen::VectorXd moved_base;   ///< [parameter]
-  int experiments = 0;          ///< that it rests on, for each amplitude
+  /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
+  Eigen::MatrixXd scatter;
+  int experiments = 0;  ///< that it rests on, for each amplitude
   bool local() const { return about.cwiseAbs().maxCoeff() > 0; }
+  Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };
+/// Of several effects at once about amplitudes (each one's, in turn), if they add up.
+Fingerprint together(const std::vector<Fingerprint>& fingerprints,
+                     const std::vector<Eigen::VectorXd>& amplitudes);
 
 /// An experiment's vector, its two parts.
 struct Vectors {

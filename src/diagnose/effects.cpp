@@ -176,7 +176,20 @@ bool Effect::camera() const {
 }
 
 double Effect::absent(const Model& model, std::size_t component) const {
-  return name == "contact_law" ? parameter_value(model, paths[component]) : 0;
+  return paths[component].rfind("contact.", 0) == 0 ? parameter_value(model, paths[component]) : 0;
+}
+
+Effect together(const std::vector<Effect>& effects) {
+  Effect out;
+  for (const Effect& e : effects) {
+    out.name += (out.name.empty() ? "" : " + ") + e.name;
+    out.paths.insert(out.paths.end(), e.paths.begin(), e.paths.end());
+    out.sizes.insert(out.sizes.end(), e.sizes.begin(), e.sizes.end());
+    out.units.insert(out.units.end(), e.units.begin(), e.units.end());
+    out.shape.insert(out.shape.end(), e.shape.begin(), e.shape.end());
+    out.two_sided = out.two_sided || e.two_sided;
+  }
+  return out;
 }
 
 std::vector<Effect> effect_catalogue(const Model& model) {

@@ -33,6 +33,9 @@ struct Effect {
   double absent(const Model& model, std::size_t component) const;
 };
 
+/// Several effects at once as one, their amplitudes one after the other.
+Effect together(const std::vector<Effect>& effects);
+
 /// Every effect that a simulation can have. `model` gives sizes of tank and module.
 std::vector<Effect> effect_catalogue(const Model& model);
 

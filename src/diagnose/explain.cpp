@@ -1,6 +1,8 @@
-// The search for the effects that explain an experiment.
+// The search for the effects that explain an experiment: one at a time, all amplitudes fitted
+// together, every member chosen again beside the others.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/linear.hpp"
 #include "diagnose/naming.hpp"
@@ -11,13 +13,16 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kMostEffects = 3;
-constexpr double kInexact = 0.12;  // share of what was found that a remainder may be: fingerprints
-                                   // are known to some per cent only
-constexpr double kRough = 0.2;     // the same of a curve: six straight pieces are off by more
+constexpr std::size_t kMostEffects = 3;
+constexpr std::size_t kTried = 8;  // candidates that are fitted together with those before
+constexpr int kMostPasses = 4;
+// Share of what was found that a remainder may be: fingerprints are known to some per cent only,
+// those about found amplitudes better; of a curve six straight pieces are off by more.
+constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 constexpr double kCurve = 0.85;       // of a curve's gain: it may bend to what names leave
 constexpr double kPrice = 4;          // of an amplitude, in squared distance
+constexpr double kNoisy = 2.5;        // standard errors below which a difference is noise
 
 }  // namespace
 
@@ -69,49 +74,273 @@ bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) 
   return false;
 }
 
-// Of the candidates that are significant, the one that leaves least.
-std::size_t Naming::best(const Vector& all, double floor, const std::vector<EffectFit>& found,
-                         EffectFit& out, EffectFit& strongest) const {
-  const Vector named = all.head(named_);
-  const EffectFit shape = strongest_shape(all);
-  std::size_t index = known_.size();
-  double most = 0;
+// Below this z a remainder may be what fingerprints are wrong by.
+double Naming::floor_beside(const std::vector<EffectFit>& found) const {
+  double floor = 0;
+  for (const EffectFit& f : found) {
+    const bool about = std::any_of(known_.begin(), known_.end(), [&](const Known& k) {
+      return k.effect == f.effect && k.shape == f.shape && k.source.local();
+    });
+    floor = std::max(floor, (f.shape >= 0 ? kRough : about ? kInexactAbout : kInexact) * f.z);
+  }
+  return floor;
+}
+
+// Gauss and Newton on the amplitudes of all members, from where each is. Tells every member's z
+// and gain beside the others.
+void Naming::fit_together(const Vector& all, Together& set) const {
+  Eigen::Index m = 0;
+  for (const EffectFit& f : set.fits) m += f.amplitudes.size();
+  Vector a(m), least(m), most(m);
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < set.of.size(); ++i) {
+    const Answer& of = known_[set.of[i]].all;
+    const Eigen::Index n = set.fits[i].amplitudes.size();
+    a.segment(at, n) = set.fits[i].amplitudes;
+    least.segment(at, n) = of.least(), most.segment(at, n) = of.most();
+    at += n;
+  }
+  const Vector given = meetings_.empty() ? all : Vector(all - meeting(set));
+  double best = std::numeric_limits<double>::infinity();
+  Vector answer = a;
+  for (int step = 0; step < 12; ++step) {
+    Vector left = given;
+    Matrix slope(all.size(), m);
+    at = 0;
+    for (const std::size_t k : set.of) {
+      const Answer& of = known_[k].all;
+      const Vector own = a.segment(at, of.first.cols());
+      left -= of.at(own);
+      slope.middleCols(at, own.size()) = of.slope(own);
+      at += own.size();
+    }
+    if (left.squaredNorm() < best) best = left.squaredNorm(), answer = a, set.left = left;
+    Matrix normal = slope.transpose() * slope;
+    normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
+    a += solve_symmetric(normal, Vector(slope.transpose() * left));
+    a = a.cwiseMax(least).cwiseMin(most);
+  }
+  at = 0;
+  for (std::size_t i = 0; i < set.of.size(); ++i) {
+    const Known& of = known_[set.of[i]];
+    EffectFit& f = set.fits[i];
+    f.amplitudes = answer.segment(at, f.amplitudes.size());
+    f.at_reach = of.all.at_reach(f.amplitudes);
+    f.moved = of.source.moved(f.amplitudes);
+    at += f.amplitudes.size();
+    const Vector own = set.left + of.all.at(f.amplitudes);
+    f.gain = own.squaredNorm() - set.left.squaredNorm();
+    f.z = fit(of, own.head(named_)).z;
+    const EffectFit shape = strongest_shape(own);
+    if (f.shape >= 0 && shape.shape == f.shape) f.z = std::max(f.z, shape.z);
+  }
+}
+
+// What members do to each other, as far as it was simulated.
+Vector Naming::meeting(const Together& set) const {
+  Vector out = Vector::Zero(centre_.size());
+  for (const Meeting& m : meetings_) {
+    const bool there = std::all_of(m.of.begin(), m.of.end(), [&](std::size_t k) {
+      return std::find(set.of.begin(), set.of.end(), k) != set.of.end();
+    });
+    if (there) out += m.more;
+  }
+  return whitened(out);
+}
+
+// Candidates that are significant in what a set leaves, by how much of it they explain.
+std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit& strongest) const {
+  const Vector named = set.left.head(named_);
+  const EffectFit shape = strongest_shape(set.left);
+  const double floor = floor_beside(set.fits);
+  std::vector<Candidate> out;
   strongest = EffectFit{};
   for (std::size_t k = 0; k < known_.size(); ++k) {
     const EffectFit one = fit(known_[k], named);
     if (one.z > strongest.z) strongest = one;
-    if (told_already(one, found) || within_curve(known_[k], found)) continue;
+    if (told_already(one, set.fits) || within_curve(known_[k], set.fits)) continue;
     // A curve speaks by its own knots as well.
     const bool own =
         one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
     if (one.z <= std::max(effect_threshold_, floor) && !own) continue;
-    EffectFit whole = fit_all(known_[k], all);
-    double gain = whole.gain - kPrice * static_cast<double>(whole.amplitudes.size());
-    if (whole.shape >= 0) gain *= kCurve;
-    if (gain <= most) continue;
-    whole.z = own ? std::max(one.z, shape.z) : one.z;
-    most = gain, index = k, out = whole;
+    EffectFit whole = fit_all(known_[k], set.left);
+    const double worth = worth_of(whole.gain, whole);
+    if (worth > 0) out.push_back({k, std::move(whole), worth});
   }
-  return index;
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.worth > b.worth; });
+  return out;
+}
+
+double Naming::worth_of(double gain, const EffectFit& of) {
+  return (of.shape >= 0 ? kCurve : 1.0) * gain - kPrice * static_cast<double>(of.amplitudes.size());
+}
+
+// What a set leaves, and what its members cost.
+double Naming::cost(const Together& set) {
+  double out = set.left.squaredNorm();
+  for (const EffectFit& f : set.fits) out += f.gain - worth_of(f.gain, f);
+  return out;
+}
+
+// The set with the candidate that leaves least once everything is fitted together; the set as it
+// is if there is none.
+Naming::Together Naming::extended(const Vector& all, const Together& set) const {
+  EffectFit strongest;
+  std::vector<Candidate> next = candidates(set, strongest);
+  if (next.size() > kTried) next.resize(kTried);
+  Together best = set;
+  for (Candidate& c : next) {
+    Together with = set;
+    with.of.push_back(c.known), with.fits.push_back(c.fit);
+    fit_together(all, with);
+    if (cost(with) < cost(best)) best = std::move(with);
+  }
+  return best;
+}
+
+// Pairs of effects that together leave least, though neither may stand out alone: by their first
+// order, then fitted.
+std::vector<Naming::Together> Naming::pairs(const Vector& all) const {
+  std::vector<Eigen::Index> first{0};
+  for (const Known& k : known_) {
+    first.push_back(first.back() + (k.source.local() ? 1 : k.all.first.cols()));
+  }
+  Matrix basis(all.size(), first.back());
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    const Answer& of = known_[k].all;
+    basis.middleCols(first[k], first[k + 1] - first[k]) =
+        known_[k].source.local() ? Matrix(of.at(of.about)) : of.first;
+  }
+  const Matrix gram = basis.transpose() * basis;
+  const Vector seen = basis.transpose() * all;
+  struct Pair {
+    std::size_t a, b;
+    double gain;
+  };
+  std::vector<Pair> ranked;
+  for (std::size_t a = 0; a < known_.size(); ++a) {
+    for (std::size_t b = a + 1; b < known_.size(); ++b) {
+      const Eigen::Index n = first[a + 1] - first[a], m = first[b + 1] - first[b];
+      Matrix normal(n + m, n + m);
+      normal << gram.block(first[a], first[a], n, n), gram.block(first[a], first[b], n, m),
+          gram.block(first[b], first[a], m, n), gram.block(first[b], first[b], m, m);
+      normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
+      Vector both(n + m);
+      both << seen.segment(first[a], n), seen.segment(first[b], m);
+      const Vector amplitudes = solve_symmetric(normal, both);
+      const auto possible = [&](const Known& k, const Vector& of) {
+        return k.named.two_sided || of.minCoeff() > 0;
+      };
+      if (possible(known_[a], amplitudes.head(n)) && possible(known_[b], amplitudes.tail(m))) {
+        ranked.push_back({a, b, both.dot(amplitudes)});
+      }
+    }
+  }
+  const auto better = [](const Pair& a, const Pair& b) { return a.gain > b.gain; };
+  const std::size_t count = std::min(ranked.size(), kTried);
+  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
+                    ranked.end(), better);
+  std::vector<Together> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    Together set;
+    for (const std::size_t k : {ranked[i].a, ranked[i].b}) {
+      set.of.push_back(k), set.fits.push_back(fit_all(known_[k], all));
+    }
+    if (told_already(set.fits[0], {set.fits[1]})) continue;
+    fit_together(all, set);
+    out.push_back(std::move(set));
+  }
+  return out;
+}
+
+// Every member is beyond what the others' fingerprints may be wrong by.
+bool Naming::each_speaks(const Together& set) const {
+  for (std::size_t m = 0; m < set.of.size(); ++m) {
+    std::vector<EffectFit> others = set.fits;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
+    if (set.fits[m].z <= std::max(effect_threshold_, floor_beside(others))) return false;
+    if (within_curve(known_[set.of[m]], others)) return false;
+  }
+  return true;
+}
+
+Naming::Together Naming::without(const Vector& all, const Together& set, std::size_t member) const {
+  Together out = set;
+  out.of.erase(out.of.begin() + static_cast<std::ptrdiff_t>(member));
+  out.fits.erase(out.fits.begin() + static_cast<std::ptrdiff_t>(member));
+  out.left = all;
+  if (!out.of.empty()) fit_together(all, out);
+  return out;
+}
+
+// Every member is chosen again beside the others, until none changes.
+void Naming::exchange(const Vector& all, Together& set) const {
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    bool changed = false;
+    for (std::size_t m = 0; m < set.of.size(); ++m) {
+      Together other = extended(all, without(all, set, m));
+      if (other.of.size() < set.of.size() || cost(other) > cost(set) - kPrice) continue;
+      set = std::move(other), changed = true;
+    }
+    if (!changed) return;
+  }
+}
+
+// The best set with one effect more, the members before not bound to stay; the set as it is if
+// every other leaves no less than its own fingerprints may be wrong by.
+Naming::Together Naming::larger(const Vector& all, const Together& set) const {
+  Together best = extended(all, set);
+  if (set.of.size() == 1) {
+    for (Together& pair : pairs(all)) {
+      const bool first = best.of.size() == 1 || cost(pair) < cost(best);
+      if (first && each_speaks(pair)) best = std::move(pair);
+    }
+  }
+  if (best.of.size() == set.of.size()) return set;
+  if (best.of.size() > 1) exchange(all, best);
+  const double least = std::max(effect_threshold_, floor_beside(set.fits));
+  return cost(best) < cost(set) - least * least || set.of.empty() ? best : set;
 }
 
 Explanation Naming::explain(const Vector& residual) const {
+  const Vector all = whitened(residual - centre_);
   Explanation out;
-  Vector all = whitened(residual - centre_);
-  double floor = 0;
-  for (int round = 0;; ++round) {
-    EffectFit chosen;
-    const std::size_t k = best(all, floor, out.found, chosen, out.left_effect);
-    out.left_shape = strongest_shape(all);
-    if (round == 0) out.strongest = std::max(out.left_effect.z, out.left_shape.z);
-    if (k == known_.size() || round == kMostEffects) break;
-    const Known& of = known_[k];
-    all -= of.all.at(chosen.amplitudes);
-    chosen.moved = of.source.moved(chosen.amplitudes);
-    floor = std::max(floor, (chosen.shape >= 0 ? kRough : kInexact) * chosen.z);
-    out.found.push_back(chosen);
+  Together set;
+  set.left = all;
+  EffectFit strongest;
+  candidates(set, strongest);
+  out.strongest = std::max(strongest.z, strongest_shape(all).z);
+  while (set.of.size() < kMostEffects) {
+    Together more = larger(all, set);
+    if (more.of.size() == set.of.size()) break;
+    set = std::move(more);
   }
+  candidates(set, out.left_effect);
+  out.left_shape = strongest_shape(set.left);
+  out.found = set.fits;
+  std::stable_sort(out.found.begin(), out.found.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
   return out;
+}
+
+void Naming::add_meeting(const std::vector<EffectFit>& of, const Vector& residual,
+                         int experiments) {
+  Meeting m;
+  Vector more = residual;
+  double error = 1.0 / experiments;
+  for (const EffectFit& f : of) {
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+      if (known_[k].effect != f.effect || known_[k].shape != f.shape) continue;
+      m.of.push_back(k), more -= known_[k].source.at(f.amplitudes);
+      error += 1.0 / std::max(1, known_[k].source.experiments);
+    }
+  }
+  const double noise = kNoisy * std::sqrt(error);
+  m.more = more.unaryExpr([=](double v) { return std::fabs(v) < noise ? 0.0 : v; });
+  std::sort(m.of.begin(), m.of.end());
+  std::erase_if(meetings_, [&](const Meeting& other) { return other.of == m.of; });
+  meetings_.push_back(std::move(m));
 }
 
 }  // namespace lilytank

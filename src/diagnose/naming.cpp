@@ -18,21 +18,34 @@ constexpr int kFolds = 5;
 constexpr double kLeastShrinkage = 0.02;
 constexpr double kNoisy = 2.5;   // standard errors below which an entry of a fingerprint is noise
 constexpr double kMostSize = 6;  // sizes beyond which a fingerprint is no guide
+constexpr Eigen::Index kLeastScatter = 4;
+constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 // How far from its own amplitudes a fingerprint about found ones holds.
 constexpr double kNear = 0.5, kNearLeast = 0.4;
 constexpr double kEulerGamma = 0.57721566490153286;
 
-// The covariance's inverse root, correlations shrunk towards none [Schaefer and Strimmer 2005].
-Matrix whitener_of(const Matrix& rows) {
-  const auto n = static_cast<double>(rows.rows());
-  const Matrix off = rows.rowwise() - rows.colwise().mean();
-  const Vector deviation = (off.colwise().squaredNorm() / n).cwiseSqrt().cwiseMax(1e-9).transpose();
-  const Matrix z = off * deviation.cwiseInverse().asDiagonal();
-  Matrix r = z.transpose() * z / n;
+// Correlations of columns, shrunk towards none [Schaefer and Strimmer 2005], times deviations.
+Matrix covariance_of(const Matrix& off, const Vector& deviation) {
+  const Vector own = (off.colwise().squaredNorm() / static_cast<double>(off.rows()))
+                         .cwiseSqrt()
+                         .cwiseMax(1e-9)
+                         .transpose();
+  const Matrix z = off * own.cwiseInverse().asDiagonal();
+  Matrix r = z.transpose() * z / static_cast<double>(off.rows());
   r *= 1 - std::max(kLeastShrinkage, correlation_shrinkage(z));
   r.diagonal().setOnes();
-  Matrix out = lower_inverse(lower_root(r));
-  return out * deviation.cwiseInverse().asDiagonal();
+  return deviation.asDiagonal() * r * deviation.asDiagonal();
+}
+
+Matrix covariance_of(const Matrix& rows) {
+  const Matrix off = rows.rowwise() - rows.colwise().mean();
+  const double n = static_cast<double>(rows.rows());
+  return covariance_of(off,
+                       (off.colwise().squaredNorm() / n).cwiseSqrt().cwiseMax(1e-9).transpose());
+}
+
+Matrix inverse_root(const Matrix& covariance) {
+  return lower_inverse(lower_root(covariance));
 }
 
 // The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
@@ -53,15 +66,16 @@ Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
                double false_alarms)
     : named_(nulls.cols() - static_cast<Eigen::Index>(curves) * kKnots) {
   centre_ = nulls.colwise().mean().transpose();
-  whitener_ = whitener_of(nulls.leftCols(named_));
+  covariance_ = covariance_of(nulls.leftCols(named_));
+  whitener_ = inverse_root(covariance_);
   const auto n = static_cast<double>(nulls.rows());
   for (std::size_t s = 0; s < curves; ++s) {
     const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     const Matrix block =
         nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
-    Matrix covariance = block.transpose() * block / (n - 1);
-    covariance.diagonal().array() += 1e-3;
-    root_.push_back(lower_inverse(lower_root(covariance)));
+    knots_.emplace_back(block.transpose() * block / (n - 1));
+    knots_.back().diagonal().array() += 1e-3;
+    root_.push_back(inverse_root(knots_.back()));
     shape_scale_.push_back(1);
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -114,15 +128,28 @@ Vector Naming::Answer::at(const Vector& amplitudes) const {
   return base + first * d + second * d.array().square().matrix();
 }
 
-// Gauss and Newton on the amplitudes; those that cannot be negative stop at nothing, those about
-// found ones stay near them.
+Matrix Naming::Answer::slope(const Vector& amplitudes) const {
+  return first + 2 * second * (amplitudes - about).asDiagonal();
+}
+
+Vector Naming::Answer::reach() const {
+  return about.cwiseAbs().maxCoeff() > 0 ? Vector((kNear * about.cwiseAbs()).array() + kNearLeast)
+                                         : Vector(Vector::Constant(about.size(), kMostSize));
+}
+
+Vector Naming::Answer::least() const {
+  return (about - reach()).cwiseMax(two_sided ? -1e9 : 0.0);
+}
+
+bool Naming::Answer::at_reach(const Vector& amplitudes) const {
+  return ((amplitudes - about).cwiseAbs().array() >= (1 - 1e-9) * reach().array()).any();
+}
+
+// Gauss and Newton on the amplitudes.
 EffectFit Naming::Answer::fit(const Vector& data) const {
   const Eigen::Index m = first.cols();
   const bool local = about.cwiseAbs().maxCoeff() > 0;
-  const Vector reach = local ? Vector((kNear * about.cwiseAbs()).array() + kNearLeast)
-                             : Vector(Vector::Constant(m, kMostSize));
-  const Vector most = about + reach;
-  const Vector least = (about - reach).cwiseMax(two_sided ? -1e9 : 0.0);
+  const Vector lowest = least(), highest = most();
   EffectFit out;
   out.amplitudes = Vector::Zero(m);
   const double before = data.squaredNorm();
@@ -132,16 +159,15 @@ EffectFit Naming::Answer::fit(const Vector& data) const {
     Vector a = about;
     if (!local && m == 1) a(0) = 0.3 * sign;
     for (int step = 0; step < 12; ++step) {
-      const Matrix slope = first + 2 * second * (a - about).asDiagonal();
-      Matrix normal = slope.transpose() * slope;
+      const Matrix along = slope(a);
+      Matrix normal = along.transpose() * along;
       normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-      a += solve_symmetric(normal, Vector(slope.transpose() * (data - at(a))));
-      a = a.cwiseMax(least).cwiseMin(most);
+      a += solve_symmetric(normal, Vector(along.transpose() * (data - at(a))));
+      a = a.cwiseMax(lowest).cwiseMin(highest);
     }
     const double distance = (data - at(a)).squaredNorm();
     if (distance >= best) continue;
-    best = distance, out.amplitudes = a;
-    out.at_reach = ((a - about).cwiseAbs().array() >= (1 - 1e-9) * reach.array()).any();
+    best = distance, out.amplitudes = a, out.at_reach = at_reach(a);
   }
   out.gain = before - best;
   return out;
@@ -181,7 +207,7 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
     for (Eigen::Index i = 0; i < n; ++i) {
       if (i % kFolds != fold) others.row(at++) = nulls.row(i);
     }
-    const Matrix fold_whitener = whitener_of(others.leftCols(named_));
+    const Matrix fold_whitener = inverse_root(covariance_of(others.leftCols(named_)));
     const Matrix change = fold_whitener * lower_inverse(whitener);
     std::vector<Known> known = known_;
     for (Known& k : known) {
@@ -226,6 +252,28 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   }
   effect_threshold_ = extreme(largest_effect, 0.6 * false_alarms);
   shape_threshold_ = extreme(largest_shape, 0.4 * false_alarms);
+}
+
+// Beyond the nulls' scatter, as far as it is more than few experiments show of nothing.
+void Naming::loosen(const Matrix& scatter) {
+  if (scatter.rows() < kLeastScatter) return;
+  const auto n = static_cast<double>(scatter.rows());
+  const double chance = 1 + kByChance * std::sqrt(2 / n);
+  const auto more = [&](const Matrix& off, const Matrix& own) -> Matrix {
+    const Vector square = off.colwise().squaredNorm().transpose() / n;
+    const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
+    return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
+  };
+  whitener_ = inverse_root(more(scatter.leftCols(named_), covariance_));
+  for (std::size_t s = 0; s < root_.size(); ++s) {
+    const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
+    root_[s] = inverse_root(more(scatter.middleCols(first, kKnots), knots_[s]));
+  }
+  for (Known& k : known_) {
+    const double scale = k.scale;
+    k = known(k.source, k.effect, k.shape, k.named.two_sided);
+    k.scale = scale;
+  }
 }
 
 std::vector<EffectFit> Naming::effects(const Vector& residual) const {
@@ -276,6 +324,12 @@ double Naming::smallest_seen(int effect) const {
     return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
   }
   return std::numeric_limits<double>::infinity();
+}
+
+double Naming::expected_z(int effect, const Vector& amplitudes) const {
+  const auto of = std::find_if(known_.begin(), known_.end(),
+                               [&](const Known& k) { return k.effect == effect; });
+  return of == known_.end() ? 0 : of->named.at(amplitudes).norm() / std::sqrt(of->scale);
 }
 
 }  // namespace lilytank

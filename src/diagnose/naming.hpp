@@ -44,13 +44,23 @@ class Naming {
   std::vector<EffectFit> leading(const Eigen::VectorXd& residual, int count) const;
   /// Replaces a fingerprint by one about the amplitudes that were found.
   void sharpen(const EffectFit& fit, const Fingerprint& fingerprint);
-  /// Forward selection of effects, and of shapes that were added, until nothing is left.
+  /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
+  /// more than that of nulls: modules that stick scatter otherwise than modules that drift.
+  void loosen(const Eigen::MatrixXd& scatter);
+  /// What several effects leave in residuals at these amplitudes if all are there: they need not
+  /// add up. `experiments`: that the mean rests on.
+  void add_meeting(const std::vector<EffectFit>& of, const Eigen::VectorXd& residual,
+                   int experiments);
+  /// The effects, and shapes that were added, that together explain residuals until nothing is
+  /// left.
   Explanation explain(const Eigen::VectorXd& residual) const;
   double effect_threshold() const { return effect_threshold_; }
   double shape_threshold() const { return shape_threshold_; }
   /// Amplitude of an effect's component at which it would be seen with probability one half, in
   /// units of its size; infinite if its fingerprint shows nothing.
   double smallest_seen(int effect) const;
+  /// Deviations by which an effect at these amplitudes moves residuals, calibrated without it.
+  double expected_z(int effect, const Eigen::VectorXd& amplitudes) const;
 
  private:
   /// A whitened fingerprint.
@@ -60,6 +70,13 @@ class Naming {
     bool two_sided = false;
     Answer top(Eigen::Index rows) const;
     Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
+    Eigen::MatrixXd slope(const Eigen::VectorXd& amplitudes) const;
+    /// How far amplitudes may go: those that cannot be negative stop at nothing, those about found
+    /// ones stay near them.
+    Eigen::VectorXd reach() const;
+    Eigen::VectorXd least() const;
+    Eigen::VectorXd most() const { return about + reach(); }
+    bool at_reach(const Eigen::VectorXd& amplitudes) const;
     EffectFit fit(const Eigen::VectorXd& data) const;
   };
   struct Known {
@@ -78,19 +95,48 @@ class Naming {
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
   void calibrate(const Eigen::MatrixXd& nulls, double false_alarms);
+  /// Effects at once: places in the list of known ones, amplitudes, and what they leave.
+  struct Together {
+    std::vector<std::size_t> of;
+    std::vector<EffectFit> fits;
+    Eigen::VectorXd left;
+  };
+  /// What simulations of several effects at once have more than the sum of each alone.
+  struct Meeting {
+    std::vector<std::size_t> of;
+    Eigen::VectorXd more;  ///< of residuals
+  };
+  struct Candidate {
+    std::size_t known = 0;
+    EffectFit fit;
+    double worth = 0;
+  };
   bool told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const;
   bool within_curve(const Known& of, const std::vector<EffectFit>& found) const;
-  std::size_t best(const Eigen::VectorXd& all, double floor, const std::vector<EffectFit>& found,
-                   EffectFit& out, EffectFit& strongest) const;
+  double floor_beside(const std::vector<EffectFit>& found) const;
+  static double worth_of(double gain, const EffectFit& of);
+  Eigen::VectorXd meeting(const Together& set) const;
+  void fit_together(const Eigen::VectorXd& all, Together& set) const;
+  std::vector<Candidate> candidates(const Together& set, EffectFit& strongest) const;
+  Together extended(const Eigen::VectorXd& all, const Together& set) const;
+  Together without(const Eigen::VectorXd& all, const Together& set, std::size_t member) const;
+  void exchange(const Eigen::VectorXd& all, Together& set) const;
+  static double cost(const Together& set);
+  std::vector<Together> pairs(const Eigen::VectorXd& all) const;
+  bool each_speaks(const Together& set) const;
+  Together larger(const Eigen::VectorXd& all, const Together& set) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
 
-  Eigen::Index named_;                 ///< numbers before the shapes' knots
-  std::vector<std::string> terms_;     ///< of each effect: the path of its first amplitude
-  Eigen::VectorXd centre_;             ///< mean of the nulls' residuals
-  Eigen::MatrixXd whitener_;           ///< of the named numbers
-  std::vector<Eigen::MatrixXd> root_;  ///< whitens each shape's knots
+  Eigen::Index named_;                  ///< numbers before the shapes' knots
+  std::vector<std::string> terms_;      ///< of each effect: the path of its first amplitude
+  Eigen::VectorXd centre_;              ///< mean of the nulls' residuals
+  Eigen::MatrixXd covariance_;          ///< of the named numbers of nulls
+  std::vector<Eigen::MatrixXd> knots_;  ///< of each shape's
+  Eigen::MatrixXd whitener_;            ///< of the named numbers
+  std::vector<Eigen::MatrixXd> root_;   ///< whitens each shape's knots
   std::vector<double> shape_scale_;
   std::vector<Known> known_;
+  std::vector<Meeting> meetings_;
   double effect_threshold_ = 0, shape_threshold_ = 0;
 };
 

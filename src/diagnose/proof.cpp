@@ -105,11 +105,10 @@ double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
       return e.name == own.effect.name && e.shape == own.effect.shape;
     });
     if (of == effects.end()) return 0;
-    double square = 0;
-    for (const double a : own.amplitudes) square += a * a;
-    const double smallest =
-        diagnoser.naming().smallest_seen(static_cast<int>(of - effects.begin()));
-    least = std::min(least, std::sqrt(square) * diagnoser.naming().effect_threshold() / smallest);
+    const Eigen::Map<const Eigen::VectorXd> amplitudes(
+        own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
+    least = std::min(
+        least, diagnoser.naming().expected_z(static_cast<int>(of - effects.begin()), amplitudes));
   }
   return s.effects.empty() ? 0 : least;
 }

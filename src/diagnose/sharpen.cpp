@@ -1,7 +1,7 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "analysis/linear.hpp"
 #include "diagnose/diagnoser.hpp"
@@ -17,6 +17,7 @@ constexpr double kLeastAmplitude = 0.2, kRival = 0.5, kNear = 0.85;
 constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
 constexpr int kRivals = 3, kMostSharpened = 6;
+constexpr std::size_t kMostMeetings = 3;
 
 }  // namespace
 
@@ -82,8 +83,11 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
 // experiments of its own strength. First those that might be it, then whatever leads.
 Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
                                  const Vector& residual) {
-  if (e.found.empty() || e.found[0].z < kStrong || plain(naming, e, residual)) return e;
-  std::map<std::pair<int, int>, Fingerprint> known;
+  if (e.found.empty() || (e.found.size() == 1 && e.found[0].z < kStrong) ||
+      plain(naming, e, residual)) {
+    return e;
+  }
+  Sharper known;
   const auto sharpen = [&](EffectFit f) {
     const auto before = known.find({f.effect, f.shape});
     const Fingerprint from = before != known.end() ? before->second
@@ -95,6 +99,12 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     known[{f.effect, f.shape}] = to;
     naming.sharpen(f, to);
   };
+  // By the scatter of the experiments with what seems to be there most of all.
+  const auto loosen = [&] {
+    const EffectFit first = naming.leading(residual, 1)[0];
+    const auto sharp = known.find({first.effect, first.shape});
+    if (sharp != known.end()) naming.loosen(sharp->second.scatter);
+  };
   const auto blunt = [&](const EffectFit& f) {
     const bool told = known.count({f.effect, f.shape}) > 0;
     return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
@@ -102,6 +112,7 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
   for (const EffectFit& f : naming.leading(residual, kRivals)) {
     if (blunt(f)) sharpen(f);
   }
+  loosen();
   for (int more = 0; more < kMostSharpened; ++more) {
     e = naming.explain(residual);
     std::vector<EffectFit> next = naming.leading(residual, kRivals);
@@ -109,13 +120,54 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                               [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
                next.end());
     for (const EffectFit& f : e.found) {
-      if (f.z >= kStrong) next.push_back(f);
+      next.push_back(f);
     }
     const auto first = std::find_if(next.begin(), next.end(), blunt);
     if (first == next.end()) break;
     sharpen(*first);
+    loosen();
   }
-  return naming.explain(residual);
+  return met(naming, known, judged, residual);
+}
+
+// Several effects need not add up: modules that one holds together another cannot move apart.
+// What they do at once is simulated as well.
+Explanation Diagnoser::met(Naming& naming, const Sharper& known, const Judged& judged,
+                           const Vector& residual) {
+  const ScorePlan& plan = atlas_->plan();
+  Explanation e = naming.explain(residual);
+  std::set<std::string> told;
+  while (e.found.size() > 1) {
+    std::vector<Effect> effects;
+    std::vector<Fingerprint> each;
+    std::vector<Vector> amplitudes;
+    std::string name;
+    std::vector<EffectFit> found = e.found;
+    std::sort(found.begin(), found.end(), [](const EffectFit& a, const EffectFit& b) {
+      return std::pair(a.effect, a.shape) < std::pair(b.effect, b.shape);
+    });
+    for (const EffectFit& f : found) {
+      const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
+      effects.push_back(f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]));
+      const auto sharp = known.find({f.effect, f.shape});
+      each.push_back(sharp != known.end() ? sharp->second
+                     : f.effect >= 0      ? atlas_->fingerprints()[id]
+                                          : shape_fingerprint(f.shape));
+      amplitudes.push_back(f.amplitudes);
+      name += (name.empty() ? "" : ", ") + std::string(f.effect >= 0 ? "effect " : "shape ") +
+              std::to_string(id);
+    }
+    const bool camera =
+        std::any_of(effects.begin(), effects.end(), [](const Effect& f) { return f.camera(); });
+    if (camera || told.size() == kMostMeetings || !told.insert(name).second) break;
+    const Fingerprint apart = together(each, amplitudes);
+    const Fingerprint at_once =
+        atlas_->fingerprint_about(apart.about, apart, together(effects),
+                                  atlas_->calibrated(judged.observed.summary).point, name);
+    naming.add_meeting(found, at_once.at(apart.about), at_once.experiments);
+    e = naming.explain(residual);
+  }
+  return e;
 }
 
 Fingerprint Diagnoser::shape_fingerprint(int s) {

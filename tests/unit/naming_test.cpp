@@ -1,0 +1,129 @@
+// Which effects explain residuals, on numbers of which everything is known.
+#include "diagnose/naming.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lilytank/random.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kNamed = 60, kCurves = 2, kNulls = 400;
+constexpr double kFalseAlarms = 0.02;
+
+double normal(std::uint64_t of, std::int64_t row, int column) {
+  return normal_pair({of, Stream::calibrate, row, static_cast<std::uint32_t>(column), 3})[0];
+}
+
+// Independent numbers of deviation one.
+Vector noise(std::uint64_t of, int row) {
+  Vector out(kNamed + kCurves * kKnots);
+  for (Eigen::Index k = 0; k < out.size(); ++k) out(k) = normal(of, row, static_cast<int>(k));
+  return out;
+}
+
+// A direction among the named numbers.
+Vector direction(std::uint64_t of) {
+  Vector out = noise(of, 0);
+  out.tail(kCurves * kKnots).setZero();
+  return out.normalized();
+}
+
+Fingerprint fingerprint(const Vector& at_size) {
+  Fingerprint f;
+  f.about = Vector::Zero(1), f.base = Vector::Zero(at_size.size());
+  f.first = at_size, f.second = Matrix::Zero(at_size.size(), 1);
+  f.moved_first = Matrix::Zero(5, 1), f.moved_base = Vector::Zero(5);
+  f.experiments = 1000;
+  return f;
+}
+
+// Two effects, one that looks much like both of them at once, and one that has nothing to do with
+// them; all of ten deviations at their sizes.
+class NamingTest : public testing::Test {
+ protected:
+  static constexpr int kFirst = 0, kSecond = 1, kBoth = 2, kOther = 3;
+
+  NamingTest() {
+    first_ = 10 * direction(11), second_ = 10 * direction(12);
+    both_ = 10 * (first_ + second_ + 5 * direction(13)).normalized();
+    other_ = 10 * direction(14);
+    Matrix nulls(kNulls, first_.size());
+    for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
+    std::vector<Effect> effects;
+    std::vector<Fingerprint> fingerprints;
+    for (const auto& [name, vector] :
+         {std::pair("first", first_), {"second", second_}, {"both", both_}, {"other", other_}}) {
+      Effect e;
+      e.name = name, e.paths = {std::string("forces.") + name + ".strength"}, e.sizes = {1};
+      effects.push_back(e), fingerprints.push_back(fingerprint(vector));
+    }
+    naming_ = std::make_unique<Naming>(nulls, effects, fingerprints, kCurves, kFalseAlarms);
+  }
+
+  std::vector<int> said(const Vector& residual) const {
+    std::vector<int> out;
+    for (const EffectFit& f : naming_->explain(residual).found) out.push_back(f.effect);
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  Vector first_, second_, both_, other_;
+  std::unique_ptr<Naming> naming_;
+};
+
+// 1000 complete experiments; a binomial number of mean 20 exceeds 40 once in 50000 times, and the
+// threshold itself is known from 400 nulls to a deviation of some 30 %.
+TEST_F(NamingTest, nothingIsSaidOfNothing) {
+  int called = 0;
+  for (int i = 0; i < 1000; ++i) called += said(noise(2, i)).empty() ? 0 : 1;
+  EXPECT_LT(called, 40);
+}
+
+TEST_F(NamingTest, oneEffectIsNamedAloneAndMeasured) {
+  for (int i = 0; i < 50; ++i) {
+    const Explanation e = naming_->explain(noise(3, i) + 1.5 * second_);
+    ASSERT_EQ(e.found.size(), 1u) << i;
+    EXPECT_EQ(e.found[0].effect, kSecond);
+    // Ten deviations tell the amplitude to a tenth, and nulls are whitened with an error.
+    EXPECT_NEAR(e.found[0].amplitudes(0), 1.5, 0.5);
+  }
+}
+
+// An effect that looks like two others at once is the first choice, and not kept.
+TEST_F(NamingTest, twoEffectsAreNotTakenForOneThatLooksLikeBoth) {
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(said(noise(4, i) + 2 * first_ + 2 * second_), (std::vector<int>{kFirst, kSecond}))
+        << i;
+  }
+}
+
+TEST_F(NamingTest, oneEffectThatExplainsAllIsNotTakenForTwo) {
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(said(noise(5, i) + 3 * both_), (std::vector<int>{kBoth})) << i;
+  }
+}
+
+// Effects at once may do what neither does alone: without its simulation a third name stands for
+// it, with it none does.
+TEST_F(NamingTest, whatEffectsDoToEachOtherIsNoThirdEffect) {
+  const Vector meeting = 0.8 * other_;
+  std::vector<EffectFit> pair(2);
+  pair[0].effect = kFirst, pair[1].effect = kSecond;
+  for (EffectFit& f : pair) f.amplitudes = Vector::Constant(1, 2.0);
+  const Vector truth = 2 * first_ + 2 * second_ + meeting;
+  const Vector data = noise(6, 0) + truth;
+  EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond, kOther}));
+  naming_->add_meeting(pair, truth, 1000);
+  EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond}));
+}
+
+TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
+  EXPECT_NEAR(naming_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
+}
+
+}  // namespace
+}  // namespace lilytank
