@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "analysis/linear.hpp"
+#include "analysis/median.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
@@ -113,6 +115,14 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
     if (deviation_(k) < kNeverVaries * std::max(size, 1e-3)) deviation_(k) = kNoWeight;
+  }
+  // A knot that bodies hardly ever visit is known no better than its neighbours.
+  for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+    auto knots = deviation_.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots);
+    std::vector<double> told;
+    std::copy_if(knots.begin(), knots.end(), std::back_inserter(told),
+                 [](double d) { return d < kNoWeight; });
+    if (!told.empty()) knots = knots.cwiseMax(median(told));
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());

@@ -20,9 +20,11 @@ constexpr int kMostPasses = 4;
 // those about found amplitudes better; of a curve six straight pieces are off by more.
 constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
-constexpr double kCurve = 0.85;       // of a curve's gain: it may bend to what names leave
-constexpr double kPrice = 4;          // of an amplitude, in squared distance
-constexpr double kNoisy = 2.5;        // standard errors below which a difference is noise
+// Of a curve's gain: it may bend to what names leave, less so if both are known where they are.
+constexpr double kCurve = 0.85, kCurveAbout = 0.95;
+constexpr double kMeanSquare = 0.7;  // of the amplitudes at which fingerprints are learned
+constexpr double kPrice = 4;         // of an amplitude, in squared distance
+constexpr double kNoisy = 2.5;       // standard errors below which a difference is noise
 
 }  // namespace
 
@@ -64,10 +66,10 @@ bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) 
     const auto curve = std::find_if(known_.begin(), known_.end(),
                                     [&](const Known& k) { return k.shape == f.shape; });
     if (curve == known_.end()) continue;
-    const Matrix& basis = curve->all.first;
+    const Matrix& basis = curve->basis;
     Matrix normal = basis.transpose() * basis;
     normal.diagonal().array() += 1e-6 * (1 + normal.diagonal().maxCoeff());
-    const Matrix& own = of.all.first;
+    const Matrix& own = of.basis;
     const Matrix left = own - basis * solve_symmetric(normal, Matrix(basis.transpose() * own));
     if (left.squaredNorm() < kBeyondCurve * own.squaredNorm()) return true;
   }
@@ -78,10 +80,7 @@ bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) 
 double Naming::floor_beside(const std::vector<EffectFit>& found) const {
   double floor = 0;
   for (const EffectFit& f : found) {
-    const bool about = std::any_of(known_.begin(), known_.end(), [&](const Known& k) {
-      return k.effect == f.effect && k.shape == f.shape && k.source.local();
-    });
-    floor = std::max(floor, (f.shape >= 0 ? kRough : about ? kInexactAbout : kInexact) * f.z);
+    floor = std::max(floor, (f.shape >= 0 ? kRough : f.about ? kInexactAbout : kInexact) * f.z);
   }
   return floor;
 }
@@ -172,12 +171,13 @@ std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit
   return out;
 }
 
-double Naming::worth_of(double gain, const EffectFit& of) {
-  return (of.shape >= 0 ? kCurve : 1.0) * gain - kPrice * static_cast<double>(of.amplitudes.size());
+double Naming::worth_of(double gain, const EffectFit& of) const {
+  const double share = of.shape < 0 ? 1 : of.about ? kCurveAbout : kCurve;
+  return share * gain - kPrice * static_cast<double>(of.amplitudes.size());
 }
 
 // What a set leaves, and what its members cost.
-double Naming::cost(const Together& set) {
+double Naming::cost(const Together& set) const {
   double out = set.left.squaredNorm();
   for (const EffectFit& f : set.fits) out += f.gain - worth_of(f.gain, f);
   return out;
@@ -303,14 +303,22 @@ Naming::Together Naming::larger(const Vector& all, const Together& set) const {
   return cost(best) < cost(set) - least * least || set.of.empty() ? best : set;
 }
 
+// Variance that the errors of the members' fingerprints add to every number, which has one.
+double Naming::noise_of(const Together& set) const {
+  double out = 0;
+  for (std::size_t m = 0; m < set.of.size(); ++m) {
+    const Fingerprint& of = known_[set.of[m]].source;
+    const double n = std::max(1, of.experiments);
+    out += of.local() ? 1 / n : set.fits[m].amplitudes.squaredNorm() / (kMeanSquare * n);
+  }
+  return out;
+}
+
 Explanation Naming::explain(const Vector& residual) const {
   const Vector all = whitened(residual - centre_);
   Explanation out;
   Together set;
   set.left = all;
-  EffectFit strongest;
-  candidates(set, strongest);
-  out.strongest = std::max(strongest.z, strongest_shape(all).z);
   while (set.of.size() < kMostEffects) {
     Together more = larger(all, set);
     if (more.of.size() == set.of.size()) break;
@@ -318,9 +326,45 @@ Explanation Naming::explain(const Vector& residual) const {
   }
   candidates(set, out.left_effect);
   out.left_shape = strongest_shape(set.left);
+  out.misfit = set.left.head(named_).squaredNorm() / (1 + noise_of(set));
   out.found = set.fits;
   std::stable_sort(out.found.begin(), out.found.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
+  return out;
+}
+
+Naming::Together Naming::set_of(const Vector& all, const std::vector<EffectFit>& found) const {
+  Together set;
+  for (const EffectFit& f : found) {
+    const auto of = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
+      return k.effect == f.effect && k.shape == f.shape;
+    });
+    set.of.push_back(static_cast<std::size_t>(of - known_.begin())), set.fits.push_back(f);
+  }
+  set.left = all;
+  if (!set.of.empty()) fit_together(all, set);
+  return set;
+}
+
+std::vector<EffectFit> Naming::rivals(const Vector& residual, const std::vector<EffectFit>& found,
+                                      double nearly, std::size_t count) const {
+  const Vector all = whitened(residual - centre_);
+  const Together set = set_of(all, found);
+  std::vector<EffectFit> out;
+  for (std::size_t m = 0; m < set.of.size(); ++m) {
+    const Together rest = without(all, set, m);
+    std::vector<EffectFit> own;
+    for (std::size_t k = 0; k < known_.size(); ++k) {
+      const EffectFit f = fit_all(known_[k], rest.left);
+      const double least = nearly * set.fits[m].gain;
+      if (k != set.of[m] && f.gain > least && !told_already(f, rest.fits)) own.push_back(f);
+    }
+    std::stable_sort(own.begin(), own.end(),
+                     [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
+    own.insert(own.begin(), set.fits[m]);
+    own.resize(std::min(own.size(), count));
+    out.insert(out.end(), own.begin(), own.end());
+  }
   return out;
 }
 

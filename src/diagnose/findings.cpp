@@ -130,7 +130,7 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
   }
   out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
   blame_camera(e, out);
-  if (e.found.empty() && e.strongest > naming.shape_threshold()) out.verdict = Verdict::undecided;
+  if (e.found.empty() && naming.leaves_something(e)) out.verdict = Verdict::undecided;
 }
 
 // Where the camera is at fault, what else was found may be its shadow: forces are not told.

@@ -74,7 +74,8 @@ Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
     const Matrix block =
         nulls.middleCols(first, kKnots).rowwise() - centre_.segment(first, kKnots).transpose();
     knots_.emplace_back(block.transpose() * block / (n - 1));
-    knots_.back().diagonal().array() += 1e-3;
+    // Knots that are hardly ever visited are given too much deviation, not too little.
+    knots_.back().diagonal() = knots_.back().diagonal().cwiseMax(1.0);
     root_.push_back(inverse_root(knots_.back()));
     shape_scale_.push_back(1);
   }
@@ -89,6 +90,7 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
                             bool two_sided) const {
   Known out;
   out.effect = effect, out.shape = shape, out.source = fingerprint;
+  out.learned = fingerprint.first;
   // A residual has deviation one, amplitudes a mean square of some 0.7; those about found ones are
   // known with a slope as well, and their base is a mean.
   const bool local = fingerprint.local();
@@ -101,7 +103,16 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
              whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
              two_sided};
   out.named = out.all.top(named_);
+  out.basis = out.all.first;
   return out;
+}
+
+// What is known of an effect in the place of what was, by the whitener that is now.
+void Naming::renew(Known& of, const Fingerprint& fingerprint) const {
+  const Matrix learned = of.learned;
+  const double scale = of.scale;
+  of = known(fingerprint, of.effect, of.shape, of.named.two_sided);
+  of.learned = learned, of.basis = whitened(learned), of.scale = scale;
 }
 
 // Columns of residuals, the named numbers and every shape's knots each by their covariance.
@@ -175,14 +186,14 @@ EffectFit Naming::Answer::fit(const Vector& data) const {
 
 EffectFit Naming::fit(const Known& of, const Vector& data) const {
   EffectFit out = of.named.fit(data);
-  out.effect = of.effect, out.shape = of.shape;
+  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
   out.z = z_of(out.gain, of.scale, of.named.first.cols());
   return out;
 }
 
 EffectFit Naming::fit_all(const Known& of, const Vector& all) const {
   EffectFit out = of.all.fit(all);
-  out.effect = of.effect, out.shape = of.shape;
+  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
   return out;
 }
 
@@ -199,6 +210,7 @@ EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
 void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   const Eigen::Index n = nulls.rows();
   const Matrix whitener = whitener_;
+  std::vector<double> misfits;
   std::vector<std::vector<EffectFit>> effects(static_cast<std::size_t>(n)),
       shapes(static_cast<std::size_t>(n));
   for (int fold = 0; fold < kFolds; ++fold) {
@@ -217,6 +229,7 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const Vector off = nulls.row(i).transpose() - centre_;
       const Vector whitened = fold_whitener * off.head(named_);
+      misfits.push_back(whitened.squaredNorm());
       auto& mine = effects[static_cast<std::size_t>(i)];
       for (const Known& k : known) mine.push_back(fit(k, whitened));
       for (std::size_t s = 0; s < root_.size(); ++s) {
@@ -250,8 +263,9 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
     }
     largest_effect.push_back(e), largest_shape.push_back(s);
   }
-  effect_threshold_ = extreme(largest_effect, 0.6 * false_alarms);
-  shape_threshold_ = extreme(largest_shape, 0.4 * false_alarms);
+  effect_threshold_ = extreme(largest_effect, 0.5 * false_alarms);
+  shape_threshold_ = extreme(largest_shape, 0.3 * false_alarms);
+  misfit_threshold_ = extreme(misfits, 0.2 * false_alarms);
 }
 
 // Beyond the nulls' scatter, as far as it is more than few experiments show of nothing.
@@ -269,11 +283,7 @@ void Naming::loosen(const Matrix& scatter) {
     const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     root_[s] = inverse_root(more(scatter.middleCols(first, kKnots), knots_[s]));
   }
-  for (Known& k : known_) {
-    const double scale = k.scale;
-    k = known(k.source, k.effect, k.shape, k.named.two_sided);
-    k.scale = scale;
-  }
+  for (Known& k : known_) renew(k, Fingerprint(k.source));
 }
 
 std::vector<EffectFit> Naming::effects(const Vector& residual) const {
@@ -303,9 +313,7 @@ void Naming::add_shape(int shape, const Fingerprint& fingerprint) {
 void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
   for (Known& k : known_) {
     if (k.effect != fit.effect || k.shape != fit.shape) continue;
-    const double scale = k.scale;
-    k = known(fingerprint, k.effect, k.shape, k.named.two_sided);
-    k.scale = scale;
+    renew(k, fingerprint);
   }
 }
 

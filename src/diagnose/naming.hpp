@@ -15,6 +15,7 @@ struct EffectFit {
   Eigen::VectorXd amplitudes;  ///< in units of the effect's sizes
   Eigen::VectorXd moved;  ///< how far it moves a calibration that knows nothing of it, in its scale
   double gain = 0;        ///< fall of the squared distance
+  bool about = false;     ///< by a fingerprint about found amplitudes
   bool at_reach = false;  ///< as far as its fingerprint holds: the truth may be beyond
   double z = 0;           ///< deviations of a normal number with the same probability
 };
@@ -24,7 +25,8 @@ struct Explanation {
   std::vector<EffectFit> found;
   /// The strongest effect and shape in what is left, against what is expected of nothing.
   EffectFit left_effect, left_shape;
-  double strongest = 0;  ///< z of the strongest candidate before anything
+  /// Squared distance of all named numbers that is left, by what fingerprints' own noise adds.
+  double misfit = 0;
 };
 
 class Naming {
@@ -42,6 +44,11 @@ class Naming {
   void add_shape(int shape, const Fingerprint& fingerprint);
   /// The effects, and shapes that were added, that leave least, each alone; at most `count`.
   std::vector<EffectFit> leading(const Eigen::VectorXd& residual, int count) const;
+  /// What explains nearly as much as a member of `found` does beside the others, that member first;
+  /// at most `count` for each.
+  std::vector<EffectFit> rivals(const Eigen::VectorXd& residual,
+                                const std::vector<EffectFit>& found, double nearly,
+                                std::size_t count) const;
   /// Replaces a fingerprint by one about the amplitudes that were found.
   void sharpen(const EffectFit& fit, const Fingerprint& fingerprint);
   /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
@@ -56,6 +63,12 @@ class Naming {
   Explanation explain(const Eigen::VectorXd& residual) const;
   double effect_threshold() const { return effect_threshold_; }
   double shape_threshold() const { return shape_threshold_; }
+  /// Of the squared distance of all named numbers.
+  double misfit_threshold() const { return misfit_threshold_; }
+  /// Whether something is left, with a name or without.
+  bool leaves_something(const Explanation& e) const {
+    return e.misfit > misfit_threshold_ || e.left_shape.z > shape_threshold_;
+  }
   /// Amplitude of an effect's component at which it would be seen with probability one half, in
   /// units of its size; infinite if its fingerprint shows nothing.
   double smallest_seen(int effect) const;
@@ -82,13 +95,16 @@ class Naming {
   struct Known {
     int effect = -1, shape = -1;
     Fingerprint source;
-    Answer named;  ///< of named numbers
+    Eigen::MatrixXd learned;  ///< first orders of residuals at usual sizes
+    Answer named;             ///< of named numbers
     /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
     /// probability, as shapes overlap, but for which of two candidates leaves less.
     Answer all;
-    double scale = 1;  ///< mean gain of nulls by its degrees of freedom
+    Eigen::MatrixXd basis;  ///< first orders of all numbers, as learned at usual sizes
+    double scale = 1;       ///< mean gain of nulls by its degrees of freedom
   };
   Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;
+  void renew(Known& of, const Fingerprint& fingerprint) const;
   EffectFit fit(const Known& of, const Eigen::VectorXd& whitened) const;
   EffectFit fit_all(const Known& of, const Eigen::VectorXd& all) const;
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
@@ -114,14 +130,16 @@ class Naming {
   bool told_already(const EffectFit& fit, const std::vector<EffectFit>& found) const;
   bool within_curve(const Known& of, const std::vector<EffectFit>& found) const;
   double floor_beside(const std::vector<EffectFit>& found) const;
-  static double worth_of(double gain, const EffectFit& of);
+  double worth_of(double gain, const EffectFit& of) const;
   Eigen::VectorXd meeting(const Together& set) const;
+  Together set_of(const Eigen::VectorXd& all, const std::vector<EffectFit>& found) const;
   void fit_together(const Eigen::VectorXd& all, Together& set) const;
   std::vector<Candidate> candidates(const Together& set, EffectFit& strongest) const;
   Together extended(const Eigen::VectorXd& all, const Together& set) const;
   Together without(const Eigen::VectorXd& all, const Together& set, std::size_t member) const;
   void exchange(const Eigen::VectorXd& all, Together& set) const;
-  static double cost(const Together& set);
+  double cost(const Together& set) const;
+  double noise_of(const Together& set) const;
   std::vector<Together> pairs(const Eigen::VectorXd& all) const;
   bool each_speaks(const Together& set) const;
   Together larger(const Eigen::VectorXd& all, const Together& set) const;
@@ -137,7 +155,7 @@ class Naming {
   std::vector<double> shape_scale_;
   std::vector<Known> known_;
   std::vector<Meeting> meetings_;
-  double effect_threshold_ = 0, shape_threshold_ = 0;
+  double effect_threshold_ = 0, shape_threshold_ = 0, misfit_threshold_ = 0;
 };
 
 }  // namespace lilytank

@@ -14,9 +14,10 @@ namespace {
 
 constexpr double kContact = 0.03;                 // m/s: a prediction that was pushed by a contact
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
-constexpr double kTouch = 1e-3;                   // m: nearer ones may touch before the next frame
-constexpr double kLost = 10;   // deviations: no innovation but a fault of the tracker
-constexpr double kLoss = 1.5;  // 1/s, share of a velocity that drag takes at usual slips
+constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
+constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
+constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
+constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
 
 std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
   std::vector<std::unique_ptr<ScatterPart>> parts;
@@ -78,7 +79,9 @@ class Scorer {
     std::vector<double> values;
     for (std::size_t f = 0; f < scored_; ++f) values.push_back(sensitivities_.estimate(f));
     for (const auto& part : parts_) part->tell(values, details);
-    for (std::size_t f = scored_; f < total_; ++f) values.push_back(sensitivities_.estimate(f));
+    for (std::size_t f = scored_; f < total_; ++f) {
+      values.push_back(sensitivities_.estimate(f, kKnotKnown));
+    }
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
     }

@@ -60,8 +60,8 @@ void Sensitivities::pass(std::size_t module, const Pushes& pushes, const Predict
             features_, pushes.turn.data(), &t_[at], &w_[at], score, information);
 }
 
-double Sensitivities::estimate(std::size_t feature) const {
-  return information_[feature] > 0 ? score_[feature] / information_[feature] : 0;
+double Sensitivities::estimate(std::size_t feature, double known) const {
+  return information_[feature] > 0 ? score_[feature] / (information_[feature] + known) : 0;
 }
 
 }  // namespace lilytank

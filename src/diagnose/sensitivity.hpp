@@ -29,7 +29,9 @@ class Sensitivities {
             double loss, bool told);
 
   /// The estimate of a feature's amplitude; 0 where nothing was pushed.
-  double estimate(std::size_t feature) const;
+  /// `known`: information there is of nothing before any data, which draws what was hardly seen to
+  /// 0.
+  double estimate(std::size_t feature, double known = 0) const;
 
  private:
   std::size_t features_;

@@ -12,8 +12,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kStrong = 10;  // z above which fingerprints must be sharper than they are
-constexpr double kLeastAmplitude = 0.2, kRival = 0.5, kNear = 0.85;
+constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
 constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
 constexpr int kRivals = 3, kMostSharpened = 6;
@@ -34,15 +33,26 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
   if (e.left_shape.z > std::max(naming.shape_threshold(), 0.15 * largest)) {
     if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
   }
+  // What leaves much may be a law of the same variable.
+  if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > naming.misfit_threshold()) {
+    const auto& effect = atlas_->plan().effects[static_cast<std::size_t>(e.found[0].effect)];
+    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
+      return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == effect.variable;
+    });
+    if (same != shapes.end() && std::find(asked.begin(), asked.end(), same->shape) == asked.end()) {
+      asked.push_back(same->shape);
+    }
+  }
   for (const int s : asked) naming.add_shape(s, shape_fingerprint(s));
   return asked.empty() ? e : naming.explain(residual);
 }
 
-// One effect of a size like those that were simulated explains all there is, and nothing else
-// comes near.
+// One effect of a size like those that were simulated explains all there is, leaves nothing, and
+// nothing else comes near.
 bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& residual) const {
   const EffectFit& f = e.found.front();
-  if (e.found.size() > 1 || f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kLearned) {
+  if (e.found.size() > 1 || naming.leaves_something(e)) return false;
+  if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kLearned) {
     return false;
   }
   const std::vector<Effect>& effects = atlas_->plan().effects;
@@ -83,10 +93,7 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
 // experiments of its own strength. First those that might be it, then whatever leads.
 Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
                                  const Vector& residual) {
-  if (e.found.empty() || (e.found.size() == 1 && e.found[0].z < kStrong) ||
-      plain(naming, e, residual)) {
-    return e;
-  }
+  if (e.found.empty() || plain(naming, e, residual)) return e;
   Sharper known;
   const auto sharpen = [&](EffectFit f) {
     const auto before = known.find({f.effect, f.shape});
@@ -109,8 +116,9 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     const bool told = known.count({f.effect, f.shape}) > 0;
     return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
   };
-  for (const EffectFit& f : naming.leading(residual, kRivals)) {
-    if (blunt(f)) sharpen(f);
+  const std::vector<EffectFit> leading = naming.leading(residual, kRivals);
+  for (const EffectFit& f : leading) {
+    if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
   }
   loosen();
   for (int more = 0; more < kMostSharpened; ++more) {
@@ -119,9 +127,8 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     next.erase(std::remove_if(next.begin() + 1, next.end(),
                               [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
                next.end());
-    for (const EffectFit& f : e.found) {
-      next.push_back(f);
-    }
+    const std::vector<EffectFit> rivals = naming.rivals(residual, e.found, kRival, kRivals);
+    next.insert(next.end(), rivals.begin(), rivals.end());
     const auto first = std::find_if(next.begin(), next.end(), blunt);
     if (first == next.end()) break;
     sharpen(*first);
@@ -165,6 +172,7 @@ Explanation Diagnoser::met(Naming& naming, const Sharper& known, const Judged& j
         atlas_->fingerprint_about(apart.about, apart, together(effects),
                                   atlas_->calibrated(judged.observed.summary).point, name);
     naming.add_meeting(found, at_once.at(apart.about), at_once.experiments);
+    naming.loosen(at_once.scatter);
     e = naming.explain(residual);
   }
   return e;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "lilytank/random.hpp"
 
 namespace lilytank {
@@ -119,6 +121,31 @@ TEST_F(NamingTest, whatEffectsDoToEachOtherIsNoThirdEffect) {
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond, kOther}));
   naming_->add_meeting(pair, truth, 1000);
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond}));
+}
+
+// Experiments with an effect may scatter as another effect would move them: then that is no
+// finding.
+TEST_F(NamingTest, theScatterOfAnEffectIsNoSecondEffect) {
+  Matrix scatter(10, first_.size());
+  for (int i = 0; i < 10; ++i) {
+    scatter.row(i) = (noise(7, i) + normal(8, i, 0) * other_).transpose();
+  }
+  const Vector data = noise(9, 0) + 4 * first_ + 0.8 * other_;
+  EXPECT_EQ(said(data), (std::vector<int>{kFirst, kOther}));
+  naming_->loosen(scatter);
+  EXPECT_EQ(said(data), (std::vector<int>{kFirst}));
+}
+
+TEST_F(NamingTest, rivalsComeAfterTheMemberWhoseTheyAre) {
+  const Vector data = noise(10, 0) + 2 * both_ + 2 * other_;
+  const std::vector<EffectFit> rivals = naming_->rivals(data, naming_->explain(data).found, 0.3, 2);
+  ASSERT_EQ(rivals.size(), 3u);  // `both` has one, `other` none
+  std::vector<int> effects;
+  for (const EffectFit& f : rivals) effects.push_back(f.effect);
+  const auto both = std::find(effects.begin(), effects.end(), kBoth);
+  ASSERT_NE(both, effects.end());
+  ASSERT_NE(both + 1, effects.end());
+  EXPECT_TRUE(both[1] == kFirst || both[1] == kSecond);
 }
 
 TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
