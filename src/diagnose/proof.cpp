@@ -132,6 +132,12 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   if (options.sealed) options.sealed(out.hash);
   DiagnosisOptions job = options.diagnosis;
   job.hold_out = 0;
+  std::string world_told;  // before the stage, in the progress
+  if (job.progress) {
+    job.progress = [&world_told, tell = job.progress](double done, const std::string& stage) {
+      tell(done, world_told + stage);
+    };
+  }
   Diagnoser diagnoser(open, job);
   // A quarter of the worlds asks for some thirty further experiments.
   diagnoser.prepare(8.5 * options.worlds + options.modelled * diagnoser.model_cost());
@@ -146,6 +152,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   int modelled = 0;
   for (std::size_t w = 0; w < rows.size(); ++w) {
     ProofWorld world;
+    world_told = "world " + std::to_string(w + 1) + " of " + std::to_string(rows.size()) + ": ";
     world.kind = sealed[w].kind, world.effects = sealed[w].names;
     world.expected_z = expected_z(diagnoser, sealed[w]);
     Diagnosis d;
