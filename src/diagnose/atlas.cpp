@@ -68,11 +68,6 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   return out;
 }
 
-// How far from found amplitudes the experiments about them are.
-Vector apart(const Vector& amplitudes) {
-  return kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
-}
-
 // Amplitudes about found ones, in pairs opposite each other.
 Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
   Matrix out(kAbout, amplitudes.size());
@@ -87,6 +82,10 @@ Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
 }
 
 }  // namespace
+
+Vector apart(const Vector& amplitudes) {
+  return kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+}
 
 Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
              const Matrix& spread, const AtlasOptions& options)

@@ -42,6 +42,9 @@ struct Fingerprint {
   Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };
+/// How far from found amplitudes the experiments about them are.
+Eigen::VectorXd apart(const Eigen::VectorXd& amplitudes);
+
 /// Of several effects at once about amplitudes (each one's, in turn), if they add up.
 Fingerprint together(const std::vector<Fingerprint>& fingerprints,
                      const std::vector<Eigen::VectorXd>& amplitudes);

@@ -22,9 +22,9 @@ constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 // Of a curve's gain: it may bend to what names leave, less so if both are known where they are.
 constexpr double kCurve = 0.85, kCurveAbout = 0.95;
-constexpr double kMeanSquare = 0.7;  // of the amplitudes at which fingerprints are learned
-constexpr double kPrice = 4;         // of an amplitude, in squared distance
-constexpr double kNoisy = 2.5;       // standard errors below which a difference is noise
+constexpr double kMostLeft = 0.25;  // share of a distance that an explanation may leave
+constexpr double kPrice = 4;        // of an amplitude, in squared distance
+constexpr double kNoisy = 2.5;      // standard errors below which a difference is noise
 
 }  // namespace
 
@@ -129,7 +129,7 @@ void Naming::fit_together(const Vector& all, Together& set) const {
     at += f.amplitudes.size();
     const Vector own = set.left + of.all.at(f.amplitudes);
     f.gain = own.squaredNorm() - set.left.squaredNorm();
-    f.z = fit(of, own.head(named_)).z;
+    f.z = fit(of, own).z;
     const EffectFit shape = strongest_shape(own);
     if (f.shape >= 0 && shape.shape == f.shape) f.z = std::max(f.z, shape.z);
   }
@@ -149,13 +149,12 @@ Vector Naming::meeting(const Together& set) const {
 
 // Candidates that are significant in what a set leaves, by how much of it they explain.
 std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit& strongest) const {
-  const Vector named = set.left.head(named_);
   const EffectFit shape = strongest_shape(set.left);
   const double floor = floor_beside(set.fits);
   std::vector<Candidate> out;
   strongest = EffectFit{};
   for (std::size_t k = 0; k < known_.size(); ++k) {
-    const EffectFit one = fit(known_[k], named);
+    const EffectFit one = fit(known_[k], set.left);
     if (one.z > strongest.z) strongest = one;
     if (told_already(one, set.fits) || within_curve(known_[k], set.fits)) continue;
     // A curve speaks by its own knots as well.
@@ -307,9 +306,7 @@ Naming::Together Naming::larger(const Vector& all, const Together& set) const {
 double Naming::noise_of(const Together& set) const {
   double out = 0;
   for (std::size_t m = 0; m < set.of.size(); ++m) {
-    const Fingerprint& of = known_[set.of[m]].source;
-    const double n = std::max(1, of.experiments);
-    out += of.local() ? 1 / n : set.fits[m].amplitudes.squaredNorm() / (kMeanSquare * n);
+    out += noise_of(known_[set.of[m]].source, set.fits[m].amplitudes);
   }
   return out;
 }
@@ -327,10 +324,15 @@ Explanation Naming::explain(const Vector& residual) const {
   candidates(set, out.left_effect);
   out.left_shape = strongest_shape(set.left);
   out.misfit = set.left.head(named_).squaredNorm() / (1 + noise_of(set));
+  out.share_left = set.left.head(named_).squaredNorm() / all.head(named_).squaredNorm();
   out.found = set.fits;
   std::stable_sort(out.found.begin(), out.found.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
   return out;
+}
+
+bool Naming::fails(const Explanation& e) const {
+  return e.misfit > misfit_threshold_ && e.share_left > kMostLeft;
 }
 
 Naming::Together Naming::set_of(const Vector& all, const std::vector<EffectFit>& found) const {

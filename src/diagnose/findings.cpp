@@ -131,6 +131,18 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
   out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
   blame_camera(e, out);
   if (e.found.empty() && naming.leaves_something(e)) out.verdict = Verdict::undecided;
+  if (!e.found.empty() && naming.fails(e)) disown(e, out);
+}
+
+// Names that leave most of the mismatch are not told as findings.
+void Diagnoser::disown(const Explanation& e, Diagnosis& out) {
+  std::string names;
+  for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
+  char share[40];
+  std::snprintf(share, sizeof share, "%.0f %%", 100 * e.share_left);
+  out.warnings.push_back("nothing that is known explains these recordings: what comes nearest, " +
+                         names + ", leaves " + share + " of the mismatch");
+  out.verdict = Verdict::undecided, out.findings.clear();
 }
 
 // Where the camera is at fault, what else was found may be its shadow: forces are not told.

@@ -15,6 +15,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kFolds = 5;
+constexpr double kLearned = 1.2;     // largest of the amplitudes at which fingerprints are learned
+constexpr double kMeanSquare = 0.7;  // of the amplitudes at which fingerprints are learned
 constexpr double kLeastShrinkage = 0.02;
 constexpr double kNoisy = 2.5;   // standard errors below which an entry of a fingerprint is noise
 constexpr double kMostSize = 6;  // sizes beyond which a fingerprint is no guide
@@ -91,14 +93,14 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
   Known out;
   out.effect = effect, out.shape = shape, out.source = fingerprint;
   out.learned = fingerprint.first;
-  // A residual has deviation one, amplitudes a mean square of some 0.7; those about found ones are
-  // known with a slope as well, and their base is a mean.
+  // A residual has deviation one; fingerprints about found amplitudes are known with a slope as
+  // well, and their base is a mean.
   const bool local = fingerprint.local();
   const auto n = static_cast<double>(std::max(1, fingerprint.experiments));
   const auto kept = [&](const Matrix& of, double e) {
     return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
   };
-  const double error = local ? 0 : 1 / std::sqrt(0.7 * n);
+  const double error = local ? 0 : 1 / std::sqrt(kMeanSquare * n);
   out.all = {fingerprint.about, whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
              whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
              two_sided};
@@ -110,9 +112,10 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
 // What is known of an effect in the place of what was, by the whitener that is now.
 void Naming::renew(Known& of, const Fingerprint& fingerprint) const {
   const Matrix learned = of.learned;
-  const double scale = of.scale;
+  const double scale = of.scale, scale_all = of.scale_all;
   of = known(fingerprint, of.effect, of.shape, of.named.two_sided);
-  of.learned = learned, of.basis = whitened(learned), of.scale = scale;
+  of.learned = learned, of.basis = whitened(learned);
+  of.scale = scale, of.scale_all = scale_all;
 }
 
 // Columns of residuals, the named numbers and every shape's knots each by their covariance.
@@ -184,10 +187,14 @@ EffectFit Naming::Answer::fit(const Vector& data) const {
   return out;
 }
 
-EffectFit Naming::fit(const Known& of, const Vector& data) const {
-  EffectFit out = of.named.fit(data);
+// By the named numbers; how surely, by these or by all, whichever tell more. A curve's other knots
+// overlap with its own.
+EffectFit Naming::fit(const Known& of, const Vector& all) const {
+  EffectFit out = of.named.fit(all.head(named_));
   out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
-  out.z = z_of(out.gain, of.scale, of.named.first.cols());
+  const Eigen::Index m = of.named.first.cols();
+  out.z = z_of(out.gain, of.scale, m);
+  if (of.effect >= 0) out.z = std::max(out.z, z_of(of.all.fit(all).gain, of.scale_all, m));
   return out;
 }
 
@@ -210,58 +217,62 @@ EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
 void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   const Eigen::Index n = nulls.rows();
   const Matrix whitener = whitener_;
+  struct Gains {
+    double named, all;
+  };
+  std::vector<std::vector<Gains>> gains(known_.size());  // of each null
+  Matrix knots(n, static_cast<Eigen::Index>(root_.size()));
   std::vector<double> misfits;
-  std::vector<std::vector<EffectFit>> effects(static_cast<std::size_t>(n)),
-      shapes(static_cast<std::size_t>(n));
   for (int fold = 0; fold < kFolds; ++fold) {
     Matrix others(n - (n - fold + kFolds - 1) / kFolds, nulls.cols());
     Eigen::Index at = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
       if (i % kFolds != fold) others.row(at++) = nulls.row(i);
     }
-    const Matrix fold_whitener = inverse_root(covariance_of(others.leftCols(named_)));
-    const Matrix change = fold_whitener * lower_inverse(whitener);
-    std::vector<Known> known = known_;
-    for (Known& k : known) {
-      k.named.first = change * k.named.first, k.named.second = change * k.named.second;
-      k.scale = 1;
+    whitener_ = inverse_root(covariance_of(others.leftCols(named_)));
+    const Matrix change = whitener_ * lower_inverse(whitener);
+    std::vector<Answer> known;
+    for (const Known& k : known_) {
+      known.push_back(k.all);
+      known.back().first.topRows(named_) = change * k.named.first;
+      known.back().second.topRows(named_) = change * k.named.second;
     }
     for (Eigen::Index i = fold; i < n; i += kFolds) {
-      const Vector off = nulls.row(i).transpose() - centre_;
-      const Vector whitened = fold_whitener * off.head(named_);
-      misfits.push_back(whitened.squaredNorm());
-      auto& mine = effects[static_cast<std::size_t>(i)];
-      for (const Known& k : known) mine.push_back(fit(k, whitened));
-      for (std::size_t s = 0; s < root_.size(); ++s) {
-        shapes[static_cast<std::size_t>(i)].push_back(
-            fit_shape(static_cast<int>(s),
-                      off.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots)));
+      const Vector all = whitened(nulls.row(i).transpose() - centre_);
+      misfits.push_back(all.head(named_).squaredNorm());
+      for (std::size_t k = 0; k < known.size(); ++k) {
+        gains[k].push_back(
+            {known[k].top(named_).fit(all.head(named_)).gain, known[k].fit(all).gain});
+      }
+      for (Eigen::Index s = 0; s < knots.cols(); ++s) {
+        knots(i, s) = all.segment(named_ + s * kKnots, kKnots).squaredNorm();
       }
     }
   }
-  const auto all = static_cast<double>(n);
+  whitener_ = whitener;
+  std::vector<double> largest_effect(static_cast<std::size_t>(n)), largest_shape = largest_effect;
   for (std::size_t k = 0; k < known_.size(); ++k) {
-    double mean = 0;
-    for (const auto& of : effects) mean += of[k].gain / all;
-    const auto m = static_cast<double>(known_[k].named.first.cols());
+    Gains mean{0, 0};
+    for (const Gains& g : gains[k]) {
+      mean.named += g.named / static_cast<double>(n), mean.all += g.all / static_cast<double>(n);
+    }
+    const Eigen::Index m = known_[k].named.first.cols();
     // Of what cannot be negative half of the nulls gain nothing.
-    known_[k].scale = std::max(0.5, mean / (known_[k].named.two_sided ? m : 0.5 * m));
+    const double freedom = static_cast<double>(m) * (known_[k].named.two_sided ? 1 : 0.5);
+    known_[k].scale = std::max(0.5, mean.named / freedom);
+    known_[k].scale_all = std::max(0.5, mean.all / freedom);
+    for (std::size_t i = 0; i < gains[k].size(); ++i) {
+      largest_effect[i] = std::max({largest_effect[i], z_of(gains[k][i].named, known_[k].scale, m),
+                                    z_of(gains[k][i].all, known_[k].scale_all, m)});
+    }
   }
   for (std::size_t s = 0; s < shape_scale_.size(); ++s) {
-    double mean = 0;
-    for (const auto& of : shapes) mean += of[s].gain / all;
-    shape_scale_[s] = std::max(0.5, mean / kKnots);
-  }
-  std::vector<double> largest_effect, largest_shape;
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    double e = 0, s = 0;
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-      e = std::max(e, z_of(effects[i][k].gain, known_[k].scale, known_[k].named.first.cols()));
+    const auto of = knots.col(static_cast<Eigen::Index>(s));
+    shape_scale_[s] = std::max(0.5, of.mean() / kKnots);
+    for (std::size_t i = 0; i < largest_shape.size(); ++i) {
+      largest_shape[i] = std::max(largest_shape[i],
+                                  z_of(of(static_cast<Eigen::Index>(i)), shape_scale_[s], kKnots));
     }
-    for (std::size_t k = 0; k < shape_scale_.size(); ++k) {
-      s = std::max(s, z_of(shapes[i][k].gain, shape_scale_[k], kKnots));
-    }
-    largest_effect.push_back(e), largest_shape.push_back(s);
   }
   effect_threshold_ = extreme(largest_effect, 0.5 * false_alarms);
   shape_threshold_ = extreme(largest_shape, 0.3 * false_alarms);
@@ -287,9 +298,9 @@ void Naming::loosen(const Matrix& scatter) {
 }
 
 std::vector<EffectFit> Naming::effects(const Vector& residual) const {
-  const Vector whitened = whitener_ * (residual - centre_).head(named_);
+  const Vector all = whitened(residual - centre_);
   std::vector<EffectFit> out;
-  for (const Known& k : known_) out.push_back(fit(k, whitened));
+  for (const Known& k : known_) out.push_back(fit(k, all));
   std::stable_sort(out.begin(), out.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
   return out;
@@ -337,7 +348,19 @@ double Naming::smallest_seen(int effect) const {
 double Naming::expected_z(int effect, const Vector& amplitudes) const {
   const auto of = std::find_if(known_.begin(), known_.end(),
                                [&](const Known& k) { return k.effect == effect; });
-  return of == known_.end() ? 0 : of->named.at(amplitudes).norm() / std::sqrt(of->scale);
+  if (of == known_.end()) return 0;
+  // Second orders hold as far as they were learned, beyond that in proportion.
+  const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearned);
+  const Vector within = amplitudes / beyond;
+  const double square = (whitener_ * of->source.at(within).head(named_)).squaredNorm();
+  // The fingerprint's own noise has a length as well.
+  const double noise = static_cast<double>(named_) * noise_of(of->source, within);
+  return beyond * std::sqrt(std::max(0.0, square - noise) / of->scale);
+}
+
+double Naming::noise_of(const Fingerprint& of, const Vector& amplitudes) {
+  const double n = std::max(1, of.experiments);
+  return of.local() ? 1 / n : amplitudes.squaredNorm() / (kMeanSquare * n);
 }
 
 }  // namespace lilytank

@@ -27,6 +27,7 @@ struct Explanation {
   EffectFit left_effect, left_shape;
   /// Squared distance of all named numbers that is left, by what fingerprints' own noise adds.
   double misfit = 0;
+  double share_left = 1;  ///< of the squared distance that there was
 };
 
 class Naming {
@@ -69,6 +70,8 @@ class Naming {
   bool leaves_something(const Explanation& e) const {
     return e.misfit > misfit_threshold_ || e.left_shape.z > shape_threshold_;
   }
+  /// Whether so much is left that the names explain nothing.
+  bool fails(const Explanation& e) const;
   /// Amplitude of an effect's component at which it would be seen with probability one half, in
   /// units of its size; infinite if its fingerprint shows nothing.
   double smallest_seen(int effect) const;
@@ -101,11 +104,12 @@ class Naming {
     /// probability, as shapes overlap, but for which of two candidates leaves less.
     Answer all;
     Eigen::MatrixXd basis;  ///< first orders of all numbers, as learned at usual sizes
-    double scale = 1;       ///< mean gain of nulls by its degrees of freedom
+    /// Mean gain of nulls by its degrees of freedom, in the named numbers and in all.
+    double scale = 1, scale_all = 1;
   };
   Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;
   void renew(Known& of, const Fingerprint& fingerprint) const;
-  EffectFit fit(const Known& of, const Eigen::VectorXd& whitened) const;
+  EffectFit fit(const Known& of, const Eigen::VectorXd& all) const;
   EffectFit fit_all(const Known& of, const Eigen::VectorXd& all) const;
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
@@ -140,6 +144,7 @@ class Naming {
   void exchange(const Eigen::VectorXd& all, Together& set) const;
   double cost(const Together& set) const;
   double noise_of(const Together& set) const;
+  static double noise_of(const Fingerprint& of, const Eigen::VectorXd& amplitudes);
   std::vector<Together> pairs(const Eigen::VectorXd& all) const;
   bool each_speaks(const Together& set) const;
   Together larger(const Eigen::VectorXd& all, const Together& set) const;

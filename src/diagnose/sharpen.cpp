@@ -116,6 +116,15 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     const bool told = known.count({f.effect, f.shape}) > 0;
     return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
   };
+  // What is found should be where its experiments were, not beside them; once is enough.
+  std::set<std::pair<int, int>> centred;
+  const auto off_centre = [&](const EffectFit& f) {
+    const auto sharp = known.find({f.effect, f.shape});
+    if (sharp == known.end() || f.shape >= 0) return false;
+    const Vector& about = sharp->second.about;
+    const double off = (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff();
+    return off > 1 && centred.insert({f.effect, f.shape}).second;
+  };
   const std::vector<EffectFit> leading = naming.leading(residual, kRivals);
   for (const EffectFit& f : leading) {
     if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
@@ -129,7 +138,11 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                next.end());
     const std::vector<EffectFit> rivals = naming.rivals(residual, e.found, kRival, kRivals);
     next.insert(next.end(), rivals.begin(), rivals.end());
-    const auto first = std::find_if(next.begin(), next.end(), blunt);
+    auto first = std::find_if(next.begin(), next.end(), blunt);
+    if (first == next.end()) {
+      next = e.found;
+      first = std::find_if(next.begin(), next.end(), off_centre);
+    }
     if (first == next.end()) break;
     sharpen(*first);
     loosen();
