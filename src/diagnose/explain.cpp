@@ -22,9 +22,10 @@ constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 // Of a curve's gain: it may bend to what names leave, less so if both are known where they are.
 constexpr double kCurve = 0.85, kCurveAbout = 0.95;
-constexpr double kMostLeft = 0.25;  // share of a distance that an explanation may leave
-constexpr double kPrice = 4;        // of an amplitude, in squared distance
-constexpr double kNoisy = 2.5;      // standard errors below which a difference is noise
+// Shares of a distance that an explanation may not leave: where something is left, and where that
+// is as many times what nulls have.
+constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFar = 2;
+constexpr double kNoisy = 2.5;  // standard errors below which a difference is noise
 
 }  // namespace
 
@@ -172,7 +173,7 @@ std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit
 
 double Naming::worth_of(double gain, const EffectFit& of) const {
   const double share = of.shape < 0 ? 1 : of.about ? kCurveAbout : kCurve;
-  return share * gain - kPrice * static_cast<double>(of.amplitudes.size());
+  return share * gain - kAmplitudePrice * static_cast<double>(of.amplitudes.size());
 }
 
 // What a set leaves, and what its members cost.
@@ -279,7 +280,7 @@ void Naming::exchange(const Vector& all, Together& set) const {
     bool changed = false;
     for (std::size_t m = 0; m < set.of.size(); ++m) {
       Together other = extended(all, without(all, set, m));
-      if (other.of.size() < set.of.size() || cost(other) > cost(set) - kPrice) continue;
+      if (other.of.size() < set.of.size() || cost(other) > cost(set) - kAmplitudePrice) continue;
       set = std::move(other), changed = true;
     }
     if (!changed) return;
@@ -325,6 +326,9 @@ Explanation Naming::explain(const Vector& residual) const {
   out.left_shape = strongest_shape(set.left);
   out.misfit = set.left.head(named_).squaredNorm() / (1 + noise_of(set));
   out.share_left = set.left.head(named_).squaredNorm() / all.head(named_).squaredNorm();
+  Eigen::Index amplitudes = 0;
+  for (const EffectFit& f : set.fits) amplitudes += f.amplitudes.size();
+  out.doubt = doubt(set.left.head(named_).squaredNorm(), whitener_, amplitudes);
   out.found = set.fits;
   std::stable_sort(out.found.begin(), out.found.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
@@ -332,7 +336,8 @@ Explanation Naming::explain(const Vector& residual) const {
 }
 
 bool Naming::fails(const Explanation& e) const {
-  return e.misfit > misfit_threshold_ && e.share_left > kMostLeft;
+  const double far = e.misfit / misfit_threshold_;
+  return (far > 1 && e.share_left > kMostLeft) || (far > kFar && e.share_left > kMuchLeft);
 }
 
 Naming::Together Naming::set_of(const Vector& all, const std::vector<EffectFit>& found) const {

@@ -279,22 +279,51 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   misfit_threshold_ = extreme(misfits, 0.2 * false_alarms);
 }
 
-// Beyond the nulls' scatter, as far as it is more than few experiments show of nothing.
+namespace {
+
+// A covariance with the scatter of few experiments as far as it is more than these show of nothing.
+Matrix loosened(const Matrix& own, const Matrix& off) {
+  const auto n = static_cast<double>(off.rows());
+  const double chance = 1 + kByChance * std::sqrt(2 / n);
+  const Vector square = off.colwise().squaredNorm().transpose() / n;
+  const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
+  return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
+}
+
+}  // namespace
+
 void Naming::loosen(const Matrix& scatter) {
   if (scatter.rows() < kLeastScatter) return;
-  const auto n = static_cast<double>(scatter.rows());
-  const double chance = 1 + kByChance * std::sqrt(2 / n);
-  const auto more = [&](const Matrix& off, const Matrix& own) -> Matrix {
-    const Vector square = off.colwise().squaredNorm().transpose() / n;
-    const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
-    return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
-  };
-  whitener_ = inverse_root(more(scatter.leftCols(named_), covariance_));
+  whitener_ = inverse_root(loosened(covariance_, scatter.leftCols(named_)));
   for (std::size_t s = 0; s < root_.size(); ++s) {
     const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
-    root_[s] = inverse_root(more(scatter.middleCols(first, kKnots), knots_[s]));
+    root_[s] = inverse_root(loosened(knots_[s], scatter.middleCols(first, kKnots)));
   }
   for (Known& k : known_) renew(k, Fingerprint(k.source));
+}
+
+double Naming::doubt_of(const Vector& residual, int effect, int shape,
+                        const Matrix& scatter) const {
+  const auto of = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
+    return k.effect == effect && k.shape == shape;
+  });
+  Matrix whitener = inverse_root(covariance_);
+  if (scatter.rows() >= kLeastScatter) {
+    whitener = inverse_root(loosened(covariance_, scatter.leftCols(named_)));
+  }
+  const Matrix change = whitener * lower_inverse(whitener_);
+  const Answer& now = of->named;
+  const Answer own{now.about, change * now.base, change * now.first, change * now.second,
+                   now.two_sided};
+  const Vector named = whitener * (residual - centre_).head(named_);
+  const EffectFit fit = own.fit(named);
+  return doubt(named.squaredNorm() - fit.gain, whitener, fit.amplitudes.size());
+}
+
+// What scatters widely explains anything, and pays for it by the determinant of its covariance.
+double Naming::doubt(double left, const Matrix& whitener, Eigen::Index amplitudes) {
+  return left - 2 * whitener.diagonal().array().log().sum() +
+         kAmplitudePrice * static_cast<double>(amplitudes);
 }
 
 std::vector<EffectFit> Naming::effects(const Vector& residual) const {

@@ -28,6 +28,7 @@ struct Explanation {
   /// Squared distance of all named numbers that is left, by what fingerprints' own noise adds.
   double misfit = 0;
   double share_left = 1;  ///< of the squared distance that there was
+  double doubt = 0;       ///< -2 log likelihood of the named numbers, and a price for amplitudes
 };
 
 class Naming {
@@ -55,6 +56,9 @@ class Naming {
   /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
   /// more than that of nulls: modules that stick scatter otherwise than modules that drift.
   void loosen(const Eigen::MatrixXd& scatter);
+  /// The doubt if this effect or shape alone were there, judged by the scatter of its experiments.
+  double doubt_of(const Eigen::VectorXd& residual, int effect, int shape,
+                  const Eigen::MatrixXd& scatter) const;
   /// What several effects leave in residuals at these amplitudes if all are there: they need not
   /// add up. `experiments`: that the mean rests on.
   void add_meeting(const std::vector<EffectFit>& of, const Eigen::VectorXd& residual,
@@ -144,11 +148,14 @@ class Naming {
   void exchange(const Eigen::VectorXd& all, Together& set) const;
   double cost(const Together& set) const;
   double noise_of(const Together& set) const;
+  static double doubt(double left, const Eigen::MatrixXd& whitener, Eigen::Index amplitudes);
   static double noise_of(const Fingerprint& of, const Eigen::VectorXd& amplitudes);
   std::vector<Together> pairs(const Eigen::VectorXd& all) const;
   bool each_speaks(const Together& set) const;
   Together larger(const Eigen::VectorXd& all, const Together& set) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
+
+  static constexpr double kAmplitudePrice = 4;  // in squared distance
 
   Eigen::Index named_;                  ///< numbers before the shapes' knots
   std::vector<std::string> terms_;      ///< of each effect: the path of its first amplitude

@@ -95,6 +95,7 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                                  const Vector& residual) {
   if (e.found.empty() || plain(naming, e, residual)) return e;
   Sharper known;
+  std::map<std::pair<int, int>, double> doubts;
   const auto sharpen = [&](EffectFit f) {
     const auto before = known.find({f.effect, f.shape});
     const Fingerprint from = before != known.end() ? before->second
@@ -105,12 +106,14 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
     const Fingerprint to = fingerprint_near(f, from, judged);
     known[{f.effect, f.shape}] = to;
     naming.sharpen(f, to);
+    doubts[{f.effect, f.shape}] = naming.doubt_of(residual, f.effect, f.shape, to.scatter);
   };
-  // By the scatter of the experiments with what seems to be there most of all.
+  // By the scatter of the experiments with what, by its own scatter, is most likely there.
   const auto loosen = [&] {
-    const EffectFit first = naming.leading(residual, 1)[0];
-    const auto sharp = known.find({first.effect, first.shape});
-    if (sharp != known.end()) naming.loosen(sharp->second.scatter);
+    const auto likely =
+        std::min_element(doubts.begin(), doubts.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (likely != doubts.end()) naming.loosen(known[likely->first].scatter);
   };
   const auto blunt = [&](const EffectFit& f) {
     const bool told = known.count({f.effect, f.shape}) > 0;
@@ -184,9 +187,17 @@ Explanation Diagnoser::met(Naming& naming, const Sharper& known, const Judged& j
     const Fingerprint at_once =
         atlas_->fingerprint_about(apart.about, apart, together(effects),
                                   atlas_->calibrated(judged.observed.summary).point, name);
-    naming.add_meeting(found, at_once.at(apart.about), at_once.experiments);
-    naming.loosen(at_once.scatter);
-    e = naming.explain(residual);
+    Naming both = naming;
+    both.add_meeting(found, at_once.at(apart.about), at_once.experiments);
+    both.loosen(at_once.scatter);
+    Explanation other = both.explain(residual);
+    if (other.doubt > e.doubt) {
+      // Their scatter says nothing, but what they do at once is known now.
+      naming.add_meeting(found, at_once.at(apart.about), at_once.experiments);
+      e = naming.explain(residual);
+      continue;
+    }
+    naming = std::move(both), e = std::move(other);
   }
   return e;
 }

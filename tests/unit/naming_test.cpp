@@ -148,6 +148,30 @@ TEST_F(NamingTest, rivalsComeAfterTheMemberWhoseTheyAre) {
   EXPECT_TRUE(both[1] == kFirst || both[1] == kSecond);
 }
 
+// What no fingerprint is like: a name may come nearest, but it explains nothing.
+TEST_F(NamingTest, aNameThatLeavesMostIsNoExplanation) {
+  const Vector odd = 40 * direction(21) + 12 * direction(11);
+  const Explanation e = naming_->explain(noise(11, 0) + odd);
+  ASSERT_FALSE(e.found.empty());
+  EXPECT_TRUE(naming_->fails(e));
+  EXPECT_FALSE(naming_->fails(naming_->explain(noise(11, 0) + 3 * first_)));
+  EXPECT_FALSE(naming_->fails(naming_->explain(noise(11, 0))));
+}
+
+// Numbers of curves count for a name as well: an effect that shows in them only is found.
+TEST_F(NamingTest, anEffectThatShowsInCurvesOnlyIsFound) {
+  Vector torque = Vector::Zero(first_.size());
+  for (int k = 0; k < kCurves * kKnots; ++k) torque(kNamed + k) = k % 2 == 0 ? 3 : -3;
+  Effect e;
+  e.name = "turning", e.paths = {"forces.turning.strength"}, e.sizes = {1};
+  Matrix nulls(kNulls, first_.size());
+  for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
+  const Naming naming(nulls, {e}, {fingerprint(torque)}, kCurves, kFalseAlarms);
+  const Explanation said = naming.explain(noise(12, 0) + torque);
+  ASSERT_EQ(said.found.size(), 1u);
+  EXPECT_EQ(said.found[0].effect, 0);
+}
+
 TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
   EXPECT_NEAR(naming_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
 }
