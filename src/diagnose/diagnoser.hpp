@@ -1,7 +1,6 @@
 // A diagnosis step by step: what `diagnose` does with one experiment, and `prove` with many of one
 // tank.
 #pragma once
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,10 +64,9 @@ class Diagnoser {
   bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
-  /// Fingerprints that are sharper than the atlas's, by effect and shape.
-  using Sharper = std::map<std::pair<int, int>, Fingerprint>;
-  Explanation met(Naming& naming, const Sharper& known, const Judged& judged,
-                  const Eigen::VectorXd& residual);
+  class Sharpening;
+  Effect found_effect(const EffectFit& fit) const;
+  static std::string stage_name(const EffectFit& fit);
   Fingerprint shape_fingerprint(int shape);
   Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
                            const Eigen::VectorXd& residual) const;

@@ -47,9 +47,7 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   Vector moved = Vector::Zero(baseline.point.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
-    const ScorePlan& plan = atlas_->plan();
-    Effect effect = f.effect >= 0 ? plan.effects[static_cast<std::size_t>(f.effect)]
-                                  : effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
+    Effect effect = found_effect(f);
     if (effect.name == "flow_pulsation") {
       effect.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
     }

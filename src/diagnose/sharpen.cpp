@@ -1,6 +1,8 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "analysis/linear.hpp"
@@ -68,12 +70,9 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
                                         const Judged& judged) {
-  const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
-  const ScorePlan& plan = atlas_->plan();
-  const Effect effect = f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]);
-  const std::string name = (f.effect >= 0 ? "effect " : "shape ") + std::to_string(id);
-  return atlas_->fingerprint_about(f.amplitudes, before, effect,
-                                   atlas_->calibrated(judged.observed.summary).point, name);
+  return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f),
+                                   atlas_->calibrated(judged.observed.summary).point,
+                                   stage_name(f));
 }
 
 // A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
@@ -90,116 +89,169 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
 }
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
-// experiments of its own strength. First those that might be it, then whatever leads.
-Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
-                                 const Vector& residual) {
-  if (e.found.empty() || plain(naming, e, residual)) return e;
-  Sharper known;
-  std::map<std::pair<int, int>, double> doubts;
-  const auto sharpen = [&](EffectFit f) {
-    const auto before = known.find({f.effect, f.shape});
-    const Fingerprint from = before != known.end() ? before->second
-                             : f.effect >= 0
-                                 ? atlas_->fingerprints()[static_cast<std::size_t>(f.effect)]
-                                 : shape_fingerprint(f.shape);
-    if (f.shape >= 0 && before == known.end()) f.amplitudes = knots_of(f.shape, from, residual);
-    const Fingerprint to = fingerprint_near(f, from, judged);
-    known[{f.effect, f.shape}] = to;
-    naming.sharpen(f, to);
-    doubts[{f.effect, f.shape}] = naming.doubt_of(residual, f.effect, f.shape, to.scatter);
-  };
+// experiments of its own strength.
+class Diagnoser::Sharpening {
+ public:
+  Sharpening(Diagnoser& diagnoser, Naming& naming, const Judged& judged, const Vector& residual)
+      : of_(diagnoser), naming_(naming), judged_(judged), residual_(residual) {}
+
+  // First those that might be it, then whatever leads, what is found and its rivals beside the
+  // others.
+  Explanation run() {
+    const std::vector<EffectFit> leading = naming_.leading(residual_, kRivals);
+    for (const EffectFit& f : leading) {
+      if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
+    }
+    loosen();
+    for (int more = 0; more < kMostSharpened; ++more) {
+      const std::optional<EffectFit> next = next_after(naming_.explain(residual_));
+      if (!next) break;
+      sharpen(*next);
+      loosen();
+    }
+    return met();
+  }
+
+ private:
+  using Name = std::pair<int, int>;  // effect and shape
+  static Name name_of(const EffectFit& f) { return {f.effect, f.shape}; }
+
+  // The sharpest that there is.
+  Fingerprint fingerprint(const EffectFit& f) {
+    const auto sharp = known_.find(name_of(f));
+    if (sharp != known_.end()) return sharp->second;
+    return f.effect >= 0 ? of_.atlas_->fingerprints()[static_cast<std::size_t>(f.effect)]
+                         : of_.shape_fingerprint(f.shape);
+  }
+
+  void sharpen(EffectFit f) {
+    const Fingerprint from = fingerprint(f);
+    if (f.shape >= 0 && known_.count(name_of(f)) == 0) {
+      f.amplitudes = of_.knots_of(f.shape, from, residual_);
+    }
+    const Fingerprint to = of_.fingerprint_near(f, from, judged_);
+    known_[name_of(f)] = to;
+    naming_.sharpen(f, to);
+    doubts_[name_of(f)] = naming_.doubt_of(residual_, f.effect, f.shape, to.scatter);
+  }
+
   // By the scatter of the experiments with what, by its own scatter, is most likely there.
-  const auto loosen = [&] {
+  void loosen() {
     const auto likely =
-        std::min_element(doubts.begin(), doubts.end(),
+        std::min_element(doubts_.begin(), doubts_.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (likely != doubts.end()) naming.loosen(known[likely->first].scatter);
-  };
-  const auto blunt = [&](const EffectFit& f) {
-    const bool told = known.count({f.effect, f.shape}) > 0;
+    if (likely != doubts_.end()) naming_.loosen(known_[likely->first].scatter);
+  }
+
+  bool blunt(const EffectFit& f) const {
+    const bool told = known_.count(name_of(f)) > 0;
     return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
-  };
+  }
+
   // What is found should be where its experiments were, not beside them; once is enough.
-  std::set<std::pair<int, int>> centred;
-  const auto off_centre = [&](const EffectFit& f) {
-    const auto sharp = known.find({f.effect, f.shape});
-    if (sharp == known.end() || f.shape >= 0) return false;
+  bool off_centre(const EffectFit& f) {
+    const auto sharp = known_.find(name_of(f));
+    if (sharp == known_.end() || f.shape >= 0) return false;
     const Vector& about = sharp->second.about;
     const double off = (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff();
-    return off > 1 && centred.insert({f.effect, f.shape}).second;
-  };
-  const std::vector<EffectFit> leading = naming.leading(residual, kRivals);
-  for (const EffectFit& f : leading) {
-    if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
+    return off > 1 && centred_.insert(name_of(f)).second;
   }
-  loosen();
-  for (int more = 0; more < kMostSharpened; ++more) {
-    e = naming.explain(residual);
-    std::vector<EffectFit> next = naming.leading(residual, kRivals);
+
+  std::optional<EffectFit> next_after(const Explanation& e) {
+    std::vector<EffectFit> next = naming_.leading(residual_, kRivals);
     next.erase(std::remove_if(next.begin() + 1, next.end(),
                               [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
                next.end());
-    const std::vector<EffectFit> rivals = naming.rivals(residual, e.found, kRival, kRivals);
+    const std::vector<EffectFit> rivals = naming_.rivals(residual_, e.found, kRival, kRivals);
     next.insert(next.end(), rivals.begin(), rivals.end());
-    auto first = std::find_if(next.begin(), next.end(), blunt);
-    if (first == next.end()) {
-      next = e.found;
-      first = std::find_if(next.begin(), next.end(), off_centre);
+    for (const EffectFit& f : next) {
+      if (blunt(f)) return f;
     }
-    if (first == next.end()) break;
-    sharpen(*first);
-    loosen();
+    for (const EffectFit& f : e.found) {
+      if (off_centre(f)) return f;
+    }
+    return std::nullopt;
   }
-  return met(naming, known, judged, residual);
-}
 
-// Several effects need not add up: modules that one holds together another cannot move apart.
-// What they do at once is simulated as well.
-Explanation Diagnoser::met(Naming& naming, const Sharper& known, const Judged& judged,
-                           const Vector& residual) {
-  const ScorePlan& plan = atlas_->plan();
-  Explanation e = naming.explain(residual);
-  std::set<std::string> told;
-  while (e.found.size() > 1) {
+  // Several effects need not add up: modules that one holds together another cannot move apart.
+  // What they do at once is simulated as well.
+  Explanation met() {
+    Explanation e = naming_.explain(residual_);
+    std::set<std::string> told;
+    while (e.found.size() > 1 && told.size() < kMostMeetings) {
+      std::vector<EffectFit> found = e.found;
+      std::sort(found.begin(), found.end(),
+                [](const EffectFit& a, const EffectFit& b) { return name_of(a) < name_of(b); });
+      std::string name;
+      for (const EffectFit& f : found) name += (name.empty() ? "" : ", ") + of_.stage_name(f);
+      const bool camera = std::any_of(found.begin(), found.end(), [&](const EffectFit& f) {
+        return of_.found_effect(f).camera();
+      });
+      if (camera || !told.insert(name).second) break;
+      const Fingerprint at_once = simulated(found, name);
+      Naming both = naming_;
+      both.add_meeting(found, at_once.at(amplitudes(found)), at_once.experiments);
+      // Without their scatter if it does not make them likelier.
+      naming_ = both;
+      both.loosen(at_once.scatter);
+      Explanation loose = both.explain(residual_);
+      if (loose.doubt <= e.doubt) {
+        naming_ = std::move(both), e = std::move(loose);
+      } else {
+        e = naming_.explain(residual_);
+      }
+    }
+    return e;
+  }
+
+  static Vector amplitudes(const std::vector<EffectFit>& found) {
+    Eigen::Index count = 0, at = 0;
+    for (const EffectFit& f : found) count += f.amplitudes.size();
+    Vector out(count);
+    for (const EffectFit& f : found) {
+      out.segment(at, f.amplitudes.size()) = f.amplitudes, at += f.amplitudes.size();
+    }
+    return out;
+  }
+
+  // Experiments with all of them.
+  Fingerprint simulated(const std::vector<EffectFit>& found, const std::string& name) {
     std::vector<Effect> effects;
     std::vector<Fingerprint> each;
-    std::vector<Vector> amplitudes;
-    std::string name;
-    std::vector<EffectFit> found = e.found;
-    std::sort(found.begin(), found.end(), [](const EffectFit& a, const EffectFit& b) {
-      return std::pair(a.effect, a.shape) < std::pair(b.effect, b.shape);
-    });
+    std::vector<Vector> at;
     for (const EffectFit& f : found) {
-      const auto id = static_cast<std::size_t>(f.effect >= 0 ? f.effect : f.shape);
-      effects.push_back(f.effect >= 0 ? plan.effects[id] : effect_of(plan.shapes[id]));
-      const auto sharp = known.find({f.effect, f.shape});
-      each.push_back(sharp != known.end() ? sharp->second
-                     : f.effect >= 0      ? atlas_->fingerprints()[id]
-                                          : shape_fingerprint(f.shape));
-      amplitudes.push_back(f.amplitudes);
-      name += (name.empty() ? "" : ", ") + std::string(f.effect >= 0 ? "effect " : "shape ") +
-              std::to_string(id);
+      effects.push_back(of_.found_effect(f)), each.push_back(fingerprint(f)),
+          at.push_back(f.amplitudes);
     }
-    const bool camera =
-        std::any_of(effects.begin(), effects.end(), [](const Effect& f) { return f.camera(); });
-    if (camera || told.size() == kMostMeetings || !told.insert(name).second) break;
-    const Fingerprint apart = together(each, amplitudes);
-    const Fingerprint at_once =
-        atlas_->fingerprint_about(apart.about, apart, together(effects),
-                                  atlas_->calibrated(judged.observed.summary).point, name);
-    Naming both = naming;
-    both.add_meeting(found, at_once.at(apart.about), at_once.experiments);
-    both.loosen(at_once.scatter);
-    Explanation other = both.explain(residual);
-    if (other.doubt > e.doubt) {
-      // Their scatter says nothing, but what they do at once is known now.
-      naming.add_meeting(found, at_once.at(apart.about), at_once.experiments);
-      e = naming.explain(residual);
-      continue;
-    }
-    naming = std::move(both), e = std::move(other);
+    const Fingerprint apart = together(each, at);
+    return of_.atlas_->fingerprint_about(apart.about, apart, together(effects),
+                                         of_.atlas_->calibrated(judged_.observed.summary).point,
+                                         name);
   }
-  return e;
+
+  Diagnoser& of_;
+  Naming& naming_;
+  const Judged& judged_;
+  const Vector& residual_;
+  std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
+  std::map<Name, double> doubts_;
+  std::set<Name> centred_;
+};
+
+Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
+                                 const Vector& residual) {
+  if (e.found.empty() || plain(naming, e, residual)) return e;
+  return Sharpening(*this, naming, judged, residual).run();
+}
+
+Effect Diagnoser::found_effect(const EffectFit& f) const {
+  const ScorePlan& plan = atlas_->plan();
+  return f.effect >= 0 ? plan.effects[static_cast<std::size_t>(f.effect)]
+                       : effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
+}
+
+std::string Diagnoser::stage_name(const EffectFit& f) {
+  return f.effect >= 0 ? "effect " + std::to_string(f.effect) : "shape " + std::to_string(f.shape);
 }
 
 Fingerprint Diagnoser::shape_fingerprint(int s) {
