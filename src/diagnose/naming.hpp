@@ -20,7 +20,7 @@ struct EffectFit {
   double z = 0;           ///< deviations of a normal number with the same probability
 };
 
-/// What was found, in the order in which it was.
+/// What was found, strongest first.
 struct Explanation {
   std::vector<EffectFit> found;
   /// The strongest effect and shape in what is left, against what is expected of nothing.
@@ -104,8 +104,8 @@ class Naming {
     Fingerprint source;
     Eigen::MatrixXd learned;  ///< first orders of residuals at usual sizes
     Answer named;             ///< of named numbers
-    /// Of all numbers: those named, and each shape's knots, whitened by themselves. Not for a
-    /// probability, as shapes overlap, but for which of two candidates leaves less.
+    /// Of all numbers: those named, and each shape's knots, whitened by themselves. Shapes overlap,
+    /// so a gain in all numbers has a scale of its own.
     Answer all;
     Eigen::MatrixXd basis;  ///< first orders of all numbers, as learned at usual sizes
     /// Mean gain of nulls by its degrees of freedom, in the named numbers and in all.
