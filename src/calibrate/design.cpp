@@ -65,9 +65,9 @@ Design without_fold(const Design& design, int fold, int folds) {
   return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
 }
 
-double correlation_shrinkage(const Matrix& z) {
+Matrix shrunk_correlations(const Matrix& z, double least) {
   const auto n = static_cast<double>(z.rows());
-  const Matrix r = z.transpose() * z / n;
+  Matrix r = z.transpose() * z / n;
   const Matrix squares = z.array().square().matrix();
   const Matrix fourth = squares.transpose() * squares / n;
   double variance = 0, size = 0;
@@ -77,7 +77,9 @@ double correlation_shrinkage(const Matrix& z) {
       size += r(i, j) * r(i, j);
     }
   }
-  return size > 0 ? std::clamp(variance / size, 0.0, 1.0) : 1;
+  r *= 1 - std::max(least, size > 0 ? std::clamp(variance / size, 0.0, 1.0) : 1);
+  r.diagonal().setOnes();
+  return r;
 }
 
 }  // namespace lilytank

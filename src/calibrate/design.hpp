@@ -20,9 +20,9 @@ Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<do
 /// All rows but those of one fold, which are every `folds`-th from `fold` on.
 Design without_fold(const Design& design, int fold, int folds);
 
-/// How much correlations are drawn towards none: their summed sampling variance over their summed
-/// squares [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 2005]. `z`: an observation a
-/// row, divided by the deviations.
-double correlation_shrinkage(const Eigen::MatrixXd& z);
+/// Correlations of columns, drawn towards none by their summed sampling variance over their summed
+/// squares, at least by `least` [Schaefer and Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 2005].
+/// `z`: an observation a row, divided by the deviations.
+Eigen::MatrixXd shrunk_correlations(const Eigen::MatrixXd& z, double least = 0);
 
 }  // namespace lilytank

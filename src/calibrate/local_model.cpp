@@ -66,9 +66,7 @@ void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
     z.col(k) /= std::max(deviation(k), kNeverVaries) *
                 std::sqrt(freedom / static_cast<double>(residuals.rows()));
   }
-  Matrix correlation = z.transpose() * z / static_cast<double>(z.rows());
-  correlation *= 1 - correlation_shrinkage(z);
-  correlation.diagonal().setOnes();
+  const Matrix correlation = shrunk_correlations(z);
   covariance_ = deviation.asDiagonal() * correlation * deviation.asDiagonal();
   whitener_ = lower_inverse(lower_root(correlation));
   for (Eigen::Index k = 0; k < d; ++k) {

@@ -27,8 +27,8 @@ constexpr double kBend = 1;  // one over the square of a second order that is ex
 // Of a fingerprint about found amplitudes: experiments, how far from these as a share of them, and
 // one over the square of an error of the slopes that is expected.
 constexpr int kAbout = 10;
-constexpr double kFarOff = 100;   // deviations
-constexpr double kLearned = 1.2;  // sizes
+constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
+constexpr double kFarOff = 100;     // deviations
 constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
 constexpr double kSlopesFitted = 0.5;  // degrees of freedom that a slope takes, being held so
 
@@ -53,8 +53,8 @@ Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// Amplitudes between 0.4 and 1.2 of an effect's size, of both signs where it may have both, and of
-// several at once so that none is always there.
+// Amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs where it may have
+// both, and of several at once so that none is always there.
 Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   Matrix out(count, m);
@@ -62,7 +62,7 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
     for (Eigen::Index c = 0; c < m; ++c) {
       const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
       const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
-      out(i, c) = (0.4 + 0.8 * u) * (negative ? -1 : 1);
+      out(i, c) = (kLeastSize + (kLearnedSize - kLeastSize) * u) * (negative ? -1 : 1);
     }
   }
   return out;
@@ -186,15 +186,15 @@ Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
-Vector Fingerprint::at(const Vector& amplitudes) const {
-  const Vector d = amplitudes - about;
-  return base + first * d + second * d.array().square().matrix();
+double Fingerprint::noise_at(const Vector& amplitudes) const {
+  const double n = std::max(1, experiments);
+  return local() ? 1 / n : amplitudes.squaredNorm() / (kLearnedSquare * n);
 }
 
 Vector Fingerprint::moved(const Vector& amplitudes) const {
   if (local()) return moved_base;
   // Beyond the sizes it was learned at, calibration soon cannot follow any more.
-  return moved_first * amplitudes * std::min(1.0, kLearned / amplitudes.cwiseAbs().maxCoeff());
+  return moved_first * amplitudes * std::min(1.0, kLearnedSize / amplitudes.cwiseAbs().maxCoeff());
 }
 
 Fingerprint together(const std::vector<Fingerprint>& fingerprints,
@@ -212,7 +212,8 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
     const Fingerprint& f = fingerprints[i];
     const Vector& a = amplitudes[i];
     out.about.segment(at, a.size()) = a;
-    out.first.middleCols(at, a.size()) = f.first + 2 * f.second * (a - f.about).asDiagonal();
+    out.first.middleCols(at, a.size()) = f.slope(a);
+    out.two_sided = out.two_sided || f.two_sided;
     out.base += f.at(a), out.moved_base += f.moved(a);
     out.experiments = std::min(out.experiments, f.experiments);
     at += a.size();
@@ -274,7 +275,7 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
-  out.experiments = options_.experiments;
+  out.experiments = options_.experiments, out.two_sided = effect.two_sided;
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "calibrate/stages.hpp"
+#include "diagnose/answer.hpp"
 #include "diagnose/scores.hpp"
 #include "lilytank/local_model.hpp"
 
@@ -26,22 +27,20 @@ struct AtlasOptions {
   std::uint64_t seed = 1;
 };
 
-/// Residuals' answer to an effect's amplitudes, in units of its sizes: base + first d + second d^2,
-/// d = amplitudes - about. About 0 the base is nothing.
-struct Fingerprint {
-  Eigen::VectorXd about;          ///< [amplitude]
-  Eigen::VectorXd base;           ///< [number]
-  Eigen::MatrixXd first, second;  ///< [number, amplitude]
+/// How residuals answer to an effect.
+struct Fingerprint : Answer {
   /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
   Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
   Eigen::VectorXd moved_base;   ///< [parameter]
   /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
   Eigen::MatrixXd scatter;
   int experiments = 0;  ///< that it rests on, for each amplitude
-  bool local() const { return about.cwiseAbs().maxCoeff() > 0; }
-  Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
+  /// Variance of its own noise in every residual, whose deviation is one.
+  double noise_at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };
+/// Largest, and mean square, of the amplitudes at which the first fingerprints are learned.
+inline constexpr double kLearnedSize = 1.2, kLearnedSquare = 0.7;
 /// How far from found amplitudes the experiments about them are.
 Eigen::VectorXd apart(const Eigen::VectorXd& amplitudes);
 

@@ -2,7 +2,6 @@
 // together, every member chosen again beside the others.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/linear.hpp"
 #include "diagnose/naming.hpp"
@@ -25,14 +24,13 @@ constexpr double kCurve = 0.85, kCurveAbout = 0.95;
 // Shares of a distance that an explanation may not leave: where something is left, and where that
 // is as many times what nulls have.
 constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFar = 2;
-constexpr double kNoisy = 2.5;  // standard errors below which a difference is noise
 
 }  // namespace
 
 std::vector<EffectFit> Naming::leading(const Vector& residual, int count) const {
   const Vector all = whitened(residual - centre_);
   std::vector<EffectFit> out;
-  for (const Known& k : known_) out.push_back(fit_all(k, all));
+  for (const Known& k : known_) out.push_back(fitted(k, k.all, all));
   std::stable_sort(out.begin(), out.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
   out.resize(std::min(out.size(), static_cast<std::size_t>(count)));
@@ -64,10 +62,7 @@ bool Naming::told_already(const EffectFit& fit, const std::vector<EffectFit>& fo
 bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) const {
   for (const EffectFit& f : found) {
     if (f.shape < 0 || of.effect < 0) continue;
-    const auto curve = std::find_if(known_.begin(), known_.end(),
-                                    [&](const Known& k) { return k.shape == f.shape; });
-    if (curve == known_.end()) continue;
-    const Matrix& basis = curve->basis;
+    const Matrix& basis = known_[place_of(-1, f.shape)].basis;
     Matrix normal = basis.transpose() * basis;
     normal.diagonal().array() += 1e-6 * (1 + normal.diagonal().maxCoeff());
     const Matrix& own = of.basis;
@@ -86,51 +81,29 @@ double Naming::floor_beside(const std::vector<EffectFit>& found) const {
   return floor;
 }
 
-// Gauss and Newton on the amplitudes of all members, from where each is. Tells every member's z
-// and gain beside the others.
+// From where each member's amplitudes are. Tells every member's z and gain beside the others.
 void Naming::fit_together(const Vector& all, Together& set) const {
-  Eigen::Index m = 0;
-  for (const EffectFit& f : set.fits) m += f.amplitudes.size();
-  Vector a(m), least(m), most(m);
-  Eigen::Index at = 0;
+  std::vector<const Answer*> answers;
+  std::vector<double> start;
   for (std::size_t i = 0; i < set.of.size(); ++i) {
-    const Answer& of = known_[set.of[i]].all;
-    const Eigen::Index n = set.fits[i].amplitudes.size();
-    a.segment(at, n) = set.fits[i].amplitudes;
-    least.segment(at, n) = of.least(), most.segment(at, n) = of.most();
-    at += n;
+    answers.push_back(&known_[set.of[i]].all);
+    start.insert(start.end(), set.fits[i].amplitudes.begin(), set.fits[i].amplitudes.end());
   }
-  const Vector given = meetings_.empty() ? all : Vector(all - meeting(set));
-  double best = std::numeric_limits<double>::infinity();
-  Vector answer = a;
-  for (int step = 0; step < 12; ++step) {
-    Vector left = given;
-    Matrix slope(all.size(), m);
-    at = 0;
-    for (const std::size_t k : set.of) {
-      const Answer& of = known_[k].all;
-      const Vector own = a.segment(at, of.first.cols());
-      left -= of.at(own);
-      slope.middleCols(at, own.size()) = of.slope(own);
-      at += own.size();
-    }
-    if (left.squaredNorm() < best) best = left.squaredNorm(), answer = a, set.left = left;
-    Matrix normal = slope.transpose() * slope;
-    normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-    a += solve_symmetric(normal, Vector(slope.transpose() * left));
-    a = a.cwiseMax(least).cwiseMin(most);
-  }
-  at = 0;
+  AnswerFit fit =
+      fit_answers(answers, meetings_.empty() ? all : Vector(all - meeting(set)),
+                  Eigen::Map<const Vector>(start.data(), static_cast<Eigen::Index>(start.size())));
+  set.left = std::move(fit.left);
+  Eigen::Index at = 0;
   for (std::size_t i = 0; i < set.of.size(); ++i) {
     const Known& of = known_[set.of[i]];
     EffectFit& f = set.fits[i];
-    f.amplitudes = answer.segment(at, f.amplitudes.size());
+    f.amplitudes = fit.amplitudes.segment(at, f.amplitudes.size());
     f.at_reach = of.all.at_reach(f.amplitudes);
     f.moved = of.source.moved(f.amplitudes);
     at += f.amplitudes.size();
     const Vector own = set.left + of.all.at(f.amplitudes);
     f.gain = own.squaredNorm() - set.left.squaredNorm();
-    f.z = fit(of, own).z;
+    f.z = this->fit(of, own).z;
     const EffectFit shape = strongest_shape(own);
     if (f.shape >= 0 && shape.shape == f.shape) f.z = std::max(f.z, shape.z);
   }
@@ -162,7 +135,7 @@ std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit
     const bool own =
         one.shape >= 0 && one.shape == shape.shape && shape.z > std::max(shape_threshold_, floor);
     if (one.z <= std::max(effect_threshold_, floor) && !own) continue;
-    EffectFit whole = fit_all(known_[k], set.left);
+    EffectFit whole = fitted(known_[k], known_[k].all, set.left);
     const double worth = worth_of(whole.gain, whole);
     if (worth > 0) out.push_back({k, std::move(whole), worth});
   }
@@ -199,9 +172,8 @@ Naming::Together Naming::extended(const Vector& all, const Together& set) const 
   return best;
 }
 
-// Pairs of effects that together leave least, though neither may stand out alone: by their first
-// order, then fitted.
-std::vector<Naming::Together> Naming::pairs(const Vector& all) const {
+// Pairs of known effects by how much they explain together, in first order; at most `kTried`.
+std::vector<std::pair<std::size_t, std::size_t>> Naming::leading_pairs(const Vector& all) const {
   std::vector<Eigen::Index> first{0};
   for (const Known& k : known_) {
     first.push_back(first.back() + (k.source.local() ? 1 : k.all.first.cols()));
@@ -209,43 +181,45 @@ std::vector<Naming::Together> Naming::pairs(const Vector& all) const {
   Matrix basis(all.size(), first.back());
   for (std::size_t k = 0; k < known_.size(); ++k) {
     const Answer& of = known_[k].all;
-    basis.middleCols(first[k], first[k + 1] - first[k]) =
-        known_[k].source.local() ? Matrix(of.at(of.about)) : of.first;
+    basis.middleCols(first[k], first[k + 1] - first[k]) = of.local() ? Matrix(of.base) : of.first;
   }
   const Matrix gram = basis.transpose() * basis;
   const Vector seen = basis.transpose() * all;
-  struct Pair {
-    std::size_t a, b;
-    double gain;
+  const auto possible = [&](std::size_t k, const Vector& amplitudes) {
+    return known_[k].all.two_sided || amplitudes.minCoeff() > 0;
   };
-  std::vector<Pair> ranked;
+  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> ranked;  // by -gain
   for (std::size_t a = 0; a < known_.size(); ++a) {
     for (std::size_t b = a + 1; b < known_.size(); ++b) {
-      const Eigen::Index n = first[a + 1] - first[a], m = first[b + 1] - first[b];
-      Matrix normal(n + m, n + m);
-      normal << gram.block(first[a], first[a], n, n), gram.block(first[a], first[b], n, m),
-          gram.block(first[b], first[a], m, n), gram.block(first[b], first[b], m, m);
+      const auto of_a = Eigen::seq(first[a], first[a + 1] - 1);
+      const auto of_b = Eigen::seq(first[b], first[b + 1] - 1);
+      Matrix normal(of_a.size() + of_b.size(), of_a.size() + of_b.size());
+      normal << gram(of_a, of_a), gram(of_a, of_b), gram(of_b, of_a), gram(of_b, of_b);
       normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-      Vector both(n + m);
-      both << seen.segment(first[a], n), seen.segment(first[b], m);
+      Vector both(of_a.size() + of_b.size());
+      both << seen(of_a), seen(of_b);
       const Vector amplitudes = solve_symmetric(normal, both);
-      const auto possible = [&](const Known& k, const Vector& of) {
-        return k.named.two_sided || of.minCoeff() > 0;
-      };
-      if (possible(known_[a], amplitudes.head(n)) && possible(known_[b], amplitudes.tail(m))) {
-        ranked.push_back({a, b, both.dot(amplitudes)});
+      if (possible(a, amplitudes.head(of_a.size())) && possible(b, amplitudes.tail(of_b.size()))) {
+        ranked.push_back({-both.dot(amplitudes), {a, b}});
       }
     }
   }
-  const auto better = [](const Pair& a, const Pair& b) { return a.gain > b.gain; };
-  const std::size_t count = std::min(ranked.size(), kTried);
-  std::partial_sort(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(count),
-                    ranked.end(), better);
+  const auto count = static_cast<std::ptrdiff_t>(std::min(ranked.size(), kTried));
+  std::partial_sort(ranked.begin(), ranked.begin() + count, ranked.end());
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (auto pair = ranked.begin(); pair != ranked.begin() + count; ++pair) {
+    out.push_back(pair->second);
+  }
+  return out;
+}
+
+// Pairs of effects that together leave least, though neither may stand out alone.
+std::vector<Naming::Together> Naming::pairs(const Vector& all) const {
   std::vector<Together> out;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (const auto& [a, b] : leading_pairs(all)) {
     Together set;
-    for (const std::size_t k : {ranked[i].a, ranked[i].b}) {
-      set.of.push_back(k), set.fits.push_back(fit_all(known_[k], all));
+    for (const std::size_t k : {a, b}) {
+      set.of.push_back(k), set.fits.push_back(fitted(known_[k], known_[k].all, all));
     }
     if (told_already(set.fits[0], {set.fits[1]})) continue;
     fit_together(all, set);
@@ -307,7 +281,7 @@ Naming::Together Naming::larger(const Vector& all, const Together& set) const {
 double Naming::noise_of(const Together& set) const {
   double out = 0;
   for (std::size_t m = 0; m < set.of.size(); ++m) {
-    out += noise_of(known_[set.of[m]].source, set.fits[m].amplitudes);
+    out += known_[set.of[m]].source.noise_at(set.fits[m].amplitudes);
   }
   return out;
 }
@@ -343,10 +317,7 @@ bool Naming::fails(const Explanation& e) const {
 Naming::Together Naming::set_of(const Vector& all, const std::vector<EffectFit>& found) const {
   Together set;
   for (const EffectFit& f : found) {
-    const auto of = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
-      return k.effect == f.effect && k.shape == f.shape;
-    });
-    set.of.push_back(static_cast<std::size_t>(of - known_.begin())), set.fits.push_back(f);
+    set.of.push_back(place_of(f.effect, f.shape)), set.fits.push_back(f);
   }
   set.left = all;
   if (!set.of.empty()) fit_together(all, set);
@@ -362,7 +333,7 @@ std::vector<EffectFit> Naming::rivals(const Vector& residual, const std::vector<
     const Together rest = without(all, set, m);
     std::vector<EffectFit> own;
     for (std::size_t k = 0; k < known_.size(); ++k) {
-      const EffectFit f = fit_all(known_[k], rest.left);
+      const EffectFit f = fitted(known_[k], known_[k].all, rest.left);
       const double least = nearly * set.fits[m].gain;
       if (k != set.of[m] && f.gain > least && !told_already(f, rest.fits)) own.push_back(f);
     }
@@ -381,11 +352,9 @@ void Naming::add_meeting(const std::vector<EffectFit>& of, const Vector& residua
   Vector more = residual;
   double error = 1.0 / experiments;
   for (const EffectFit& f : of) {
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-      if (known_[k].effect != f.effect || known_[k].shape != f.shape) continue;
-      m.of.push_back(k), more -= known_[k].source.at(f.amplitudes);
-      error += 1.0 / std::max(1, known_[k].source.experiments);
-    }
+    m.of.push_back(place_of(f.effect, f.shape));
+    const Fingerprint& own = known_[m.of.back()].source;
+    more -= own.at(f.amplitudes), error += 1.0 / std::max(1, own.experiments);
   }
   const double noise = kNoisy * std::sqrt(error);
   m.more = more.unaryExpr([=](double v) { return std::fabs(v) < noise ? 0.0 : v; });

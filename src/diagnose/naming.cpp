@@ -15,28 +15,19 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kFolds = 5;
-constexpr double kLearned = 1.2;     // largest of the amplitudes at which fingerprints are learned
-constexpr double kMeanSquare = 0.7;  // of the amplitudes at which fingerprints are learned
 constexpr double kLeastShrinkage = 0.02;
-constexpr double kNoisy = 2.5;   // standard errors below which an entry of a fingerprint is noise
-constexpr double kMostSize = 6;  // sizes beyond which a fingerprint is no guide
 constexpr Eigen::Index kLeastScatter = 4;
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
-// How far from its own amplitudes a fingerprint about found ones holds.
-constexpr double kNear = 0.5, kNearLeast = 0.4;
 constexpr double kEulerGamma = 0.57721566490153286;
 
-// Correlations of columns, shrunk towards none [Schaefer and Strimmer 2005], times deviations.
+// Shrunk correlations of columns, times deviations.
 Matrix covariance_of(const Matrix& off, const Vector& deviation) {
   const Vector own = (off.colwise().squaredNorm() / static_cast<double>(off.rows()))
                          .cwiseSqrt()
                          .cwiseMax(1e-9)
                          .transpose();
   const Matrix z = off * own.cwiseInverse().asDiagonal();
-  Matrix r = z.transpose() * z / static_cast<double>(off.rows());
-  r *= 1 - std::max(kLeastShrinkage, correlation_shrinkage(z));
-  r.diagonal().setOnes();
-  return deviation.asDiagonal() * r * deviation.asDiagonal();
+  return deviation.asDiagonal() * shrunk_correlations(z, kLeastShrinkage) * deviation.asDiagonal();
 }
 
 Matrix covariance_of(const Matrix& rows) {
@@ -48,6 +39,15 @@ Matrix covariance_of(const Matrix& rows) {
 
 Matrix inverse_root(const Matrix& covariance) {
   return lower_inverse(lower_root(covariance));
+}
+
+// A covariance with the scatter of few experiments as far as it is more than these show of nothing.
+Matrix loosened(const Matrix& own, const Matrix& off) {
+  const auto n = static_cast<double>(off.rows());
+  const double chance = 1 + kByChance * std::sqrt(2 / n);
+  const Vector square = off.colwise().squaredNorm().transpose() / n;
+  const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
+  return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
 }
 
 // The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
@@ -83,27 +83,25 @@ Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     terms_.push_back(effects[e].paths[0]);
-    known_.push_back(known(fingerprints[e], static_cast<int>(e), -1, effects[e].two_sided));
+    known_.push_back(known(fingerprints[e], static_cast<int>(e), -1));
   }
   calibrate(nulls, false_alarms);
 }
 
-Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape,
-                            bool two_sided) const {
+Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape) const {
   Known out;
   out.effect = effect, out.shape = shape, out.source = fingerprint;
-  out.learned = fingerprint.first;
   // A residual has deviation one; fingerprints about found amplitudes are known with a slope as
   // well, and their base is a mean.
-  const bool local = fingerprint.local();
   const auto n = static_cast<double>(std::max(1, fingerprint.experiments));
   const auto kept = [&](const Matrix& of, double e) {
     return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
   };
-  const double error = local ? 0 : 1 / std::sqrt(kMeanSquare * n);
+  const double error = fingerprint.local() ? 0 : 1 / std::sqrt(kLearnedSquare * n);
+  out.learned = kept(fingerprint.first, error);
   out.all = {fingerprint.about, whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
-             whitened(kept(fingerprint.first, error)), whitened(kept(fingerprint.second, error)),
-             two_sided};
+             whitened(out.learned), whitened(kept(fingerprint.second, error)),
+             fingerprint.two_sided};
   out.named = out.all.top(named_);
   out.basis = out.all.first;
   return out;
@@ -113,7 +111,7 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
 void Naming::renew(Known& of, const Fingerprint& fingerprint) const {
   const Matrix learned = of.learned;
   const double scale = of.scale, scale_all = of.scale_all;
-  of = known(fingerprint, of.effect, of.shape, of.named.two_sided);
+  of = known(fingerprint, of.effect, of.shape);
   of.learned = learned, of.basis = whitened(learned);
   of.scale = scale, of.scale_all = scale_all;
 }
@@ -133,74 +131,34 @@ double Naming::z_of(double gain, double scale, Eigen::Index freedom) const {
   return chi_squared_z(std::max(0.0, gain) / std::max(scale, 1e-9), static_cast<int>(freedom));
 }
 
-Naming::Answer Naming::Answer::top(Eigen::Index rows) const {
-  return {about, base.head(rows), first.topRows(rows), second.topRows(rows), two_sided};
-}
-
-Vector Naming::Answer::at(const Vector& amplitudes) const {
-  const Vector d = amplitudes - about;
-  return base + first * d + second * d.array().square().matrix();
-}
-
-Matrix Naming::Answer::slope(const Vector& amplitudes) const {
-  return first + 2 * second * (amplitudes - about).asDiagonal();
-}
-
-Vector Naming::Answer::reach() const {
-  return about.cwiseAbs().maxCoeff() > 0 ? Vector((kNear * about.cwiseAbs()).array() + kNearLeast)
-                                         : Vector(Vector::Constant(about.size(), kMostSize));
-}
-
-Vector Naming::Answer::least() const {
-  return (about - reach()).cwiseMax(two_sided ? -1e9 : 0.0);
-}
-
-bool Naming::Answer::at_reach(const Vector& amplitudes) const {
-  return ((amplitudes - about).cwiseAbs().array() >= (1 - 1e-9) * reach().array()).any();
-}
-
-// Gauss and Newton on the amplitudes.
-EffectFit Naming::Answer::fit(const Vector& data) const {
-  const Eigen::Index m = first.cols();
-  const bool local = about.cwiseAbs().maxCoeff() > 0;
-  const Vector lowest = least(), highest = most();
-  EffectFit out;
-  out.amplitudes = Vector::Zero(m);
-  const double before = data.squaredNorm();
-  double best = before;
-  for (const double sign : {1.0, -1.0}) {
-    if (sign < 0 && (!two_sided || local || m > 1)) break;
-    Vector a = about;
-    if (!local && m == 1) a(0) = 0.3 * sign;
-    for (int step = 0; step < 12; ++step) {
-      const Matrix along = slope(a);
-      Matrix normal = along.transpose() * along;
-      normal.diagonal().array() += 1e-6 + 1e-3 * normal.diagonal().maxCoeff();
-      a += solve_symmetric(normal, Vector(along.transpose() * (data - at(a))));
-      a = a.cwiseMax(lowest).cwiseMin(highest);
-    }
-    const double distance = (data - at(a)).squaredNorm();
-    if (distance >= best) continue;
-    best = distance, out.amplitudes = a, out.at_reach = at_reach(a);
+// Of the last one if there are several.
+std::size_t Naming::place_of(int effect, int shape) const {
+  std::size_t place = known_.size();
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    if (known_[k].effect == effect && known_[k].shape == shape) place = k;
   }
-  out.gain = before - best;
+  return place;
+}
+
+EffectFit Naming::fitted(const Known& of, const Answer& answer, const Vector& data) {
+  AnswerFit fit = fit_answer(answer, data);
+  EffectFit out;
+  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
+  out.gain = data.squaredNorm() - fit.left.squaredNorm();
+  out.at_reach = out.gain > 0 && answer.at_reach(fit.amplitudes);
+  out.amplitudes = std::move(fit.amplitudes);
   return out;
 }
 
 // By the named numbers; how surely, by these or by all, whichever tell more. A curve's other knots
 // overlap with its own.
 EffectFit Naming::fit(const Known& of, const Vector& all) const {
-  EffectFit out = of.named.fit(all.head(named_));
-  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
-  const Eigen::Index m = of.named.first.cols();
+  EffectFit out = fitted(of, of.named, all.head(named_));
+  const Eigen::Index m = out.amplitudes.size();
   out.z = z_of(out.gain, of.scale, m);
-  if (of.effect >= 0) out.z = std::max(out.z, z_of(of.all.fit(all).gain, of.scale_all, m));
-  return out;
-}
-
-EffectFit Naming::fit_all(const Known& of, const Vector& all) const {
-  EffectFit out = of.all.fit(all);
-  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
+  if (of.effect >= 0) {
+    out.z = std::max(out.z, z_of(fitted(of, of.all, all).gain, of.scale_all, m));
+  }
   return out;
 }
 
@@ -230,19 +188,14 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
       if (i % kFolds != fold) others.row(at++) = nulls.row(i);
     }
     whitener_ = inverse_root(covariance_of(others.leftCols(named_)));
-    const Matrix change = whitener_ * lower_inverse(whitener);
-    std::vector<Answer> known;
-    for (const Known& k : known_) {
-      known.push_back(k.all);
-      known.back().first.topRows(named_) = change * k.named.first;
-      known.back().second.topRows(named_) = change * k.named.second;
-    }
+    std::vector<Known> known = known_;
+    for (Known& k : known) renew(k, Fingerprint(k.source));
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const Vector all = whitened(nulls.row(i).transpose() - centre_);
       misfits.push_back(all.head(named_).squaredNorm());
       for (std::size_t k = 0; k < known.size(); ++k) {
-        gains[k].push_back(
-            {known[k].top(named_).fit(all.head(named_)).gain, known[k].fit(all).gain});
+        gains[k].push_back({fitted(known[k], known[k].named, all.head(named_)).gain,
+                            fitted(known[k], known[k].all, all).gain});
       }
       for (Eigen::Index s = 0; s < knots.cols(); ++s) {
         knots(i, s) = all.segment(named_ + s * kKnots, kKnots).squaredNorm();
@@ -279,22 +232,14 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   misfit_threshold_ = extreme(misfits, 0.2 * false_alarms);
 }
 
-namespace {
-
-// A covariance with the scatter of few experiments as far as it is more than these show of nothing.
-Matrix loosened(const Matrix& own, const Matrix& off) {
-  const auto n = static_cast<double>(off.rows());
-  const double chance = 1 + kByChance * std::sqrt(2 / n);
-  const Vector square = off.colwise().squaredNorm().transpose() / n;
-  const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
-  return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
+Matrix Naming::whitener_by(const Matrix& scatter) const {
+  if (scatter.rows() < kLeastScatter) return inverse_root(covariance_);
+  return inverse_root(loosened(covariance_, scatter.leftCols(named_)));
 }
-
-}  // namespace
 
 void Naming::loosen(const Matrix& scatter) {
   if (scatter.rows() < kLeastScatter) return;
-  whitener_ = inverse_root(loosened(covariance_, scatter.leftCols(named_)));
+  whitener_ = whitener_by(scatter);
   for (std::size_t s = 0; s < root_.size(); ++s) {
     const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
     root_[s] = inverse_root(loosened(knots_[s], scatter.middleCols(first, kKnots)));
@@ -302,22 +247,14 @@ void Naming::loosen(const Matrix& scatter) {
   for (Known& k : known_) renew(k, Fingerprint(k.source));
 }
 
-double Naming::doubt_of(const Vector& residual, int effect, int shape,
-                        const Matrix& scatter) const {
-  const auto of = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
-    return k.effect == effect && k.shape == shape;
-  });
-  Matrix whitener = inverse_root(covariance_);
-  if (scatter.rows() >= kLeastScatter) {
-    whitener = inverse_root(loosened(covariance_, scatter.leftCols(named_)));
-  }
+double Naming::doubt_of(const Vector& residual, int effect, int shape) const {
+  const Known& of = known_[place_of(effect, shape)];
+  const Matrix whitener = whitener_by(of.source.scatter);
   const Matrix change = whitener * lower_inverse(whitener_);
-  const Answer& now = of->named;
-  const Answer own{now.about, change * now.base, change * now.first, change * now.second,
-                   now.two_sided};
-  const Vector named = whitener * (residual - centre_).head(named_);
-  const EffectFit fit = own.fit(named);
-  return doubt(named.squaredNorm() - fit.gain, whitener, fit.amplitudes.size());
+  const Answer own{of.named.about, change * of.named.base, change * of.named.first,
+                   change * of.named.second, of.named.two_sided};
+  const AnswerFit fit = fit_answer(own, whitener * (residual - centre_).head(named_));
+  return doubt(fit.left.squaredNorm(), whitener, fit.amplitudes.size());
 }
 
 // What scatters widely explains anything, and pays for it by the determinant of its covariance.
@@ -347,49 +284,34 @@ std::vector<EffectFit> Naming::shapes(const Vector& residual) const {
 }
 
 void Naming::add_shape(int shape, const Fingerprint& fingerprint) {
-  known_.push_back(known(fingerprint, -1, shape, true));
+  known_.push_back(known(fingerprint, -1, shape));
 }
 
 void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
-  for (Known& k : known_) {
-    if (k.effect != fit.effect || k.shape != fit.shape) continue;
-    renew(k, fingerprint);
-  }
+  const std::size_t place = place_of(fit.effect, fit.shape);
+  if (place < known_.size()) renew(known_[place], fingerprint);
 }
 
 double Naming::smallest_seen(int effect) const {
-  for (const Known& k : known_) {
-    if (k.effect != effect) continue;
-    double seen = 0;
-    const Answer& of = k.named;
-    for (Eigen::Index c = 0; c < of.first.cols(); ++c) {
-      for (const double sign : {1.0, -1.0}) {
-        if (sign < 0 && !of.two_sided) continue;
-        const double z = (sign * of.first.col(c) + of.second.col(c)).norm() / std::sqrt(k.scale);
-        seen = std::max(seen, z);
-      }
-    }
-    return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
+  const Answer& of = known_[place_of(effect, -1)].named;
+  double seen = 0;
+  for (Eigen::Index c = 0; c < of.about.size(); ++c) {
+    const Vector one = Vector::Unit(of.about.size(), c);
+    seen = std::max(seen, expected_z(effect, one));
+    if (of.two_sided) seen = std::max(seen, expected_z(effect, -one));
   }
-  return std::numeric_limits<double>::infinity();
+  return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
 }
 
 double Naming::expected_z(int effect, const Vector& amplitudes) const {
-  const auto of = std::find_if(known_.begin(), known_.end(),
-                               [&](const Known& k) { return k.effect == effect; });
-  if (of == known_.end()) return 0;
+  const Known& of = known_[place_of(effect, -1)];
   // Second orders hold as far as they were learned, beyond that in proportion.
-  const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearned);
+  const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearnedSize);
   const Vector within = amplitudes / beyond;
-  const double square = (whitener_ * of->source.at(within).head(named_)).squaredNorm();
+  const double square = (whitener_ * of.source.at(within).head(named_)).squaredNorm();
   // The fingerprint's own noise has a length as well.
-  const double noise = static_cast<double>(named_) * noise_of(of->source, within);
-  return beyond * std::sqrt(std::max(0.0, square - noise) / of->scale);
-}
-
-double Naming::noise_of(const Fingerprint& of, const Vector& amplitudes) {
-  const double n = std::max(1, of.experiments);
-  return of.local() ? 1 / n : amplitudes.squaredNorm() / (kMeanSquare * n);
+  const double noise = static_cast<double>(named_) * of.source.noise_at(within);
+  return beyond * std::sqrt(std::max(0.0, square - noise) / of.scale);
 }
 
 }  // namespace lilytank

@@ -56,9 +56,9 @@ class Naming {
   /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
   /// more than that of nulls: modules that stick scatter otherwise than modules that drift.
   void loosen(const Eigen::MatrixXd& scatter);
-  /// The doubt if this effect or shape alone were there, judged by the scatter of its experiments.
-  double doubt_of(const Eigen::VectorXd& residual, int effect, int shape,
-                  const Eigen::MatrixXd& scatter) const;
+  /// The doubt if this effect or shape alone were there, judged by the scatter of the
+  /// experiments that its fingerprint rests on.
+  double doubt_of(const Eigen::VectorXd& residual, int effect, int shape) const;
   /// What several effects leave in residuals at these amplitudes if all are there: they need not
   /// add up. `experiments`: that the mean rests on.
   void add_meeting(const std::vector<EffectFit>& of, const Eigen::VectorXd& residual,
@@ -83,38 +83,22 @@ class Naming {
   double expected_z(int effect, const Eigen::VectorXd& amplitudes) const;
 
  private:
-  /// A whitened fingerprint.
-  struct Answer {
-    Eigen::VectorXd about, base;
-    Eigen::MatrixXd first, second;
-    bool two_sided = false;
-    Answer top(Eigen::Index rows) const;
-    Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
-    Eigen::MatrixXd slope(const Eigen::VectorXd& amplitudes) const;
-    /// How far amplitudes may go: those that cannot be negative stop at nothing, those about found
-    /// ones stay near them.
-    Eigen::VectorXd reach() const;
-    Eigen::VectorXd least() const;
-    Eigen::VectorXd most() const { return about + reach(); }
-    bool at_reach(const Eigen::VectorXd& amplitudes) const;
-    EffectFit fit(const Eigen::VectorXd& data) const;
-  };
   struct Known {
     int effect = -1, shape = -1;
     Fingerprint source;
     Eigen::MatrixXd learned;  ///< first orders of residuals at usual sizes
-    Answer named;             ///< of named numbers
-    /// Of all numbers: those named, and each shape's knots, whitened by themselves. Shapes overlap,
-    /// so a gain in all numbers has a scale of its own.
-    Answer all;
+    /// Whitened, of named numbers, and of all: those named, and each shape's knots by themselves.
+    /// Shapes overlap, so a gain in all numbers has a scale of its own.
+    Answer named, all;
     Eigen::MatrixXd basis;  ///< first orders of all numbers, as learned at usual sizes
     /// Mean gain of nulls by its degrees of freedom, in the named numbers and in all.
     double scale = 1, scale_all = 1;
   };
-  Known known(const Fingerprint& fingerprint, int effect, int shape, bool two_sided) const;
+  Known known(const Fingerprint& fingerprint, int effect, int shape) const;
   void renew(Known& of, const Fingerprint& fingerprint) const;
+  std::size_t place_of(int effect, int shape) const;
+  static EffectFit fitted(const Known& of, const Answer& answer, const Eigen::VectorXd& data);
   EffectFit fit(const Known& of, const Eigen::VectorXd& all) const;
-  EffectFit fit_all(const Known& of, const Eigen::VectorXd& all) const;
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
@@ -148,14 +132,16 @@ class Naming {
   void exchange(const Eigen::VectorXd& all, Together& set) const;
   double cost(const Together& set) const;
   double noise_of(const Together& set) const;
+  Eigen::MatrixXd whitener_by(const Eigen::MatrixXd& scatter) const;
   static double doubt(double left, const Eigen::MatrixXd& whitener, Eigen::Index amplitudes);
-  static double noise_of(const Fingerprint& of, const Eigen::VectorXd& amplitudes);
+  std::vector<std::pair<std::size_t, std::size_t>> leading_pairs(const Eigen::VectorXd& all) const;
   std::vector<Together> pairs(const Eigen::VectorXd& all) const;
   bool each_speaks(const Together& set) const;
   Together larger(const Eigen::VectorXd& all, const Together& set) const;
   EffectFit strongest_shape(const Eigen::VectorXd& all) const;
 
   static constexpr double kAmplitudePrice = 4;  // in squared distance
+  static constexpr double kNoisy = 2.5;         // standard errors below which a number is noise
 
   Eigen::Index named_;                  ///< numbers before the shapes' knots
   std::vector<std::string> terms_;      ///< of each effect: the path of its first amplitude

@@ -28,9 +28,8 @@ class Sensitivities {
   void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
             double loss, bool told);
 
-  /// The estimate of a feature's amplitude; 0 where nothing was pushed.
-  /// `known`: information there is of nothing before any data, which draws what was hardly seen to
-  /// 0.
+  /// The estimate of a feature's amplitude; 0 where nothing was pushed. `known`: information before
+  /// any data that it is 0, to which that draws what was hardly seen.
   double estimate(std::size_t feature, double known = 0) const;
 
  private:

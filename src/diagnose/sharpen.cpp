@@ -15,7 +15,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
-constexpr double kLearned = 2;  // sizes up to which a fingerprint is as good as it was learned
+constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
 constexpr int kRivals = 3, kMostSharpened = 6;
 constexpr std::size_t kMostMeetings = 3;
@@ -54,9 +54,7 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
 bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& residual) const {
   const EffectFit& f = e.found.front();
   if (e.found.size() > 1 || naming.leaves_something(e)) return false;
-  if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kLearned) {
-    return false;
-  }
+  if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
   const std::vector<Effect>& effects = atlas_->plan().effects;
   const std::string& name = effects[static_cast<std::size_t>(f.effect)].name;
   const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
@@ -103,13 +101,15 @@ class Diagnoser::Sharpening {
       if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
     }
     loosen();
+    Explanation e = naming_.explain(residual_);
     for (int more = 0; more < kMostSharpened; ++more) {
-      const std::optional<EffectFit> next = next_after(naming_.explain(residual_));
+      const std::optional<EffectFit> next = next_after(e);
       if (!next) break;
       sharpen(*next);
       loosen();
+      e = naming_.explain(residual_);
     }
-    return met();
+    return met(std::move(e));
   }
 
  private:
@@ -132,7 +132,7 @@ class Diagnoser::Sharpening {
     const Fingerprint to = of_.fingerprint_near(f, from, judged_);
     known_[name_of(f)] = to;
     naming_.sharpen(f, to);
-    doubts_[name_of(f)] = naming_.doubt_of(residual_, f.effect, f.shape, to.scatter);
+    doubts_[name_of(f)] = naming_.doubt_of(residual_, f.effect, f.shape);
   }
 
   // By the scatter of the experiments with what, by its own scatter, is most likely there.
@@ -175,8 +175,7 @@ class Diagnoser::Sharpening {
 
   // Several effects need not add up: modules that one holds together another cannot move apart.
   // What they do at once is simulated as well.
-  Explanation met() {
-    Explanation e = naming_.explain(residual_);
+  Explanation met(Explanation e) {
     std::set<std::string> told;
     while (e.found.size() > 1 && told.size() < kMostMeetings) {
       std::vector<EffectFit> found = e.found;
@@ -190,7 +189,7 @@ class Diagnoser::Sharpening {
       if (camera || !told.insert(name).second) break;
       const Fingerprint at_once = simulated(found, name);
       Naming both = naming_;
-      both.add_meeting(found, at_once.at(amplitudes(found)), at_once.experiments);
+      both.add_meeting(found, at_once.base, at_once.experiments);
       // Without their scatter if it does not make them likelier.
       naming_ = both;
       both.loosen(at_once.scatter);
@@ -204,17 +203,7 @@ class Diagnoser::Sharpening {
     return e;
   }
 
-  static Vector amplitudes(const std::vector<EffectFit>& found) {
-    Eigen::Index count = 0, at = 0;
-    for (const EffectFit& f : found) count += f.amplitudes.size();
-    Vector out(count);
-    for (const EffectFit& f : found) {
-      out.segment(at, f.amplitudes.size()) = f.amplitudes, at += f.amplitudes.size();
-    }
-    return out;
-  }
-
-  // Experiments with all of them.
+  // By experiments with all of them, about these amplitudes.
   Fingerprint simulated(const std::vector<EffectFit>& found, const std::string& name) {
     std::vector<Effect> effects;
     std::vector<Fingerprint> each;
@@ -223,10 +212,12 @@ class Diagnoser::Sharpening {
       effects.push_back(of_.found_effect(f)), each.push_back(fingerprint(f)),
           at.push_back(f.amplitudes);
     }
-    const Fingerprint apart = together(each, at);
-    return of_.atlas_->fingerprint_about(apart.about, apart, together(effects),
-                                         of_.atlas_->calibrated(judged_.observed.summary).point,
-                                         name);
+    const Fingerprint sum = together(each, at);
+    Fingerprint out =
+        of_.atlas_->fingerprint_about(sum.about, sum, together(effects),
+                                      of_.atlas_->calibrated(judged_.observed.summary).point, name);
+    out.base = out.at(sum.about), out.about = sum.about;
+    return out;
   }
 
   Diagnoser& of_;
