@@ -123,15 +123,17 @@ int recover_verb(const VerbOptions& options, CalibrationOptions job) {
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   r.calibration = job;
+  r.done = [&](const std::vector<RecoveryRow>& rows) {
+    const std::filesystem::path out = job.out;
+    write_atomically((out / "recovery.csv").string(), recovery_csv(rows));
+    write_atomically((out / "recovery.txt").string(), recovery_text(rows));
+  };
   const auto rows = recover(scenario, r);
   progress.clear();
   if (!rows) {
     std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
-  write_atomically((std::filesystem::path(job.out) / "recovery.csv").string(), recovery_csv(*rows));
-  write_atomically((std::filesystem::path(job.out) / "recovery.txt").string(),
-                   recovery_text(*rows));
   std::cout << recovery_text(*rows) << std::flush;
   std::cerr << "results in " << job.out << "\n";
   return Exit::done;

@@ -65,8 +65,9 @@ class Diagnoser {
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
   class Sharpening;
-  Effect found_effect(const EffectFit& fit) const;
-  static std::string stage_name(const EffectFit& fit);
+  /// With what recordings tell of it directly: the line of pumps, the module that differs.
+  Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
+  std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   Fingerprint shape_fingerprint(int shape);
   Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
                            const Eigen::VectorXd& residual) const;

@@ -124,6 +124,7 @@ void add_modules(std::vector<Effect>& all) {
 // Effects without a mean force: they change how innovations scatter.
 void add_noise(std::vector<Effect>& all) {
   Effect pumps = one("flow_pulsation", "share", 0.15, "1", "time");
+  pumps.shape = {{force("flow_pulsation", "frequency"), 0.9}};
   pumps.scored = false;
   all.push_back(pumps);
   for (const double time : {0.25, 1.0}) {

@@ -286,11 +286,10 @@ double Naming::noise_of(const Together& set) const {
   return out;
 }
 
-Explanation Naming::explain(const Vector& residual) const {
+Explanation Naming::explain(const Vector& residual, const std::vector<EffectFit>& begun) const {
   const Vector all = whitened(residual - centre_);
   Explanation out;
-  Together set;
-  set.left = all;
+  Together set = set_of(all, begun);
   while (set.of.size() < kMostEffects) {
     Together more = larger(all, set);
     if (more.of.size() == set.of.size()) break;

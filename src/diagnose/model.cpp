@@ -29,7 +29,6 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
                                Diagnosis& out) {
   const Explanation& e = judged.explanation;
   const Vectors& observed = judged.observed;
-  const ScoreDetails& details = judged.details;
   const LocalFit baseline = atlas_->calibrated(observed.summary);
   const std::vector<double> before = stages_.from_scale(baseline.point);
   for (std::size_t i = 0; i < setup_.told(); ++i) {
@@ -47,15 +46,7 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   Vector moved = Vector::Zero(baseline.point.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
-    Effect effect = found_effect(f);
-    if (effect.name == "flow_pulsation") {
-      effect.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
-    }
-    if (effect.name == "heterogeneous_module") {
-      effect.shape = {
-          {"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
-    }
-    found.push_back({std::move(effect), f.amplitudes, f.shape});
+    found.push_back({found_effect(f, judged.details), f.amplitudes, f.shape});
   }
   const FitBounds bounds = stages_.bounds();
   const JointStart start{stages_.to_scale(setup_.start),
@@ -146,6 +137,11 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before,
       step_gain(atlas_->plan().model, after, atlas_->plan().predictor, recordings);
   for (DiagnosisFinding& f : out.findings) {
     f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
+  }
+  if (gain.high < 0) {
+    out.warnings.push_back(
+        "one step ahead, what was found predicts recordings that had no part in this worse than "
+        "nothing does: the name or its law is doubtful");
   }
 }
 

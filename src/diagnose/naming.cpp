@@ -247,14 +247,16 @@ void Naming::loosen(const Matrix& scatter) {
   for (Known& k : known_) renew(k, Fingerprint(k.source));
 }
 
-double Naming::doubt_of(const Vector& residual, int effect, int shape) const {
+Naming::Alone Naming::alone(const Vector& residual, int effect, int shape) const {
   const Known& of = known_[place_of(effect, shape)];
   const Matrix whitener = whitener_by(of.source.scatter);
   const Matrix change = whitener * lower_inverse(whitener_);
   const Answer own{of.named.about, change * of.named.base, change * of.named.first,
                    change * of.named.second, of.named.two_sided};
-  const AnswerFit fit = fit_answer(own, whitener * (residual - centre_).head(named_));
-  return doubt(fit.left.squaredNorm(), whitener, fit.amplitudes.size());
+  AnswerFit fit = fit_answer(own, whitener * (residual - centre_).head(named_));
+  const double left = fit.left.squaredNorm();
+  const Eigen::Index amplitudes = fit.amplitudes.size();
+  return {std::move(fit.amplitudes), doubt(left, whitener, amplitudes)};
 }
 
 // What scatters widely explains anything, and pays for it by the determinant of its covariance.

@@ -56,16 +56,21 @@ class Naming {
   /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
   /// more than that of nulls: modules that stick scatter otherwise than modules that drift.
   void loosen(const Eigen::MatrixXd& scatter);
-  /// The doubt if this effect or shape alone were there, judged by the scatter of the
-  /// experiments that its fingerprint rests on.
-  double doubt_of(const Eigen::VectorXd& residual, int effect, int shape) const;
+  /// This effect or shape alone, by the named numbers and judged by the scatter of the experiments
+  /// that its fingerprint rests on.
+  struct Alone {
+    Eigen::VectorXd amplitudes;
+    double doubt = 0;
+  };
+  Alone alone(const Eigen::VectorXd& residual, int effect, int shape) const;
   /// What several effects leave in residuals at these amplitudes if all are there: they need not
   /// add up. `experiments`: that the mean rests on.
   void add_meeting(const std::vector<EffectFit>& of, const Eigen::VectorXd& residual,
                    int experiments);
   /// The effects, and shapes that were added, that together explain residuals until nothing is
-  /// left.
-  Explanation explain(const Eigen::VectorXd& residual) const;
+  /// left. The search begins with those of `begun`.
+  Explanation explain(const Eigen::VectorXd& residual,
+                      const std::vector<EffectFit>& begun = {}) const;
   double effect_threshold() const { return effect_threshold_; }
   double shape_threshold() const { return shape_threshold_; }
   /// Of the squared distance of all named numbers.

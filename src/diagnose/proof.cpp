@@ -96,19 +96,14 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
 }
 
-// Of the weakest of the effects.
+// Of the weakest of the effects, as the catalogue has them.
 double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
-  const std::vector<Effect>& effects = diagnoser.atlas().plan().effects;
   double least = 1e300;
   for (const SealedEffect& own : s.effects) {
-    const auto of = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) {
-      return e.name == own.effect.name && e.shape == own.effect.shape;
-    });
-    if (of == effects.end()) return 0;
+    if (own.like < 0) return 0;
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
-    least = std::min(
-        least, diagnoser.naming().expected_z(static_cast<int>(of - effects.begin()), amplitudes));
+    least = std::min(least, diagnoser.naming().expected_z(own.like, amplitudes));
   }
   return s.effects.empty() ? 0 : least;
 }
@@ -125,7 +120,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   Proof out;
   std::vector<Sealed> sealed;
   for (int w = 0; w < options.worlds; ++w) {
-    sealed.push_back(seal(effects, shapes, seed, w));
+    sealed.push_back(seal(tank, effects, shapes, seed, w));
     out.key += std::to_string(w) + " " + key_text(sealed.back());
   }
   out.hash = sha256(out.key);

@@ -11,8 +11,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kOff = 0.08;     // share by which parameters of a sealed world are off
-constexpr double kMissed = 0.01;  // share of the frames in which a body is not seen
+constexpr double kOff = 0.08;        // share by which parameters of a sealed world are off
+constexpr double kOtherShape = 1.5;  // factor by which a range of the catalogue is off at most
+constexpr double kPlaces = 0.5;      // of the radius, that a place is off along each axis at most
+constexpr double kMissed = 0.01;     // share of the frames in which a body is not seen
 
 double draw(std::uint64_t seed, int world, std::uint32_t which) {
   return uniform({seed, Stream::calibrate, world, which, 30});
@@ -30,7 +32,7 @@ Shape odd_law(const std::vector<Shape>& shapes, std::uint64_t seed, int world) {
 }
 
 SealedEffect odd_effect(const Shape& shape, std::uint64_t seed, int world) {
-  SealedEffect out{effect_of(shape), {}};
+  SealedEffect out{-1, effect_of(shape), {}};
   const double phase = 2 * kPi * draw(seed, world, 2), size = 0.5 + 1.5 * draw(seed, world, 3);
   for (int k = 0; k < kKnots; ++k) {
     out.amplitudes.push_back(size * rotation(phase + 2 * kPi * k / kKnots).c);
@@ -38,25 +40,59 @@ SealedEffect odd_effect(const Shape& shape, std::uint64_t seed, int world) {
   return out;
 }
 
+// "forces.wall_force".
+std::string term_of(const Effect& e) {
+  return e.paths[0].substr(0, e.paths[0].rfind('.'));
+}
+
+// Ranges, times, lengths, frequencies and places are not those of the catalogue.
+void displace(Effect& e, const Model& tank, std::uint64_t seed, int world, std::uint32_t first) {
+  const std::string term = term_of(e) + ".";
+  if (term.rfind("forces.", 0) != 0) return;
+  std::map<std::string, double> other;
+  for (const Parameter& p : find_force(term.substr(7, term.size() - 8))->parameters()) {
+    other[term + std::string(p.name)] = p.standard;
+  }
+  for (const std::string& path : e.paths) other.erase(path);
+  for (const auto& [path, value] : e.shape) other[path] = value;
+  e.shape.clear();
+  std::uint32_t k = first + 20;
+  for (auto [path, value] : other) {
+    const double u = draw(seed, world, k++), both = 2 * u - 1;
+    const std::string name = path.substr(term.size());
+    if (name == "x" || name == "y") {
+      value = kPlaces * tank.tank.radius * both;
+    } else if (name == "module") {
+      value = std::floor(u * tank.module.count);
+    } else if (name == "phase") {
+      value = kPi * both;
+    } else if (name != "angle") {
+      value *= exp_portable(both * log_portable(kOtherShape));
+    }
+    e.shape.emplace_back(path, value);
+  }
+}
+
 // `number`: of the draw.
-SealedEffect drawn_effect(const std::vector<Effect>& effects, std::uint64_t seed, int world,
-                          std::uint32_t number) {
+SealedEffect drawn_effect(const std::vector<Effect>& effects, const Model& tank, std::uint64_t seed,
+                          int world, std::uint32_t number) {
   const std::uint32_t first = 100 * number;
-  const double which = draw(seed, world, first + 1) * static_cast<double>(effects.size());
-  SealedEffect out{effects[static_cast<std::size_t>(which)], {}};
+  const auto which =
+      static_cast<std::size_t>(draw(seed, world, first + 1) * static_cast<double>(effects.size()));
+  SealedEffect out{static_cast<int>(which), effects[which], {}};
   for (std::uint32_t c = 0; c < out.effect.paths.size(); ++c) {
     const double size = 0.4 + 1.6 * draw(seed, world, first + 4 + 2 * c);
     const bool negative = out.effect.two_sided && draw(seed, world, first + 5 + 2 * c) < 0.5;
     out.amplitudes.push_back(negative ? -size : size);
   }
+  displace(out.effect, tank, seed, world, first);
   return out;
 }
 
 // Whether two effects can be there at once: other terms, and none of the camera's, which would be
 // the verdict.
 bool beside(const Effect& a, const Effect& b) {
-  const auto term = [](const Effect& e) { return e.paths[0].substr(0, e.paths[0].rfind('.')); };
-  return !a.camera() && !b.camera() && term(a) != term(b);
+  return !a.camera() && !b.camera() && term_of(a) != term_of(b);
 }
 
 // Amplitudes in their own units.
@@ -105,7 +141,7 @@ Model with_steps(Model model, int steps) {
   return model;
 }
 
-Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
+Sealed seal(const Model& tank, const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
             std::uint64_t seed, int world) {
   Sealed out;
   for (std::uint32_t k = 0; k < 5; ++k) {
@@ -124,7 +160,7 @@ Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes
   const bool two = world % 8 == 3;
   out.kind = two ? "two" : "named";
   std::uint32_t number = 0;
-  const auto next = [&] { return drawn_effect(effects, seed, world, number++); };
+  const auto next = [&] { return drawn_effect(effects, tank, seed, world, number++); };
   out.effects.push_back(next());
   while (two && out.effects[0].effect.camera()) out.effects[0] = next();
   while (two && out.effects.size() < 2) {

@@ -17,6 +17,7 @@ inline constexpr int kSealedSteps = 10;      ///< steps a tick: 2.5 ms
 
 /// An effect and its amplitudes, in units of its sizes.
 struct SealedEffect {
+  int like = -1;  ///< the catalogue's effect that it is nearest to; -1: a law that has no name
   Effect effect;
   std::vector<double> amplitudes;
 };
@@ -37,7 +38,8 @@ Model with_steps(Model model, int steps);
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds);
 
 /// The secret of one world: of eight two are complete, one has a law of no effect, one two effects.
-Sealed seal(const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
+/// Effects have other ranges, times, frequencies and places than those of the catalogue.
+Sealed seal(const Model& tank, const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
             std::uint64_t seed, int world);
 /// A line of the key.
 std::string key_text(const Sealed& s);

@@ -4,8 +4,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "analysis/linear.hpp"
+#include "analysis/text_table.hpp"
 #include "diagnose/diagnoser.hpp"
 #include "lilytank/random.hpp"
 
@@ -17,7 +19,8 @@ using Vector = Eigen::VectorXd;
 constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
 constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
-constexpr int kRivals = 3, kMostSharpened = 6;
+constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
+constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
 
 }  // namespace
@@ -68,9 +71,9 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
                                         const Judged& judged) {
-  return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f),
+  return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
                                    atlas_->calibrated(judged.observed.summary).point,
-                                   stage_name(f));
+                                   stage_name(f, judged.details));
 }
 
 // A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
@@ -100,14 +103,12 @@ class Diagnoser::Sharpening {
     for (const EffectFit& f : leading) {
       if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
     }
-    loosen();
-    Explanation e = naming_.explain(residual_);
+    Explanation e = explained();
     for (int more = 0; more < kMostSharpened; ++more) {
       const std::optional<EffectFit> next = next_after(e);
       if (!next) break;
       sharpen(*next);
-      loosen();
-      e = naming_.explain(residual_);
+      e = explained();
     }
     return met(std::move(e));
   }
@@ -132,15 +133,39 @@ class Diagnoser::Sharpening {
     const Fingerprint to = of_.fingerprint_near(f, from, judged_);
     known_[name_of(f)] = to;
     naming_.sharpen(f, to);
-    doubts_[name_of(f)] = naming_.doubt_of(residual_, f.effect, f.shape);
+    alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
   }
 
-  // By the scatter of the experiments with what, by its own scatter, is most likely there.
-  void loosen() {
-    const auto likely =
-        std::min_element(doubts_.begin(), doubts_.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (likely != doubts_.end()) naming_.loosen(known_[likely->first].scatter);
+  // What alone, by its own scatter, is most likely there.
+  std::optional<EffectFit> likeliest() const {
+    const auto likely = std::min_element(
+        alone_.begin(), alone_.end(),
+        [](const auto& a, const auto& b) { return a.second.doubt < b.second.doubt; });
+    if (likely == alone_.end()) return std::nullopt;
+    EffectFit out;
+    std::tie(out.effect, out.shape) = likely->first;
+    out.amplitudes = likely->second.amplitudes;
+    return out;
+  }
+
+  // Judged by the scatter of the experiments with what is likeliest, which are to be where it is.
+  // What adds up from others has to leave less than it does.
+  Explanation explained() {
+    std::optional<EffectFit> likely = likeliest();
+    for (int pass = 0; likely && off_centre(*likely, kBeside) && pass < kMostCentred; ++pass) {
+      sharpen(*likely);
+      likely = likeliest();
+    }
+    if (likely) naming_.loosen(known_[name_of(*likely)].scatter);
+    Explanation e = naming_.explain(residual_);
+    if (!likely || is_found(*likely, e)) return e;
+    Explanation other = naming_.explain(residual_, {*likely});
+    return other.doubt < e.doubt ? other : e;
+  }
+
+  static bool is_found(const EffectFit& f, const Explanation& e) {
+    return std::any_of(e.found.begin(), e.found.end(),
+                       [&](const EffectFit& other) { return name_of(other) == name_of(f); });
   }
 
   bool blunt(const EffectFit& f) const {
@@ -148,13 +173,12 @@ class Diagnoser::Sharpening {
     return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
   }
 
-  // What is found should be where its experiments were, not beside them; once is enough.
-  bool off_centre(const EffectFit& f) {
+  // What is found should be where its experiments were, not beside them. `far`: in their spread.
+  bool off_centre(const EffectFit& f, double far = 1) const {
     const auto sharp = known_.find(name_of(f));
     if (sharp == known_.end() || f.shape >= 0) return false;
     const Vector& about = sharp->second.about;
-    const double off = (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff();
-    return off > 1 && centred_.insert(name_of(f)).second;
+    return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
   }
 
   std::optional<EffectFit> next_after(const Explanation& e) {
@@ -168,7 +192,7 @@ class Diagnoser::Sharpening {
       if (blunt(f)) return f;
     }
     for (const EffectFit& f : e.found) {
-      if (off_centre(f)) return f;
+      if (off_centre(f) && centred_.insert(name_of(f)).second) return f;  // once is enough
     }
     return std::nullopt;
   }
@@ -182,9 +206,11 @@ class Diagnoser::Sharpening {
       std::sort(found.begin(), found.end(),
                 [](const EffectFit& a, const EffectFit& b) { return name_of(a) < name_of(b); });
       std::string name;
-      for (const EffectFit& f : found) name += (name.empty() ? "" : ", ") + of_.stage_name(f);
+      for (const EffectFit& f : found) {
+        name += (name.empty() ? "" : ", ") + of_.stage_name(f, judged_.details);
+      }
       const bool camera = std::any_of(found.begin(), found.end(), [&](const EffectFit& f) {
-        return of_.found_effect(f).camera();
+        return of_.found_effect(f, judged_.details).camera();
       });
       if (camera || !told.insert(name).second) break;
       const Fingerprint at_once = simulated(found, name);
@@ -209,7 +235,7 @@ class Diagnoser::Sharpening {
     std::vector<Fingerprint> each;
     std::vector<Vector> at;
     for (const EffectFit& f : found) {
-      effects.push_back(of_.found_effect(f)), each.push_back(fingerprint(f)),
+      effects.push_back(of_.found_effect(f, judged_.details)), each.push_back(fingerprint(f)),
           at.push_back(f.amplitudes);
     }
     const Fingerprint sum = together(each, at);
@@ -225,7 +251,7 @@ class Diagnoser::Sharpening {
   const Judged& judged_;
   const Vector& residual_;
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
-  std::map<Name, double> doubts_;
+  std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
 };
 
@@ -235,14 +261,26 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
   return Sharpening(*this, naming, judged, residual).run();
 }
 
-Effect Diagnoser::found_effect(const EffectFit& f) const {
+Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
   const ScorePlan& plan = atlas_->plan();
-  return f.effect >= 0 ? plan.effects[static_cast<std::size_t>(f.effect)]
-                       : effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
+  if (f.effect < 0) return effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
+  Effect out = plan.effects[static_cast<std::size_t>(f.effect)];
+  if (out.name == "flow_pulsation") {
+    out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
+  }
+  if (out.name == "heterogeneous_module") {
+    out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
+  }
+  return out;
 }
 
-std::string Diagnoser::stage_name(const EffectFit& f) {
-  return f.effect >= 0 ? "effect " + std::to_string(f.effect) : "shape " + std::to_string(f.shape);
+// Experiments with pumps of nearly one frequency serve each other.
+std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& details) const {
+  if (f.effect < 0) return "shape " + std::to_string(f.shape);
+  const std::string out = "effect " + std::to_string(f.effect);
+  const bool pumps =
+      atlas_->plan().effects[static_cast<std::size_t>(f.effect)].name == "flow_pulsation";
+  return pumps ? out + " at " + fixed(details.pulsation, 1) + " Hz" : out;
 }
 
 Fingerprint Diagnoser::shape_fingerprint(int s) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lilytank/random.hpp"
 
@@ -170,6 +171,35 @@ TEST_F(NamingTest, anEffectThatShowsInCurvesOnlyIsFound) {
   const Explanation said = naming.explain(noise(12, 0) + torque);
   ASSERT_EQ(said.found.size(), 1u);
   EXPECT_EQ(said.found[0].effect, 0);
+}
+
+// By the scatter of its own experiments what scatters widely explains anything, and pays for it.
+TEST_F(NamingTest, aloneTheEffectThatIsThereIsLikelierThanOneThatScattersWidely) {
+  const Vector data = noise(13, 0) + 2 * first_;
+  double doubts[2];
+  for (const bool wide : {false, true}) {
+    Fingerprint f = fingerprint(wide ? other_ : first_);
+    f.about = Vector::Constant(1, 1.8), f.base = 1.8 * f.first;
+    f.scatter.resize(10, first_.size());
+    for (int i = 0; i < 10; ++i) f.scatter.row(i) = (wide ? 8 : 1) * noise(14, i).transpose();
+    EffectFit fit;
+    fit.effect = wide ? kOther : kFirst;
+    naming_->sharpen(fit, f);
+    const Naming::Alone alone = naming_->alone(data, fit.effect, -1);
+    EXPECT_TRUE(wide || std::fabs(alone.amplitudes(0) - 2) < 0.5);
+    doubts[wide ? 1 : 0] = alone.doubt;
+  }
+  EXPECT_LT(doubts[0], doubts[1]);
+}
+
+TEST_F(NamingTest, aSearchBegunWithAWrongNameEndsWithTheRightOnes) {
+  EffectFit begun;
+  begun.effect = kBoth, begun.amplitudes = Vector::Constant(1, 1.0);
+  const Explanation e = naming_->explain(noise(4, 0) + 2 * first_ + 2 * second_, {begun});
+  std::vector<int> found;
+  for (const EffectFit& f : e.found) found.push_back(f.effect);
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<int>{kFirst, kSecond}));
 }
 
 TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
