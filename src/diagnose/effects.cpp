@@ -40,7 +40,7 @@ void add_pairs(std::vector<Effect>& all) {
     for (const char* name : {"pair_attraction", "pair_repulsion"}) {
       Effect e = one(name, "strength", range < 0.01 ? 6e-3 : 4e-3, "N", "pair");
       e.shape = {{force(name, "range"), range}};
-      e.refine = {{force(name, "range"), "m", range / 2.5, range * 2.5, true, false}};
+      e.refine = {{force(name, "range"), "m", 0.0015, 0.08, true, false}};
       e.split = kLogLatches;
       e.scored = name[5] == 'a';  // the other one's force is this one's, turned round
       all.push_back(e);
@@ -66,7 +66,7 @@ void add_walls(std::vector<Effect>& all) {
   for (const double range : {0.005, 0.02}) {
     Effect e = one("wall_force", "strength", range < 0.01 ? 0.01 : 5e-3, "N", "radius");
     e.shape = {{force("wall_force", "range"), range}};
-    e.refine = {{force("wall_force", "range"), "m", range / 2.5, range * 2.5, true, false}};
+    e.refine = {{force("wall_force", "range"), "m", 0.002, 0.05, true, false}};
     e.two_sided = true, e.split = kOtherBody;
     all.push_back(e);
   }
@@ -105,6 +105,10 @@ void add_water(std::vector<Effect>& all, const Model& model) {
     stream.shape = {{force("local_flow", "x"), out * at.c},
                     {force("local_flow", "y"), out * at.s},
                     {force("local_flow", "width"), 0.06}};
+    const double edge = 0.8 * model.tank.radius;
+    stream.refine = {{force("local_flow", "x"), "m", -edge, edge, false, false},
+                     {force("local_flow", "y"), "m", -edge, edge, false, false},
+                     {force("local_flow", "width"), "m", 0.02, 0.2, true, false}};
     stream.split = kOtherBody;
     all.push_back(stream);
   }
@@ -132,9 +136,8 @@ void add_noise(std::vector<Effect>& all) {
       Effect eddies = one("correlated_gusts", "share", 0.15, "1", "lag");
       eddies.shape = {{force("correlated_gusts", "time"), time},
                       {force("correlated_gusts", "length"), length}};
-      eddies.refine = {
-          {force("correlated_gusts", "time"), "s", time / 3, time * 3, true, false},
-          {force("correlated_gusts", "length"), "m", length / 3, length * 3, true, false}};
+      eddies.refine = {{force("correlated_gusts", "time"), "s", 0.08, 3, true, false},
+                       {force("correlated_gusts", "length"), "m", 0.01, 0.25, true, false}};
       eddies.scored = false;
       all.push_back(eddies);
     }

@@ -57,7 +57,7 @@ void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
     if (same == out.detectable.end()) {
       out.detectable.push_back({effect.name, effect.paths[0], least, effect.units[0]});
     } else {
-      same->smallest = std::min(same->smallest, least);
+      same->smallest = std::max(same->smallest, least);  // whatever its range
     }
   }
 }

@@ -18,7 +18,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostRounds = 5;
-constexpr double kSettled = 1.8;  // deviations of the design
+constexpr double kSettled = 1;  // deviations of the design
+// Deviations of the first design: of what is refined, on its log scale, and of places.
+constexpr double kRefined = 0.25, kPlaced = 0.06;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr std::uint64_t kMix = 7;
@@ -111,7 +113,8 @@ void begin(const Stages& stages, const std::vector<JointEffect>& effects,
     fit.model = with_effect(fit.model, effect, sizes);
     for (const FitParameter& p : effect.refine) {
       fit.parameters.push_back(p);
-      at.push_back(p.to_scale(parameter_value(fit.model, p.path))), wide.push_back(0.25);
+      at.push_back(p.to_scale(parameter_value(fit.model, p.path)));
+      wide.push_back(p.logarithmic ? kRefined : kPlaced * (p.high - p.low));
     }
   }
   centre = Eigen::Map<const Vector>(at.data(), static_cast<Eigen::Index>(at.size()));

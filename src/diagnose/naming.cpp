@@ -296,11 +296,11 @@ void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
 
 double Naming::smallest_seen(int effect) const {
   const Answer& of = known_[place_of(effect, -1)].named;
-  double seen = 0;
+  double seen = std::numeric_limits<double>::infinity();
   for (Eigen::Index c = 0; c < of.about.size(); ++c) {
     const Vector one = Vector::Unit(of.about.size(), c);
-    seen = std::max(seen, expected_z(effect, one));
-    if (of.two_sided) seen = std::max(seen, expected_z(effect, -one));
+    seen = std::min(seen, expected_z(effect, one));
+    if (of.two_sided) seen = std::min(seen, expected_z(effect, -one));
   }
   return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
 }

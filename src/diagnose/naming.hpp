@@ -81,8 +81,8 @@ class Naming {
   }
   /// Whether so much is left that the names explain nothing.
   bool fails(const Explanation& e) const;
-  /// Amplitude of an effect's component at which it would be seen with probability one half, in
-  /// units of its size; infinite if its fingerprint shows nothing.
+  /// Amplitude of an effect at which it would be seen with probability one half, in units of its
+  /// size and along the component and sign that show least; infinite if one of them shows nothing.
   double smallest_seen(int effect) const;
   /// Deviations by which an effect at these amplitudes moves residuals, calibrated without it.
   double expected_z(int effect, const Eigen::VectorXd& amplitudes) const;

@@ -149,7 +149,8 @@ class Diagnoser::Sharpening {
   }
 
   // Judged by the scatter of the experiments with what is likeliest, which are to be where it is.
-  // What adds up from others has to leave less than it does.
+  // What adds up from others has to be likelier than an effect that is; curves can do so much that
+  // they come after names.
   Explanation explained() {
     std::optional<EffectFit> likely = likeliest();
     for (int pass = 0; likely && off_centre(*likely, kBeside) && pass < kMostCentred; ++pass) {
@@ -158,7 +159,7 @@ class Diagnoser::Sharpening {
     }
     if (likely) naming_.loosen(known_[name_of(*likely)].scatter);
     Explanation e = naming_.explain(residual_);
-    if (!likely || is_found(*likely, e)) return e;
+    if (!likely || likely->shape >= 0 || is_found(*likely, e)) return e;
     Explanation other = naming_.explain(residual_, {*likely});
     return other.doubt < e.doubt ? other : e;
   }
