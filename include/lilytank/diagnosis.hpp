@@ -60,8 +60,8 @@ struct DiagnosisFinding {
   double gain = 0, gain_low = 0, gain_high = 0;  ///< nat on held-out recordings, one step ahead
 };
 
-/// The smallest size of an effect that would have been seen in half of all cases, along the axis and
-/// at the range that show least; infinite: it cannot be seen.
+/// The smallest size of an effect that would have been seen in half of all cases, along the axis
+/// and at the range that show least; infinite: it cannot be seen.
 struct Detectable {
   std::string effect, path;
   double smallest = 0;

@@ -108,8 +108,9 @@ std::string diagnosis_text(const Diagnosis& d) {
       table.add({d.ranking[i].first, digits(d.ranking[i].second)});
     }
     out += table.text();
-    out += "\nSmallest effects that would have been seen in half of all cases, along the axis and at "
-           "the range that show least\n";
+    out +=
+        "\nSmallest effects that would have been seen in half of all cases, along the axis and at "
+        "the range that show least\n";
     TextTable least({"effect", "smallest", "unit"});
     for (const Detectable& one : d.detectable) {
       const bool seen = std::isfinite(one.smallest);
