@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
@@ -230,6 +231,7 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
   effect_threshold_ = extreme(largest_effect, 0.5 * false_alarms);
   shape_threshold_ = extreme(largest_shape, 0.3 * false_alarms);
   misfit_threshold_ = extreme(misfits, 0.2 * false_alarms);
+  null_misfit_ = std::accumulate(misfits.begin(), misfits.end(), 0.0) / static_cast<double>(n);
 }
 
 Matrix Naming::whitener_by(const Matrix& scatter) const {
@@ -311,8 +313,9 @@ double Naming::expected_z(int effect, const Vector& amplitudes) const {
   const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearnedSize);
   const Vector within = amplitudes / beyond;
   const double square = (whitener_ * of.source.at(within).head(named_)).squaredNorm();
-  // The fingerprint's own noise has a length as well.
-  const double noise = static_cast<double>(named_) * of.source.noise_at(within);
+  // The fingerprint's own noise has a length as well: that of nulls, by a covariance that did not
+  // know them.
+  const double noise = null_misfit_ * of.source.noise_at(within);
   return beyond * std::sqrt(std::max(0.0, square - noise) / of.scale);
 }
 

@@ -159,6 +159,7 @@ class Naming {
   std::vector<Known> known_;
   std::vector<Meeting> meetings_;
   double effect_threshold_ = 0, shape_threshold_ = 0, misfit_threshold_ = 0;
+  double null_misfit_ = 0;  ///< mean squared distance of nulls
 };
 
 }  // namespace lilytank
