@@ -89,8 +89,8 @@ TEST(PackedTank, StrongKicksOfASmallTank) {
   report(b, endure(b, {0.2, 8, 0.1}, 20000 / kLess));
 }
 
-// As many as lie on a lattice with 1 mm between them, kicked at random and pushed to one side, which
-// goes round the tank two and a half times.
+// As many as lie on a lattice with 1 mm between them, kicked at random and pushed to one side,
+// which goes round the tank two and a half times.
 TEST(PackedTank, AFullTank) {
   const std::vector<Vec2> points = lattice(0.3, 0.036);
   Bodies b(bare_model(static_cast<int>(points.size())));
