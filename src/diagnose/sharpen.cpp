@@ -149,8 +149,6 @@ class Diagnoser::Sharpening {
   }
 
   // Judged by the scatter of the experiments with what is likeliest, which are to be where it is.
-  // What adds up from others has to be likelier than an effect that is; curves can do so much that
-  // they come after names.
   Explanation explained() {
     std::optional<EffectFit> likely = likeliest();
     for (int pass = 0; likely && off_centre(*likely, kBeside) && pass < kMostCentred; ++pass) {
@@ -158,9 +156,16 @@ class Diagnoser::Sharpening {
       likely = likeliest();
     }
     if (likely) naming_.loosen(known_[name_of(*likely)].scatter);
-    Explanation e = naming_.explain(residual_);
+    return explained_by(naming_);
+  }
+
+  // What adds up from others has to be likelier than an effect that is; curves can do so much that
+  // they come after names.
+  Explanation explained_by(const Naming& naming) const {
+    const std::optional<EffectFit> likely = likeliest();
+    Explanation e = naming.explain(residual_);
     if (!likely || likely->shape >= 0 || is_found(*likely, e)) return e;
-    Explanation other = naming_.explain(residual_, {*likely});
+    Explanation other = naming.explain(residual_, {*likely});
     return other.doubt < e.doubt ? other : e;
   }
 
@@ -220,11 +225,11 @@ class Diagnoser::Sharpening {
       // Without their scatter if it does not make them likelier.
       naming_ = both;
       both.loosen(at_once.scatter);
-      Explanation loose = both.explain(residual_);
+      Explanation loose = explained_by(both);
       if (loose.doubt <= e.doubt) {
         naming_ = std::move(both), e = std::move(loose);
       } else {
-        e = naming_.explain(residual_);
+        e = explained_by(naming_);
       }
     }
     return e;
