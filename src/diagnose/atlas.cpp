@@ -8,6 +8,7 @@
 #include "analysis/median.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
+#include "diagnose/stream_place.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "text/fnv.hpp"
@@ -138,6 +139,7 @@ Eigen::Index Atlas::summary_numbers() const {
 }
 
 Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
+  if (details != nullptr) details->stream = find_stream(plan_, recordings);
   return {to_vector(stages_.setup().numbers(recordings)),
           to_vector(score(plan_, recordings, details))};
 }
@@ -277,6 +279,12 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
   out.experiments = options_.experiments, out.two_sided = effect.two_sided;
   return out;
+}
+
+Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, const Vector& point,
+                            int experiments, const std::string& stage, std::uint64_t seed) {
+  const Matrix at = amplitudes.transpose().replicate(experiments, 1);
+  return answers(effect, stage, point, at, seed).residuals.colwise().mean().transpose();
 }
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,

@@ -82,6 +82,11 @@ class Atlas {
   Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
                                 const Effect& effect, const Eigen::VectorXd& calibrated,
                                 const std::string& name);
+  /// Mean residual of `experiments` simulated with an effect at these amplitudes and parameters;
+  /// kept as `stage`.
+  Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
+                                const Eigen::VectorXd& point, int experiments,
+                                const std::string& stage, std::uint64_t seed);
   const LocalModel& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 

@@ -45,7 +45,7 @@ class Diagnoser {
   /// All of it.
   void run(Diagnosis& out);
 
-  const Atlas& atlas() const { return *atlas_; }
+  Atlas& atlas() { return *atlas_; }
   const Naming& naming() const { return *naming_; }
   const CalibrationSetup& setup() const { return setup_; }
   Stages& stages() { return stages_; }
@@ -65,7 +65,9 @@ class Diagnoser {
   Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
                         const Eigen::VectorXd& residual);
   class Sharpening;
-  /// With what recordings tell of it directly: the line of pumps, the module that differs.
+  const Effect& effect(const EffectFit& fit) const;
+  /// With what recordings tell of it directly: the line of pumps, the module that differs, the
+  /// place of a stream.
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   Fingerprint shape_fingerprint(int shape);

@@ -100,17 +100,8 @@ void add_water(std::vector<Effect>& all, const Model& model) {
   all.push_back(drift);
   const double out = 0.45 * model.tank.radius;
   for (int k = 0; k < 6; ++k) {
-    Effect stream = two("local_flow", "speed_x", "speed_y", 0.06, "m/s", "position");
     const Rot at = rotation(k * kPi / 3);
-    stream.shape = {{force("local_flow", "x"), out * at.c},
-                    {force("local_flow", "y"), out * at.s},
-                    {force("local_flow", "width"), 0.06}};
-    const double edge = 0.8 * model.tank.radius;
-    stream.refine = {{force("local_flow", "x"), "m", -edge, edge, false, false},
-                     {force("local_flow", "y"), "m", -edge, edge, false, false},
-                     {force("local_flow", "width"), "m", 0.02, 0.2, true, false}};
-    stream.split = kOtherBody;
-    all.push_back(stream);
+    all.push_back(stream_effect(model, out * at.c, out * at.s, 0.06));
   }
 }
 
@@ -194,6 +185,19 @@ Effect together(const std::vector<Effect>& effects) {
     out.two_sided = out.two_sided || e.two_sided;
   }
   return out;
+}
+
+Effect stream_effect(const Model& model, double x, double y, double width) {
+  Effect stream = two("local_flow", "speed_x", "speed_y", 0.06, "m/s", "position");
+  stream.shape = {{force("local_flow", "x"), x},
+                  {force("local_flow", "y"), y},
+                  {force("local_flow", "width"), width}};
+  const double edge = 0.8 * model.tank.radius;
+  stream.refine = {{force("local_flow", "x"), "m", -edge, edge, false, false},
+                   {force("local_flow", "y"), "m", -edge, edge, false, false},
+                   {force("local_flow", "width"), "m", 0.02, 0.2, true, false}};
+  stream.split = kOtherBody;
+  return stream;
 }
 
 std::vector<Effect> effect_catalogue(const Model& model) {

@@ -39,6 +39,9 @@ Effect together(const std::vector<Effect>& effects);
 /// Every effect that a simulation can have. `model` gives sizes of tank and module.
 std::vector<Effect> effect_catalogue(const Model& model);
 
+/// A stream of this width about a place, m.
+Effect stream_effect(const Model& model, double x, double y, double width);
+
 /// The model with an effect at `amplitudes` (one a path); as it is if the effect is the camera's.
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes);
 

@@ -312,11 +312,18 @@ double Naming::expected_z(int effect, const Vector& amplitudes) const {
   // Second orders hold as far as they were learned, beyond that in proportion.
   const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearnedSize);
   const Vector within = amplitudes / beyond;
-  const double square = (whitener_ * of.source.at(within).head(named_)).squaredNorm();
-  // The fingerprint's own noise has a length as well: that of nulls, by a covariance that did not
-  // know them.
-  const double noise = null_misfit_ * of.source.noise_at(within);
-  return beyond * std::sqrt(std::max(0.0, square - noise) / of.scale);
+  return beyond * length(of, of.source.at(within), of.source.noise_at(within));
+}
+
+double Naming::expected_z(int effect, const Vector& mean, int experiments) const {
+  return length(known_[place_of(effect, -1)], mean - centre_, 1.0 / experiments);
+}
+
+// The fingerprint's own noise has a length as well: that of nulls, by a covariance that did not
+// know them.
+double Naming::length(const Known& of, const Vector& residual, double noise) const {
+  const double square = (whitener_ * residual.head(named_)).squaredNorm();
+  return std::sqrt(std::max(0.0, square - null_misfit_ * noise) / of.scale);
 }
 
 }  // namespace lilytank

@@ -86,6 +86,8 @@ class Naming {
   double smallest_seen(int effect) const;
   /// Deviations by which an effect at these amplitudes moves residuals, calibrated without it.
   double expected_z(int effect, const Eigen::VectorXd& amplitudes) const;
+  /// The same of residuals that are the mean of `experiments` with an effect like this one.
+  double expected_z(int effect, const Eigen::VectorXd& mean, int experiments) const;
 
  private:
   struct Known {
@@ -106,6 +108,7 @@ class Naming {
   EffectFit fit(const Known& of, const Eigen::VectorXd& all) const;
   Eigen::MatrixXd whitened(const Eigen::MatrixXd& residuals) const;
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
+  double length(const Known& of, const Eigen::VectorXd& residual, double noise) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
   void calibrate(const Eigen::MatrixXd& nulls, double false_alarms);
   /// Effects at once: places in the list of known ones, amplitudes, and what they leave.

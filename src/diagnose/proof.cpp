@@ -14,7 +14,9 @@ namespace lilytank {
 namespace {
 
 constexpr int kBalls = 24;
-constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20;
+constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
+                        kExpectedSeed = 4;
+constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
 Experiment open_tank(const ProofOptions& options) {
@@ -40,10 +42,18 @@ Experiment open_tank(const ProofOptions& options) {
 }
 
 // A world's vector as a row, with what a regression says of it before.
+constexpr Eigen::Index kRowBegins = 9;
 std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
+  const StreamPlace& s = j.details.stream;
   std::vector<double> row{static_cast<double>(kept.effect),
-                          static_cast<double>(j.observed.summary.size()), j.details.pulsation,
-                          static_cast<double>(j.details.heaviest)};
+                          static_cast<double>(j.observed.summary.size()),
+                          j.details.pulsation,
+                          static_cast<double>(j.details.heaviest),
+                          s.x,
+                          s.y,
+                          s.width,
+                          s.speed_x,
+                          s.speed_y};
   row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
   row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
   return row;
@@ -51,9 +61,9 @@ std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
 Judged judged_of(const std::vector<double>& row) {
   Judged j;
   const auto summary = static_cast<Eigen::Index>(row[1]);
-  j.details.pulsation = row[2], j.details.heaviest = static_cast<int>(row[3]);
-  const Eigen::Map<const Eigen::VectorXd> all(row.data() + 4,
-                                              static_cast<Eigen::Index>(row.size()) - 4);
+  j.details = {row[2], static_cast<int>(row[3]), {row[4], row[5], row[6], row[7], row[8]}};
+  const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
+                                              static_cast<Eigen::Index>(row.size()) - kRowBegins);
   j.observed = {all.head(summary), all.tail(all.size() - summary)};
   return j;
 }
@@ -96,14 +106,25 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
 }
 
-// Of the weakest of the effects, as the catalogue has them.
-double expected_z(const Diagnoser& diagnoser, const Sealed& s) {
+// Of the weakest of the effects, each alone at its own strength, range and place.
+double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world) {
+  const CalibrationSetup& setup = diagnoser.setup();
+  const auto truth = truth_of(tank, s);
+  std::vector<double> values = setup.start;
+  for (std::size_t k = 0; k < setup.told(); ++k) {
+    const auto at = truth.find(setup.paths()[k]);
+    if (at != truth.end()) values[k] = at->second;
+  }
+  const Eigen::VectorXd point = diagnoser.stages().to_scale(values);
   double least = 1e300;
   for (const SealedEffect& own : s.effects) {
     if (own.like < 0) return 0;
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
-    least = std::min(least, diagnoser.naming().expected_z(own.like, amplitudes));
+    const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
+    const Eigen::VectorXd mean = diagnoser.atlas().mean_residual(
+        own.effect, amplitudes, point, kExpected, stage, derived_seed(kExpectedSeed, world));
+    least = std::min(least, diagnoser.naming().expected_z(own.like, mean, kExpected));
   }
   return s.effects.empty() ? 0 : least;
 }
@@ -134,8 +155,9 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     };
   }
   Diagnoser diagnoser(open, job);
-  // A quarter of the worlds asks for some thirty further experiments.
-  diagnoser.prepare(8.5 * options.worlds + options.modelled * diagnoser.model_cost());
+  // A quarter of the worlds asks for some thirty further experiments, most for those of what is in
+  // them.
+  diagnoser.prepare(15.0 * options.worlds + options.modelled * diagnoser.model_cost());
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
     const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
                                   derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
@@ -149,7 +171,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     ProofWorld world;
     world_told = "world " + std::to_string(w + 1) + " of " + std::to_string(rows.size()) + ": ";
     world.kind = sealed[w].kind, world.effects = sealed[w].names;
-    world.expected_z = expected_z(diagnoser, sealed[w]);
+    world.expected_z = expected_z(diagnoser, tank, sealed[w], w);
     Diagnosis d;
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
     const bool named = judged && (world.kind == "named" || world.kind == "two") && world.right();

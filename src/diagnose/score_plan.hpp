@@ -28,10 +28,17 @@ struct ScorePlan {
   std::size_t first_of_shape(std::size_t index) const;
 };
 
+/// A stream that the flow field does not know, as effects have it.
+struct StreamPlace {
+  double x = 0, y = 0, width = 0.06;  ///< m
+  double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
+};
+
 /// Beside the vector, what a verdict needs of one experiment.
 struct ScoreDetails {
   double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
   int heaviest = 0;      ///< module that answers least
+  StreamPlace stream;    ///< that raises the likelihood most
 };
 
 }  // namespace lilytank

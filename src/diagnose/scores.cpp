@@ -75,6 +75,14 @@ class Scorer {
     for (const auto& part : parts_) part->add(frame, seen_);
   }
 
+  std::vector<ScoredAmplitude> amplitudes() const {
+    std::vector<ScoredAmplitude> out;
+    for (std::size_t f = 0; f < scored_; ++f) {
+      out.push_back({sensitivities_.estimate(f), sensitivities_.gain(f)});
+    }
+    return out;
+  }
+
   std::vector<double> tell(ScoreDetails* details) const {
     std::vector<double> values;
     for (std::size_t f = 0; f < scored_; ++f) values.push_back(sensitivities_.estimate(f));
@@ -226,6 +234,14 @@ std::vector<ScoreEntry> ScorePlan::entries() const {
 
 std::size_t ScorePlan::first_of_shape(std::size_t index) const {
   return entries().size() - (shapes.size() - index) * kKnots;
+}
+
+std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
+                                               const std::vector<Recording>& recordings) {
+  Scorer scorer(plan);
+  predict(plan.model, recordings, plan.predictor,
+          [&](const PredictedFrame& frame) { scorer.add(frame); });
+  return scorer.amplitudes();
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,

@@ -18,4 +18,12 @@ namespace lilytank {
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
                           ScoreDetails* details = nullptr);
 
+/// Every scored component of the plan's effects alone: its amplitude, in sizes, and by how much it
+/// raises twice the log-likelihood.
+struct ScoredAmplitude {
+  double estimate = 0, gain = 0;
+};
+std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
+                                               const std::vector<Recording>& recordings);
+
 }  // namespace lilytank

@@ -31,6 +31,8 @@ class Sensitivities {
   /// The estimate of a feature's amplitude; 0 where nothing was pushed. `known`: information before
   /// any data that it is 0, to which that draws what was hardly seen.
   double estimate(std::size_t feature, double known = 0) const;
+  /// By how much the feature at its estimate raises twice the log-likelihood of what was seen.
+  double gain(std::size_t feature) const { return estimate(feature) * score_[feature]; }
 
  private:
   std::size_t features_;

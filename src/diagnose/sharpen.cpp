@@ -1,6 +1,7 @@
 // From residuals to an explanation: curves beside the names, and fingerprints at the strength that
 // was found.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,7 @@ constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, tha
 constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
+constexpr const char* kStream = "local_flow";
 
 }  // namespace
 
@@ -40,9 +42,9 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
   }
   // What leaves much may be a law of the same variable.
   if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > naming.misfit_threshold()) {
-    const auto& effect = atlas_->plan().effects[static_cast<std::size_t>(e.found[0].effect)];
+    const std::string& variable = effect(e.found[0]).variable;
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
-      return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == effect.variable;
+      return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
     });
     if (same != shapes.end() && std::find(asked.begin(), asked.end(), same->shape) == asked.end()) {
       asked.push_back(same->shape);
@@ -58,12 +60,9 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
   const EffectFit& f = e.found.front();
   if (e.found.size() > 1 || naming.leaves_something(e)) return false;
   if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
-  const std::vector<Effect>& effects = atlas_->plan().effects;
-  const std::string& name = effects[static_cast<std::size_t>(f.effect)].name;
   const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
-    const bool same =
-        other.effect >= 0 && effects[static_cast<std::size_t>(other.effect)].name == name;
+    const bool same = other.effect >= 0 && effect(other).name == effect(f).name;
     return !same && other.gain > kNear * leading.front().gain;
   });
 }
@@ -94,7 +93,17 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
 class Diagnoser::Sharpening {
  public:
   Sharpening(Diagnoser& diagnoser, Naming& naming, const Judged& judged, const Vector& residual)
-      : of_(diagnoser), naming_(naming), judged_(judged), residual_(residual) {}
+      : of_(diagnoser), naming_(naming), judged_(judged), residual_(residual) {
+    // Its slopes begin as those of the nearest one that is known.
+    double least = 0;
+    const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      if (effects[e].name != kStream) continue;
+      const double far = std::hypot(effects[e].shape[0].second - judged.details.stream.x,
+                                    effects[e].shape[1].second - judged.details.stream.y);
+      if (stream_ < 0 || far < least) stream_ = static_cast<int>(e), least = far;
+    }
+  }
 
   // First those that might be it, then whatever leads, what is found and its rivals beside the
   // others.
@@ -115,7 +124,18 @@ class Diagnoser::Sharpening {
 
  private:
   using Name = std::pair<int, int>;  // effect and shape
-  static Name name_of(const EffectFit& f) { return {f.effect, f.shape}; }
+  // Streams have one place, that of the recordings.
+  Name name_of(const EffectFit& f) const { return {is_stream(f) ? stream_ : f.effect, f.shape}; }
+  bool is_stream(const EffectFit& f) const {
+    return f.effect >= 0 && of_.effect(f).name == kStream;
+  }
+  EffectFit stream() const {
+    EffectFit out;
+    out.effect = stream_;
+    out.amplitudes =
+        Eigen::Vector2d(judged_.details.stream.speed_x, judged_.details.stream.speed_y);
+    return out;
+  }
 
   // The sharpest that there is.
   Fingerprint fingerprint(const EffectFit& f) {
@@ -126,6 +146,7 @@ class Diagnoser::Sharpening {
   }
 
   void sharpen(EffectFit f) {
+    if (is_stream(f) && known_.count(name_of(f)) == 0) f = stream();
     const Fingerprint from = fingerprint(f);
     if (f.shape >= 0 && known_.count(name_of(f)) == 0) {
       f.amplitudes = of_.knots_of(f.shape, from, residual_);
@@ -169,7 +190,7 @@ class Diagnoser::Sharpening {
     return other.doubt < e.doubt ? other : e;
   }
 
-  static bool is_found(const EffectFit& f, const Explanation& e) {
+  bool is_found(const EffectFit& f, const Explanation& e) const {
     return std::any_of(e.found.begin(), e.found.end(),
                        [&](const EffectFit& other) { return name_of(other) == name_of(f); });
   }
@@ -210,7 +231,7 @@ class Diagnoser::Sharpening {
     while (e.found.size() > 1 && told.size() < kMostMeetings) {
       std::vector<EffectFit> found = e.found;
       std::sort(found.begin(), found.end(),
-                [](const EffectFit& a, const EffectFit& b) { return name_of(a) < name_of(b); });
+                [this](const EffectFit& a, const EffectFit& b) { return name_of(a) < name_of(b); });
       std::string name;
       for (const EffectFit& f : found) {
         name += (name.empty() ? "" : ", ") + of_.stage_name(f, judged_.details);
@@ -256,6 +277,7 @@ class Diagnoser::Sharpening {
   Naming& naming_;
   const Judged& judged_;
   const Vector& residual_;
+  int stream_ = -1;                    // the effect that stands for streams
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
@@ -267,12 +289,19 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
   return Sharpening(*this, naming, judged, residual).run();
 }
 
+const Effect& Diagnoser::effect(const EffectFit& f) const {
+  return atlas_->plan().effects[static_cast<std::size_t>(f.effect)];
+}
+
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
-  const ScorePlan& plan = atlas_->plan();
-  if (f.effect < 0) return effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
-  Effect out = plan.effects[static_cast<std::size_t>(f.effect)];
+  if (f.effect < 0) return effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]);
+  Effect out = effect(f);
   if (out.name == "flow_pulsation") {
     out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
+  }
+  if (out.name == kStream) {
+    const StreamPlace& at = details.stream;
+    out.shape = stream_effect(setup_.model, at.x, at.y, at.width).shape;
   }
   if (out.name == "heterogeneous_module") {
     out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
@@ -284,9 +313,13 @@ Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) 
 std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& details) const {
   if (f.effect < 0) return "shape " + std::to_string(f.shape);
   const std::string out = "effect " + std::to_string(f.effect);
-  const bool pumps =
-      atlas_->plan().effects[static_cast<std::size_t>(f.effect)].name == "flow_pulsation";
-  return pumps ? out + " at " + fixed(details.pulsation, 1) + " Hz" : out;
+  const std::string& name = effect(f).name;
+  if (name == "flow_pulsation") return out + " at " + fixed(details.pulsation, 1) + " Hz";
+  const StreamPlace& s = details.stream;
+  if (name == kStream) {
+    return name + " " + fixed(s.x, 3) + " " + fixed(s.y, 3) + " " + fixed(s.width, 2);
+  }
+  return out;
 }
 
 Fingerprint Diagnoser::shape_fingerprint(int s) {
