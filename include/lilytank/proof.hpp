@@ -39,7 +39,8 @@ struct ProofFinding {
 struct ProofWorld {
   std::string kind;                  ///< null, named, two, unnamed
   std::vector<std::string> effects;  ///< of the catalogue; of unnamed ones the variable
-  /// Of a fit with the effect's own fingerprint, of two the weaker one's; 0: unknown.
+  /// Deviations by which the mean of experiments with this very effect is off, calibrated without
+  /// it; of two the weaker one's; 0: unknown.
   double expected_z = 0;
   Verdict verdict = Verdict::complete;
   std::vector<ProofFinding> findings;  ///< strongest first; none of complete

@@ -206,5 +206,17 @@ TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
   EXPECT_NEAR(naming_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
 }
 
+// Eight experiments are noisy: their mean alone would be 60 / 8 too long in its square, of which
+// nothing may be left.
+TEST_F(NamingTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
+  const auto mean = [](const Vector& planted, int first) {
+    Vector sum = Vector::Zero(planted.size());
+    for (int i = 0; i < 8; ++i) sum += (planted + noise(4, first + i)) / 8;
+    return sum;
+  };
+  EXPECT_NEAR(naming_->expected_z(kOther, mean(2 * other_, 0), 8), 20, 4);
+  EXPECT_LT(naming_->expected_z(kOther, mean(0 * other_, 8), 8), 3);
+}
+
 }  // namespace
 }  // namespace lilytank

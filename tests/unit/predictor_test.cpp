@@ -5,6 +5,7 @@
 
 #include "diagnose/scores.hpp"
 #include "diagnose/slack.hpp"
+#include "diagnose/stream_place.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -136,6 +137,17 @@ TEST(Scores, SeeAPlantedPush) {
   const double nothing = score(plan, without)[at], pushed = score(plan, with)[at];
   EXPECT_LT(std::fabs(nothing), 1.0);
   EXPECT_NEAR(pushed - nothing, 4.0 / 1.5, 1.2);
+}
+
+// A stream is found where it is, at its strength; the grid of places is 5 cm wide.
+TEST(Scores, TellThePlaceOfAStream) {
+  const Model model = drifting(8);
+  Effect stream = stream_effect(model, -0.05, 0.12, 0.06);
+  const auto recordings = filmed(with_effect(model, stream, {0.12, -0.06}), 60, 5);
+  const StreamPlace found = find_stream(plan_for(model, recordings), recordings);
+  EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.05);
+  EXPECT_NEAR(found.speed_x, 2, 1);  // in sizes of 6 cm/s
+  EXPECT_NEAR(found.speed_y, -1, 1);
 }
 
 // Same recordings, same bits.
