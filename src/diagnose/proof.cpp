@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kBalls = 24;
 constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
-                        kExpectedSeed = 4;
+                        kExpectedSeed = 1u << 21;
 constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
@@ -107,7 +107,8 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
 }
 
 // Of the weakest of the effects, each alone at its own strength, range and place.
-double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world) {
+double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world,
+                  std::uint64_t seed) {
   const CalibrationSetup& setup = diagnoser.setup();
   const auto truth = truth_of(tank, s);
   std::vector<double> values = setup.start;
@@ -122,8 +123,8 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
-    const Eigen::VectorXd mean = diagnoser.atlas().mean_residual(
-        own.effect, amplitudes, point, kExpected, stage, derived_seed(kExpectedSeed, world));
+    const Eigen::VectorXd mean =
+        diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpected, stage, seed);
     least = std::min(least, diagnoser.naming().expected_z(own.like, mean, kExpected));
   }
   return s.effects.empty() ? 0 : least;
@@ -155,8 +156,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     };
   }
   Diagnoser diagnoser(open, job);
-  // A quarter of the worlds asks for some thirty further experiments, most for those of what is in
-  // them.
+  // Most worlds ask for those of what is in them, many for some thirty about what is found.
   diagnoser.prepare(15.0 * options.worlds + options.modelled * diagnoser.model_cost());
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
     const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
@@ -171,7 +171,8 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     ProofWorld world;
     world_told = "world " + std::to_string(w + 1) + " of " + std::to_string(rows.size()) + ": ";
     world.kind = sealed[w].kind, world.effects = sealed[w].names;
-    world.expected_z = expected_z(diagnoser, tank, sealed[w], w);
+    world.expected_z =
+        expected_z(diagnoser, tank, sealed[w], w, derived_seed(seed, kExpectedSeed + w));
     Diagnosis d;
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
     const bool named = judged && (world.kind == "named" || world.kind == "two") && world.right();

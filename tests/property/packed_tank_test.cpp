@@ -90,12 +90,12 @@ TEST(PackedTank, StrongKicksOfASmallTank) {
 }
 
 // As many as lie on a lattice with 1 mm between them, kicked at random and pushed to one side,
-// which goes round the tank two and a half times.
+// which goes round the tank one and a half times.
 TEST(PackedTank, AFullTank) {
   const std::vector<Vec2> points = lattice(0.3, 0.036);
   Bodies b(bare_model(static_cast<int>(points.size())));
   lay(b, points);
-  report(b, endure(b, {0.01, 0.3, 0.01}, 8000 / kLess));
+  report(b, endure(b, {0.01, 0.3, 0.01}, 5000 / kLess));
 }
 
 // A thinner tank, whose pushed heap comes to lie at all angles.
