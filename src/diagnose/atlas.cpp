@@ -188,6 +188,10 @@ Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
+Vector Atlas::uncalibrated(const Vector& scores) const {
+  return scores - scores_->mean(centre_);
+}
+
 double Fingerprint::noise_at(const Vector& amplitudes) const {
   const double n = std::max(1, experiments);
   return local() ? 1 / n : amplitudes.squaredNorm() / (kLearnedSquare * n);

@@ -71,6 +71,9 @@ class Diagnoser {
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   Fingerprint shape_fingerprint(int shape);
+  /// Amplitudes by the effect's own scores, if they are beyond those that fingerprints were learned
+  /// at and clear.
+  std::optional<Eigen::VectorXd> strong_by_own_scores(int effect, const Judged& judged) const;
   Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
                            const Eigen::VectorXd& residual) const;
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,

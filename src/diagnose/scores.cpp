@@ -232,6 +232,14 @@ std::vector<ScoreEntry> ScorePlan::entries() const {
   return out;
 }
 
+std::size_t ScorePlan::first_of_effect(std::size_t index) const {
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < index; ++e) {
+    first += effects[e].scored ? effects[e].paths.size() : 0;
+  }
+  return first;
+}
+
 std::size_t ScorePlan::first_of_shape(std::size_t index) const {
   return entries().size() - (shapes.size() - index) * kKnots;
 }

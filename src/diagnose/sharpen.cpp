@@ -23,6 +23,7 @@ constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, tha
 constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
+constexpr double kClear = 10;  // deviations of own scores
 constexpr const char* kStream = "local_flow";
 
 }  // namespace
@@ -88,6 +89,19 @@ Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
   return solve_symmetric(normal, Vector(own.transpose() * scores));
 }
 
+std::optional<Vector> Diagnoser::strong_by_own_scores(int effect, const Judged& judged) const {
+  const auto e = static_cast<std::size_t>(effect);
+  const Effect& of = atlas_->plan().effects[e];
+  if (!of.scored) return std::nullopt;
+  const auto first = static_cast<Eigen::Index>(atlas_->plan().first_of_effect(e));
+  const auto m = static_cast<Eigen::Index>(of.paths.size());
+  const Vector own = atlas_->uncalibrated(judged.observed.scores).segment(first, m);
+  const Vector z = own.cwiseQuotient(atlas_->deviations().segment(first, m));
+  const bool strong = own.cwiseAbs().maxCoeff() > kLearnedSize && z.norm() > kClear;
+  if (!strong || (!of.two_sided && own.minCoeff() < 0)) return std::nullopt;
+  return own;
+}
+
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
 // experiments of its own strength.
 class Diagnoser::Sharpening {
@@ -146,15 +160,24 @@ class Diagnoser::Sharpening {
   }
 
   void sharpen(EffectFit f) {
-    if (is_stream(f) && known_.count(name_of(f)) == 0) f = stream();
+    if (known_.count(name_of(f)) == 0) f = begun(f);
     const Fingerprint from = fingerprint(f);
-    if (f.shape >= 0 && known_.count(name_of(f)) == 0) {
-      f.amplitudes = of_.knots_of(f.shape, from, residual_);
-    }
     const Fingerprint to = of_.fingerprint_near(f, from, judged_);
     known_[name_of(f)] = to;
     naming_.sharpen(f, to);
     alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
+  }
+
+  // Where its first experiments are to be.
+  EffectFit begun(EffectFit f) {
+    if (f.shape >= 0) {
+      f.amplitudes = of_.knots_of(f.shape, fingerprint(f), residual_);
+    } else if (is_stream(f)) {
+      f = stream();
+    } else if (const auto own = of_.strong_by_own_scores(f.effect, judged_)) {
+      f.amplitudes = *own;
+    }
+    return f;
   }
 
   // What alone, by its own scatter, is most likely there.
@@ -209,7 +232,9 @@ class Diagnoser::Sharpening {
   }
 
   std::optional<EffectFit> next_after(const Explanation& e) {
-    std::vector<EffectFit> next = naming_.leading(residual_, kRivals);
+    // Those that were judged so already take no other's place.
+    std::vector<EffectFit> next =
+        naming_.leading(residual_, kRivals + static_cast<int>(known_.size()));
     next.erase(std::remove_if(next.begin() + 1, next.end(),
                               [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
                next.end());
