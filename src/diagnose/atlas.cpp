@@ -8,7 +8,7 @@
 #include "analysis/median.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
-#include "diagnose/stream_place.hpp"
+#include "diagnose/scan.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "text/fnv.hpp"

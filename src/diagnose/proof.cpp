@@ -156,8 +156,9 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     };
   }
   Diagnoser diagnoser(open, job);
-  // Most worlds ask for those of what is in them, many for some thirty about what is found.
-  diagnoser.prepare(15.0 * options.worlds + options.modelled * diagnoser.model_cost());
+  // Most worlds ask for those of what is in them, many for some thirty about what is found, all
+  // together for those of curves.
+  diagnoser.prepare(25.0 * options.worlds + 1000 + options.modelled * diagnoser.model_cost());
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
     const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
                                   derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));

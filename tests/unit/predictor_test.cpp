@@ -5,7 +5,7 @@
 
 #include "diagnose/scores.hpp"
 #include "diagnose/slack.hpp"
-#include "diagnose/stream_place.hpp"
+#include "diagnose/scan.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"

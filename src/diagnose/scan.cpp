@@ -1,4 +1,4 @@
-#include "diagnose/stream_place.hpp"
+#include "diagnose/scan.hpp"
 
 #include <cmath>
 
