@@ -7,8 +7,8 @@
 #include "analysis/linear.hpp"
 #include "analysis/median.hpp"
 #include "calibrate/design.hpp"
-#include "diagnose/slack.hpp"
 #include "diagnose/scan.hpp"
+#include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "text/fnv.hpp"
@@ -139,7 +139,10 @@ Eigen::Index Atlas::summary_numbers() const {
 }
 
 Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
-  if (details != nullptr) details->stream = find_stream(plan_, recordings);
+  if (details != nullptr) {
+    details->stream = find_stream(plan_, recordings);
+    details->pair = find_pair_range(plan_, recordings);
+  }
   return {to_vector(stages_.setup().numbers(recordings)),
           to_vector(score(plan_, recordings, details))};
 }

@@ -66,8 +66,15 @@ class Diagnoser {
                         const Eigen::VectorXd& residual);
   class Sharpening;
   const Effect& effect(const EffectFit& fit) const;
-  /// With what recordings tell of it directly: the line of pumps, the module that differs, the
-  /// place of a stream.
+  /// The effect of this name as recordings tell it directly, with its amplitudes: a stream at its
+  /// place, a force between modules of its range.
+  struct Scanned {
+    std::vector<std::pair<std::string, double>> shape;
+    Eigen::VectorXd amplitudes;
+  };
+  std::optional<Scanned> scanned(const Effect& effect, const ScoreDetails& details) const;
+  /// With what recordings tell of it directly: the line of pumps, the module that differs, what is
+  /// scanned.
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   Fingerprint shape_fingerprint(int shape);

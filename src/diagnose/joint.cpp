@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
@@ -10,6 +11,8 @@
 #include "diagnose/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -59,7 +62,12 @@ class Joint {
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
   Design simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
-    const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+    // Kept by what is simulated: another start of the same recordings is another set.
+    Fnv place;
+    for (const FitParameter& p : fit_.parameters) place.add(p.path);
+    place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
+    const std::string name = stage + " " + hex(place.value());
+    const auto rows = stages_.rows(name, static_cast<int>(points.rows()), [&](int i) {
       const auto field = loosened(*maps_.draw(derived_seed(seed, kMix), i), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);

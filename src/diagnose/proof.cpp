@@ -42,7 +42,7 @@ Experiment open_tank(const ProofOptions& options) {
 }
 
 // A world's vector as a row, with what a regression says of it before.
-constexpr Eigen::Index kRowBegins = 9;
+constexpr Eigen::Index kRowBegins = 11;
 std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
   const StreamPlace& s = j.details.stream;
   std::vector<double> row{static_cast<double>(kept.effect),
@@ -53,7 +53,9 @@ std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
                           s.y,
                           s.width,
                           s.speed_x,
-                          s.speed_y};
+                          s.speed_y,
+                          j.details.pair.range,
+                          j.details.pair.strength};
   row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
   row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
   return row;
@@ -61,7 +63,10 @@ std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
 Judged judged_of(const std::vector<double>& row) {
   Judged j;
   const auto summary = static_cast<Eigen::Index>(row[1]);
-  j.details = {row[2], static_cast<int>(row[3]), {row[4], row[5], row[6], row[7], row[8]}};
+  j.details = {row[2],
+               static_cast<int>(row[3]),
+               {row[4], row[5], row[6], row[7], row[8]},
+               {row[9], row[10]}};
   const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
                                               static_cast<Eigen::Index>(row.size()) - kRowBegins);
   j.observed = {all.head(summary), all.tail(all.size() - summary)};

@@ -1,4 +1,5 @@
-// Where in the tank a stream would explain most.
+// Numbers of effects that recordings tell directly: where in the tank a stream would explain most,
+// over which range a force between modules would.
 #pragma once
 #include <vector>
 
@@ -9,5 +10,9 @@ namespace lilytank {
 /// The stream among those of several widths about the places of a hexagonal grid that raises the
 /// one-step likelihood of recordings most, each component by itself.
 StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings);
+
+/// The exponential attraction or repulsion, of ranges from 2 to 80 mm, that does, if twice the
+/// log-likelihood rises by 30 or more. Modules that touch do not count.
+PairRange find_pair_range(const ScorePlan& plan, const std::vector<Recording>& recordings);
 
 }  // namespace lilytank

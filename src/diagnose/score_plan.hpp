@@ -36,11 +36,18 @@ struct StreamPlace {
   double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
 };
 
+/// A force between modules that falls off exponentially: its range and its strength, positive if it
+/// attracts. Nothing if none is clear.
+struct PairRange {
+  double range = 0, strength = 0;  ///< m, N
+};
+
 /// Beside the vector, what a verdict needs of one experiment.
 struct ScoreDetails {
   double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
   int heaviest = 0;      ///< module that answers least
   StreamPlace stream;    ///< that raises the likelihood most
+  PairRange pair;        ///< likewise
 };
 
 }  // namespace lilytank

@@ -24,7 +24,13 @@ constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
 constexpr double kClear = 10;  // deviations of own scores
-constexpr const char* kStream = "local_flow";
+
+// A distance between places, ranges by their logarithms.
+double far_apart(const std::vector<std::pair<std::string, double>>& a,
+                 const std::vector<std::pair<std::string, double>>& b) {
+  if (a.size() == 1) return std::fabs(std::log(a[0].second / b[0].second));
+  return std::hypot(a[0].second - b[0].second, a[1].second - b[1].second);
+}
 
 }  // namespace
 
@@ -108,14 +114,16 @@ class Diagnoser::Sharpening {
  public:
   Sharpening(Diagnoser& diagnoser, Naming& naming, const Judged& judged, const Vector& residual)
       : of_(diagnoser), naming_(naming), judged_(judged), residual_(residual) {
-    // Its slopes begin as those of the nearest one that is known.
-    double least = 0;
+    // What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
+    std::map<std::string, double> least;
     const std::vector<Effect>& effects = of_.atlas_->plan().effects;
     for (std::size_t e = 0; e < effects.size(); ++e) {
-      if (effects[e].name != kStream) continue;
-      const double far = std::hypot(effects[e].shape[0].second - judged.details.stream.x,
-                                    effects[e].shape[1].second - judged.details.stream.y);
-      if (stream_ < 0 || far < least) stream_ = static_cast<int>(e), least = far;
+      const auto told = of_.scanned(effects[e], judged.details);
+      if (!told) continue;
+      const double off = far_apart(effects[e].shape, told->shape);
+      const auto [at, first] = least.emplace(effects[e].name, off);
+      if (!first && off >= at->second) continue;
+      at->second = off, home_[effects[e].name] = static_cast<int>(e);
     }
   }
 
@@ -138,17 +146,10 @@ class Diagnoser::Sharpening {
 
  private:
   using Name = std::pair<int, int>;  // effect and shape
-  // Streams have one place, that of the recordings.
-  Name name_of(const EffectFit& f) const { return {is_stream(f) ? stream_ : f.effect, f.shape}; }
-  bool is_stream(const EffectFit& f) const {
-    return f.effect >= 0 && of_.effect(f).name == kStream;
-  }
-  EffectFit stream() const {
-    EffectFit out;
-    out.effect = stream_;
-    out.amplitudes =
-        Eigen::Vector2d(judged_.details.stream.speed_x, judged_.details.stream.speed_y);
-    return out;
+  Name name_of(const EffectFit& f) const {
+    if (f.effect < 0) return {f.effect, f.shape};
+    const auto home = home_.find(of_.effect(f).name);
+    return {home == home_.end() ? f.effect : home->second, f.shape};
   }
 
   // The sharpest that there is.
@@ -170,10 +171,11 @@ class Diagnoser::Sharpening {
 
   // Where its first experiments are to be.
   EffectFit begun(EffectFit f) {
+    f.effect = name_of(f).first;
     if (f.shape >= 0) {
       f.amplitudes = of_.knots_of(f.shape, fingerprint(f), residual_);
-    } else if (is_stream(f)) {
-      f = stream();
+    } else if (const auto told = of_.scanned(of_.effect(f), judged_.details)) {
+      f.amplitudes = told->amplitudes;
     } else if (const auto own = of_.strong_by_own_scores(f.effect, judged_)) {
       f.amplitudes = *own;
     }
@@ -302,7 +304,7 @@ class Diagnoser::Sharpening {
   Naming& naming_;
   const Judged& judged_;
   const Vector& residual_;
-  int stream_ = -1;                    // the effect that stands for streams
+  std::map<std::string, int> home_;    // the effect that stands for all of a name
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
@@ -318,16 +320,27 @@ const Effect& Diagnoser::effect(const EffectFit& f) const {
   return atlas_->plan().effects[static_cast<std::size_t>(f.effect)];
 }
 
+std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
+                                                     const ScoreDetails& details) const {
+  if (effect.name == "local_flow") {
+    const StreamPlace& s = details.stream;
+    return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
+                   Eigen::Vector2d(s.speed_x, s.speed_y)};
+  }
+  const bool attracts = effect.name == "pair_attraction";
+  const double strength = attracts ? details.pair.strength : -details.pair.strength;
+  if (!(attracts || effect.name == "pair_repulsion") || !(strength > 0)) return std::nullopt;
+  return Scanned{{{effect.shape[0].first, details.pair.range}},
+                 Vector::Constant(1, strength / effect.sizes[0])};
+}
+
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
   if (f.effect < 0) return effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]);
   Effect out = effect(f);
   if (out.name == "flow_pulsation") {
     out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
   }
-  if (out.name == kStream) {
-    const StreamPlace& at = details.stream;
-    out.shape = stream_effect(setup_.model, at.x, at.y, at.width).shape;
-  }
+  if (const auto told = scanned(out, details)) out.shape = told->shape;
   if (out.name == "heterogeneous_module") {
     out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
   }
@@ -340,11 +353,11 @@ std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& detail
   const std::string out = "effect " + std::to_string(f.effect);
   const std::string& name = effect(f).name;
   if (name == "flow_pulsation") return out + " at " + fixed(details.pulsation, 1) + " Hz";
-  const StreamPlace& s = details.stream;
-  if (name == kStream) {
-    return name + " " + fixed(s.x, 3) + " " + fixed(s.y, 3) + " " + fixed(s.width, 2);
-  }
-  return out;
+  const auto told = scanned(effect(f), details);
+  if (!told) return out;
+  std::string place = name;
+  for (const auto& [path, value] : told->shape) place += " " + fixed(value, 4);
+  return place;
 }
 
 Fingerprint Diagnoser::shape_fingerprint(int s) {
