@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "diagnose/scan.hpp"
 #include "diagnose/scores.hpp"
 #include "diagnose/slack.hpp"
-#include "diagnose/scan.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
