@@ -111,7 +111,8 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
 }
 
-// Of the weakest of the effects, each alone at its own strength, range and place.
+// Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
+// effect has by the curve that shows it best.
 double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world,
                   std::uint64_t seed) {
   const CalibrationSetup& setup = diagnoser.setup();
@@ -124,13 +125,14 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
   const Eigen::VectorXd point = diagnoser.stages().to_scale(values);
   double least = 1e300;
   for (const SealedEffect& own : s.effects) {
-    if (own.like < 0) return 0;
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
     const Eigen::VectorXd mean =
         diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpected, stage, seed);
-    least = std::min(least, diagnoser.naming().expected_z(own.like, mean, kExpected));
+    const Naming& naming = diagnoser.naming();
+    least = std::min(least, own.like < 0 ? naming.shapes(mean).front().z
+                                         : naming.expected_z(own.like, mean, kExpected));
   }
   return s.effects.empty() ? 0 : least;
 }

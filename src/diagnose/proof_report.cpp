@@ -131,10 +131,10 @@ std::string proof_text(const Proof& proof) {
   std::map<std::pair<std::string, std::string>, int> taken;
   for (const ProofWorld& w : proof.worlds) {
     std::vector<std::string> groups{w.kind};
-    if (w.kind == "named") {
-      groups.push_back(w.expected_z >= 10  ? "named, z >= 10"
-                       : w.expected_z >= 5 ? "named, 5 <= z < 10"
-                                           : "named, z < 5");
+    if (w.kind != "null") {
+      groups.push_back(w.kind + (w.expected_z >= 10  ? ", z >= 10"
+                                 : w.expected_z >= 5 ? ", 5 <= z < 10"
+                                                     : ", z < 5"));
     }
     for (const std::string& g : groups) {
       Rate& r = rates[g];
