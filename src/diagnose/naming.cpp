@@ -307,6 +307,10 @@ double Naming::smallest_seen(int effect) const {
   return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
 }
 
+double Naming::misfit_of_nothing(const Vector& residual) const {
+  return (whitener_ * (residual - centre_).head(named_)).squaredNorm();
+}
+
 double Naming::expected_z(int effect, const Vector& amplitudes) const {
   const Known& of = known_[place_of(effect, -1)];
   // Second orders hold as far as they were learned, beyond that in proportion.

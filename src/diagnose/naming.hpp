@@ -75,6 +75,8 @@ class Naming {
   double shape_threshold() const { return shape_threshold_; }
   /// Of the squared distance of all named numbers.
   double misfit_threshold() const { return misfit_threshold_; }
+  /// Squared distance of all named numbers if nothing is there.
+  double misfit_of_nothing(const Eigen::VectorXd& residual) const;
   /// Whether something is left, with a name or without.
   bool leaves_something(const Explanation& e) const {
     return e.misfit > misfit_threshold_ || e.left_shape.z > shape_threshold_;

@@ -23,7 +23,8 @@ constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, tha
 constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
-constexpr double kClear = 10;  // deviations of own scores
+constexpr double kLeastOwn = 1;  // z of an effect by the scatter of experiments with it
+constexpr double kClear = 10;    // deviations of own scores
 
 // A distance between places, ranges by their logarithms.
 double far_apart(const std::vector<std::pair<std::string, double>>& a,
@@ -113,7 +114,11 @@ std::optional<Vector> Diagnoser::strong_by_own_scores(int effect, const Judged& 
 class Diagnoser::Sharpening {
  public:
   Sharpening(Diagnoser& diagnoser, Naming& naming, const Judged& judged, const Vector& residual)
-      : of_(diagnoser), naming_(naming), judged_(judged), residual_(residual) {
+      : of_(diagnoser),
+        naming_(naming),
+        judged_(judged),
+        residual_(residual),
+        nothing_(diagnoser.naming_->misfit_of_nothing(residual)) {
     // What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
     std::map<std::string, double> least;
     const std::vector<Effect>& effects = of_.atlas_->plan().effects;
@@ -183,11 +188,16 @@ class Diagnoser::Sharpening {
   }
 
   // What alone, by its own scatter, is most likely there.
-  std::optional<EffectFit> likeliest() const {
-    const auto likely = std::min_element(
-        alone_.begin(), alone_.end(),
-        [](const auto& a, const auto& b) { return a.second.doubt < b.second.doubt; });
-    if (likely == alone_.end()) return std::nullopt;
+  std::optional<EffectFit> likeliest(bool effects_only = false) const {
+    const auto least = [&](const auto& a, const auto& b) {
+      return a.second.doubt < b.second.doubt;
+    };
+    std::map<Name, Naming::Alone> those = alone_;
+    if (effects_only) {
+      std::erase_if(those, [](const auto& one) { return one.first.first < 0; });
+    }
+    const auto likely = std::min_element(those.begin(), those.end(), least);
+    if (likely == those.end()) return std::nullopt;
     EffectFit out;
     std::tie(out.effect, out.shape) = likely->first;
     out.amplitudes = likely->second.amplitudes;
@@ -210,9 +220,22 @@ class Diagnoser::Sharpening {
   Explanation explained_by(const Naming& naming) const {
     const std::optional<EffectFit> likely = likeliest();
     Explanation e = naming.explain(residual_);
+    if (e.found.empty() && likely && nothing_ > naming.misfit_threshold()) {
+      return something(naming, likeliest(true).value_or(*likely));
+    }
     if (!likely || likely->shape >= 0 || is_found(*likely, e)) return e;
     Explanation other = naming.explain(residual_, {*likely});
     return other.doubt < e.doubt ? other : e;
+  }
+
+  // By the wide scatter of experiments with an effect there may seem to be nothing; but without an
+  // effect there is no such scatter. What hardly speaks even so is not told.
+  Explanation something(const Naming& naming, const EffectFit& likely) const {
+    Explanation e = naming.explain(residual_, {likely});
+    if (e.found.empty() || e.found[0].z < kLeastOwn) {
+      e.found.clear(), e.misfit = nothing_, e.share_left = 1;
+    }
+    return e;
   }
 
   bool is_found(const EffectFit& f, const Explanation& e) const {
@@ -304,6 +327,7 @@ class Diagnoser::Sharpening {
   Naming& naming_;
   const Judged& judged_;
   const Vector& residual_;
+  double nothing_;                     // squared distance of nothing, by the scatter of nulls
   std::map<std::string, int> home_;    // the effect that stands for all of a name
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;

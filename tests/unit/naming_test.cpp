@@ -206,6 +206,11 @@ TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
   EXPECT_NEAR(naming_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
 }
 
+TEST_F(NamingTest, nothingIsRefutedByWhatIsThere) {
+  EXPECT_LT(naming_->misfit_of_nothing(noise(4, 3)), naming_->misfit_threshold());
+  EXPECT_GT(naming_->misfit_of_nothing(noise(4, 3) + 2 * other_), naming_->misfit_threshold());
+}
+
 // Eight experiments are noisy: their mean alone would be 60 / 8 too long in its square, of which
 // nothing may be left.
 TEST_F(NamingTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
