@@ -40,7 +40,7 @@ struct ProofWorld {
   std::string kind;                  ///< null, named, two, unnamed
   std::vector<std::string> effects;  ///< of the catalogue; of unnamed ones the variable
   /// Deviations by which the mean of experiments with this very effect is off, calibrated without
-  /// it; of two the weaker one's; 0: unknown.
+  /// it; of two the weaker one's; 0: nothing is there.
   double expected_z = 0;
   Verdict verdict = Verdict::complete;
   std::vector<ProofFinding> findings;  ///< strongest first; none of complete

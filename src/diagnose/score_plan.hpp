@@ -24,7 +24,8 @@ struct ScorePlan {
   int modules = 15;  ///< identities in all recordings
 
   std::vector<ScoreEntry> entries() const;
-  /// Where the scores of the components of effect `index` begin, if it is scored.
+  /// Where the scores of the components of effect `index` begin, if it is scored; of one past the
+  /// last their number.
   std::size_t first_of_effect(std::size_t index) const;
   /// Where the knots of shape `index` begin in the vector.
   std::size_t first_of_shape(std::size_t index) const;

@@ -53,7 +53,7 @@ class Scorer {
       : plan_(plan),
         modules_(static_cast<std::size_t>(plan.modules)),
         parts_(parts_of(plan)),
-        scored_(count_scored(plan)),
+        scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
         sensitivities_(total_, modules_),
         pushes_(modules_, Pushes(total_)),
@@ -97,12 +97,6 @@ class Scorer {
   }
 
  private:
-  static std::size_t count_scored(const ScorePlan& plan) {
-    std::size_t n = 0;
-    for (const Effect& e : plan.effects) n += e.scored ? e.paths.size() : 0;
-    return n;
-  }
-
   void push(const PredictedFrame& frame, const Moment& now, std::size_t i) {
     Pushes& to = pushes_[i];
     to.clear();

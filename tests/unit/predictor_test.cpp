@@ -150,6 +150,20 @@ TEST(Scores, TellThePlaceOfAStream) {
   EXPECT_NEAR(found.speed_y, -1, 1);
 }
 
+// The range of a force between modules to a factor of two, and its sign; none where there is none.
+TEST(Scores, TellTheRangeOfAForceBetweenModules) {
+  const Model model = drifting(15);
+  const std::vector<std::string> paths{"forces.pair_repulsion.strength",
+                                       "forces.pair_repulsion.range"};
+  const auto repelled =
+      filmed(with_parameters(model, paths, std::vector<double>{8e-3, 0.02}), 60, 5);
+  const PairRange found = find_pair_range(plan_for(model, repelled), repelled);
+  EXPECT_LT(found.strength, 0);
+  EXPECT_NEAR(std::log(found.range / 0.02), 0, std::log(2.0));
+  const auto nothing = filmed(model, 60, 5);
+  EXPECT_EQ(find_pair_range(plan_for(model, nothing), nothing).strength, 0);
+}
+
 // Same recordings, same bits.
 TEST(Scores, AreRepeatable) {
   const Model model = drifting(5);
