@@ -103,6 +103,29 @@ HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float t
   transpose(a, b, c, e);
   return {a, b, c, e};
 }
+#elif HWY_MAX_BYTES == 32
+// Points j and 4 + j, one in each block of the result.
+template <int j>
+HWY_INLINE Float read_two(const char* rows, const std::int32_t* offset, Float tx, const float* ty) {
+  const Floats d;
+  // [a b] + ty [c e] of a point.
+  const auto along_y = [&](int p) {
+    const float* row = reinterpret_cast<const float*>(rows + offset[p]);
+    return hn::Add(hn::Load(d, row), hn::Mul(hn::Load(d, row + 8), hn::Set(d, ty[p])));
+  };
+  const Float one = along_y(j), two = along_y(j + 4);
+  const Float even = hn::ConcatLowerLower(d, two, one), odd = hn::ConcatUpperUpper(d, two, one);
+  return hn::Add(even, hn::Mul(odd, hn::Broadcast<j>(tx)));
+}
+
+HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
+  alignas(32) float y[8];
+  hn::Store(ty, Floats(), y);
+  Float a = read_two<0>(rows, offset, tx, y), b = read_two<1>(rows, offset, tx, y);
+  Float c = read_two<2>(rows, offset, tx, y), e = read_two<3>(rows, offset, tx, y);
+  transpose(a, b, c, e);
+  return {a, b, c, e};
+}
 #else
 HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
   const Floats d;
@@ -135,10 +158,13 @@ HWY_INLINE void locate(const Lookup& field, Float gx, Float gy, int k, Spots& sp
     gx = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gx, half)));
     gy = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gy, half)));
   }
-  const Float ix = hn::ConvertTo(d, hn::ConvertTo(w, hn::Min(gx, most)));
-  const Float iy = hn::ConvertTo(d, hn::ConvertTo(w, hn::Min(gy, most)));
+  const Float ix = hn::Floor(hn::Min(gx, most)), iy = hn::Floor(hn::Min(gy, most));
   const Float row = hn::Add(hn::Mul(iy, hn::Set(d, static_cast<float>(field.cells))), ix);
-  hn::Store(hn::ShiftLeft<6>(hn::ConvertTo(w, row)), w, spots.offset[k]);
+  // Whole numbers below 2^23 are the low bits of their sum with it: rounding to integers would look
+  // after overflows as well.
+  const Float unit = hn::Set(d, 8388608.0f);
+  const auto whole = hn::Sub(hn::BitCast(w, hn::Add(row, unit)), hn::BitCast(w, unit));
+  hn::Store(hn::ShiftLeft<6>(whole), w, spots.offset[k]);
   spots.tx[k] = hn::Sub(gx, ix), spots.ty[k] = hn::Sub(gy, iy);
 }
 
