@@ -3,17 +3,10 @@
 
 #include "lilytank/lattice.hpp"
 #include "lilytank/synthesis.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
-
-// "r3", "r3 and r5", "r1, r3 and r5".
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  return out;
-}
 
 std::string rule(int join, const std::string& suffix = "") {
   return "r" + std::to_string(join + 1) + suffix;
