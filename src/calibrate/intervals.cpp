@@ -9,6 +9,7 @@
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -165,8 +166,48 @@ std::string short_name(const FitParameter& p) {
   return p.path.substr(p.path.rfind('.') + 1);
 }
 
+// Of the first `n` parameters, those that go together with the `first`, directly or through
+// others.
+std::vector<std::size_t> entangled_with(std::size_t first, std::size_t n,
+                                        const CalibrationResult& out) {
+  std::vector<std::size_t> group{first};
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const double r = out.correlation[group[k] * out.parameters.size() + j];
+      const bool known = std::find(group.begin(), group.end(), j) != group.end();
+      if (!known && std::fabs(r) > kOneAndTheSame) group.push_back(j);
+    }
+  }
+  std::sort(group.begin(), group.end());
+  return group;
+}
+
+// One line for all that only their combinations are known of.
+void warn_of_entangled(std::size_t n, CalibrationResult& out) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::vector<std::size_t> group = entangled_with(i, n, out);
+    if (group.size() < 2 || group.front() != i) continue;
+    std::vector<std::string> names;
+    double closest = 0;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      names.push_back(short_name(out.parameters[group[k]].parameter));
+      for (std::size_t l = 0; l < k; ++l) {
+        const double r = out.correlation[group[k] * out.parameters.size() + group[l]];
+        if (std::fabs(r) > std::fabs(closest)) closest = r;
+      }
+    }
+    const std::string r = without_rounding(std::round(1000 * closest) / 1000);
+    out.warnings.push_back(
+        "these data cannot tell " + listed(names) + " apart: " +
+        (group.size() == 2
+             ? "their correlation is " + r + ", so only a combination of the two is"
+             : "two of them correlate by " + r + ", so only combinations of them are") +
+        " known");
+  }
+}
+
 void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& out) {
-  const std::size_t n = stages.setup().told(), all = out.parameters.size();
+  const std::size_t n = stages.setup().told();
   for (std::size_t i = 0; i < n; ++i) {
     const CalibratedParameter& p = out.parameters[i];
     const FitParameter& of = p.parameter;
@@ -181,15 +222,8 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
       out.warnings.push_back(short_name(of) + " is at a bound, " + shortest(p.estimate) +
                              ": widen it, or the model lacks something");
     }
-    for (std::size_t j = 0; j < i; ++j) {
-      const double r = out.correlation[i * all + j];
-      if (std::fabs(r) <= kOneAndTheSame) continue;
-      out.warnings.push_back("these data cannot tell " + short_name(out.parameters[j].parameter) +
-                             " and " + short_name(of) + " apart: their correlation is " +
-                             without_rounding(std::round(100 * r) / 100) +
-                             ", so only a combination of the two is known");
-    }
   }
+  warn_of_entangled(n, out);
   if (!answer.settled) {
     out.warnings.push_back("the estimate had not settled after " + std::to_string(answer.rounds) +
                            " local models: intervals may be too short");
