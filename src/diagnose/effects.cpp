@@ -38,7 +38,7 @@ constexpr const char* kPumps = "a recording at another pump power";
 void add_pairs(std::vector<Effect>& all) {
   for (const double range : {0.004, 0.012, 0.03}) {
     for (const char* name : {"pair_attraction", "pair_repulsion"}) {
-      Effect e = one(name, "strength", range < 0.01 ? 6e-3 : 4e-3, "N", "pair");
+      Effect e = one(name, "strength", 5e-3, "N", "pair");
       e.shape = {{force(name, "range"), range}};
       e.refine = {{force(name, "range"), "m", 0.0015, 0.08, true, false}};
       e.split = kLogLatches;
@@ -77,7 +77,8 @@ void add_walls(std::vector<Effect>& all) {
 }
 
 void add_water(std::vector<Effect>& all, const Model& model) {
-  Effect mass = one("added_mass", "coefficient", 0.5, "1", "slip");
+  // More would gather all modules in the middle: what less of it does could not be learned there.
+  Effect mass = one("added_mass", "coefficient", 0.25, "1", "slip");
   mass.split = kOtherBody;
   all.push_back(mass);
   Effect magnus = one("magnus_lift", "coefficient", 0.3, "1", "spin");
@@ -250,8 +251,8 @@ std::vector<Shape> shape_catalogue(const Model& model, double seconds) {
   add(Along::heading, Toward::torque, -kPi, kPi, "heading", "as a torque", "rad");
   add(Along::heading, Toward::x, -kPi, kPi, "heading", "along x", "rad");
   add(Along::heading, Toward::y, -kPi, kPi, "heading", "along y", "rad");
-  add(Along::spin, Toward::torque, -4, 4, "spin", "as a torque", "rad/s");
-  add(Along::spin, Toward::across_slip, -4, 4, "spin", "across the slip", "rad/s");
+  add(Along::spin, Toward::torque, -2.5, 2.5, "spin", "as a torque", "rad/s");
+  add(Along::spin, Toward::across_slip, -2.5, 2.5, "spin", "across the slip", "rad/s");
   add(Along::slip, Toward::slip, 0, 0.3, "slip", "along the slip", "m/s");
   add(Along::slip, Toward::across_slip, 0, 0.3, "slip", "across the slip", "m/s");
   add(Along::slip, Toward::torque, 0, 0.3, "slip", "as a torque", "m/s");
