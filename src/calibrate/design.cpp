@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
 
@@ -37,6 +38,17 @@ Matrix scattered(const Vector& centre, const Matrix& spread, int count, const Fi
     points.row(i) = at;
   }
   return points;
+}
+
+Matrix spread_of(const Matrix& covariance, double errors, const Vector& most) {
+  Matrix c = covariance;
+  for (Eigen::Index k = 0; k < c.rows(); ++k) c(k, k) += 1e-8 * most(k) * most(k);
+  Matrix root = errors * lower_root(c);
+  for (Eigen::Index k = 0; k < c.rows(); ++k) {
+    const double size = root.row(k).norm();
+    if (size > most(k)) root.row(k) *= most(k) / size;
+  }
+  return root;
 }
 
 Design design_of(const Matrix& points, const std::vector<std::vector<double>>& rows) {

@@ -13,6 +13,10 @@ namespace lilytank {
 Eigen::MatrixXd scattered(const Eigen::VectorXd& centre, const Eigen::MatrixXd& spread, int count,
                           const FitBounds& bounds, std::uint64_t seed);
 
+/// The spread of a design: so many standard errors of a covariance, along no axis more than `most`.
+Eigen::MatrixXd spread_of(const Eigen::MatrixXd& covariance, double errors,
+                          const Eigen::VectorXd& most);
+
 /// Points and the numbers that simulations told there; empty rows are worlds that diverged and are
 /// left out. Throws InputError if these are more than half.
 Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);

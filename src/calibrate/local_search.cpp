@@ -70,18 +70,6 @@ class Simulated {
   std::vector<std::vector<double>> rows_;
 };
 
-// The next design's spread: so many standard errors, along no axis more than `most`.
-Matrix spread_of(const Matrix& covariance, double errors, const Vector& most) {
-  Matrix c = covariance;
-  for (Eigen::Index k = 0; k < c.rows(); ++k) c(k, k) += 1e-8 * most(k) * most(k);
-  Matrix root = errors * lower_root(c);
-  for (Eigen::Index k = 0; k < c.rows(); ++k) {
-    const double size = root.row(k).norm();
-    if (size > most(k)) root.row(k) *= most(k) / size;
-  }
-  return root;
-}
-
 struct Phase {
   std::string name;
   Stages::Of of;
