@@ -80,9 +80,11 @@ struct CalibrationOptions {
 /// What was found of one parameter.
 struct CalibratedParameter {
   FitParameter parameter;
-  double start = 0;          ///< the scenario's
-  double searched = 0;       ///< the search's answer
-  double estimate = 0;       ///< without its bias, within the bounds
+  double start = 0;     ///< the scenario's
+  double searched = 0;  ///< the search's answer
+  /// What all compared numbers say, without its bias, within the bounds; and, of what they leave
+  /// open, the value that makes the MSD most like the recorded one (objective `summary`).
+  double middle = 0, estimate = 0;
   double low = 0, high = 0;  ///< 95 %
   double deviation = 0;      ///< standard error, on the fitted scale
   double bias = 0;           ///< that was taken off, on the fitted scale
@@ -108,13 +110,15 @@ struct LocalRound {
 };
 
 /// Eq. 9 of a set of recordings, m^2. Every value is the mean over random halves of the recordings'
-/// pieces, each against as many pieces: `floor` against the other half, the others against
-/// simulated ones. So equal numbers mean equal likeness.
+/// pieces, each against as many pieces: `floor` against the other half, `before` and `after`
+/// against simulated ones, `equals` between simulated ones at the estimate. So equal numbers mean
+/// equal likeness: a true model is at `equals`, above the floor, as the pieces of one recording are
+/// more alike than those of two, and `after` is as large with probability `equals_p`.
 struct MsdFit {
   std::string recordings;  ///< "training", "held out"
   int pieces = 0;          ///< in all
   double seconds = 0;      ///< of a piece, and the longest lag
-  double before = 0, after = 0, floor = 0;
+  double before = 0, after = 0, floor = 0, equals = 0, equals_p = 1;
   std::vector<double> lag, real, simulated_before, simulated_after;  ///< s and m^2
 };
 

@@ -62,36 +62,59 @@ class Comparison {
       const Curve other = eq9_curve(some_of(pieces_, order, half, 2 * half), rule_);
       out_.floor += eq9(halves_.back(), other) / n;
     }
-    out_.before = against(start, "before", out_.simulated_before);
-    out_.after = against(estimate, "after", out_.simulated_after);
+    against(start, "start", out_.simulated_before, out_.before);
+    const std::vector<Curve> same = against(estimate, "estimate", out_.simulated_after, out_.after);
+    compare_equals(same);
     return std::move(out_);
   }
 
  private:
-  // Mean of Eq. 9 against simulated halves; `mean` becomes the curve of all that was simulated.
-  double against(const std::vector<double>& values, const std::string& when, Curve& mean) {
+  // Every simulated experiment against the others, as the recordings are.
+  void compare_equals(const std::vector<Curve>& same) {
+    const std::size_t n = same.size();
+    std::size_t as_far = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      double mean = 0;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j != i) mean += eq9(same[i], same[j]) / static_cast<double>(n - 1);
+      }
+      out_.equals += mean / static_cast<double>(n);
+      as_far += mean >= out_.after ? 1 : 0;
+    }
+    out_.equals_p = static_cast<double>(as_far + 1) / static_cast<double>(n + 1);
+  }
+
+  // Simulated halves; `fit` becomes the mean of Eq. 9 against them, `mean` the curve of all that
+  // was simulated.
+  std::vector<Curve> against(const std::vector<double>& values, const std::string& when,
+                             Curve& mean, double& fit) {
     const int n = setup_.options.comparisons;
-    const auto rows = stages_.rows("comparison " + when + ", " + out_.recordings, n, [&](int i) {
-      const auto made = emulator_.record(
-          values, derived_seed(setup_.options.seed, kCompareSeed + static_cast<unsigned>(i)));
-      if (!made) return Curve{};
-      const auto pieces = pieces_of(*made, setup_.piece);
-      const auto order = shuffled(pieces.size(), seed_, i);
-      Curve row = eq9_curve(some_of(pieces, order, 0, pieces.size() / 2), rule_);
-      const Curve whole = eq9_curve(pieces, rule_);
-      row.insert(row.end(), whole.begin(), whole.end());
-      return row;
-    });
-    double sum = 0;
-    mean.assign(out_.real.size(), 0);
+    const auto rows =
+        stages_.rows("comparison with the " + when + ", " + out_.recordings, n, [&](int i) {
+          const auto made = emulator_.record(
+              values, derived_seed(setup_.options.seed, kCompareSeed + static_cast<unsigned>(i)));
+          if (!made) return Curve{};
+          const auto pieces = pieces_of(*made, setup_.piece);
+          const auto order = shuffled(pieces.size(), seed_, i);
+          Curve row = eq9_curve(some_of(pieces, order, 0, pieces.size() / 2), rule_);
+          const Curve whole = eq9_curve(pieces, rule_);
+          row.insert(row.end(), whole.begin(), whole.end());
+          return row;
+        });
+    std::vector<Curve> simulated;
+    mean.assign(out_.real.size(), 0), fit = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       // A diverged world is as unlike the recordings as can be.
-      if (rows[i].empty()) return INFINITY;
+      if (rows[i].empty()) {
+        fit = INFINITY;
+        return {};
+      }
       const auto middle = rows[i].begin() + static_cast<std::ptrdiff_t>(mean.size());
-      sum += eq9(Curve(rows[i].begin(), middle), halves_[i]) / n;
+      simulated.emplace_back(rows[i].begin(), middle);
+      fit += eq9(simulated.back(), halves_[i]) / n;
       for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += rows[i][mean.size() + k] / n;
     }
-    return sum;
+    return simulated;
   }
 
   Stages& stages_;

@@ -78,7 +78,7 @@ Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design
 }
 
 void tell_parameters(const Stages& stages, const LocalAnswer& answer, const Replicates& replicates,
-                     CalibrationResult& out) {
+                     const Vector& chosen, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   const Vector deviation = replicates.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
@@ -88,7 +88,8 @@ void tell_parameters(const Stages& stages, const LocalAnswer& answer, const Repl
     const double middle = replicates.middle(k), half = replicates.wide * deviation(k);
     p.bias = answer.fit.point(k) - middle, p.deviation = deviation(k);
     const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
-    p.estimate = within(middle), p.low = within(middle - half), p.high = within(middle + half);
+    p.estimate = within(chosen(k)), p.middle = within(middle);
+    p.low = within(middle - half), p.high = within(middle + half);
     for (Eigen::Index l = 0; l < deviation.size(); ++l) {
       out.correlation.push_back(replicates.covariance(k, l) /
                                 std::max(deviation(k) * deviation(l), 1e-300));
@@ -248,7 +249,11 @@ void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& m
   const Replicates replicates = setup.options.objective == CalibrationObjective::msd
                                     ? by_the_answer(stages, answer, std::move(made))
                                     : by_others(answer, std::move(made), observed);
-  tell_parameters(stages, answer, replicates, out);
+  Vector chosen = replicates.middle;
+  if (setup.options.objective == CalibrationObjective::summary) {
+    chosen = nearest_displacements(stages, {replicates.middle, replicates.covariance}, centre);
+  }
+  tell_parameters(stages, answer, replicates, chosen, out);
   tell_numbers(stages, replicates, centre, observed, out);
   tell_profiles(stages, replicates, observed, out);
   warn(stages, answer, out);

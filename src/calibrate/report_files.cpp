@@ -34,13 +34,14 @@ std::string overlay(const CalibrationResult& c) {
 
 std::string intervals_csv(const CalibrationResult& c) {
   std::string out =
-      "parameter,unit,scale,bound_low,bound_high,start,searched,estimate,low,high,deviation,bias,"
+      "parameter,unit,scale,bound_low,bound_high,start,searched,middle,estimate,low,high,deviation,"
+      "bias,"
       "nuisance\n";
   for (const CalibratedParameter& p : c.parameters) {
     const FitParameter& of = p.parameter;
     out += of.path + "," + of.unit + "," + (of.logarithmic ? "log" : "linear");
-    for (const double v :
-         {of.low, of.high, p.start, p.searched, p.estimate, p.low, p.high, p.deviation, p.bias}) {
+    for (const double v : {of.low, of.high, p.start, p.searched, p.middle, p.estimate, p.low,
+                           p.high, p.deviation, p.bias}) {
       out += "," + number(v);
     }
     out += of.nuisance ? ",1\n" : ",0\n";
@@ -154,7 +155,9 @@ std::string json(const CalibrationResult& c) {
     out += std::string(comma) + "\n    {\"recordings\": " + json_quoted(m.recordings) +
            ", \"pieces\": " + std::to_string(m.pieces) +
            ", \"seconds\": " + json_number(m.seconds) + ", \"before\": " + json_number(m.before) +
-           ", \"after\": " + json_number(m.after) + ", \"floor\": " + json_number(m.floor) + "}";
+           ", \"after\": " + json_number(m.after) + ", \"floor\": " + json_number(m.floor) +
+           ", \"equals\": " + json_number(m.equals) + ", \"equals_p\": " + json_number(m.equals_p) +
+           "}";
     comma = ",";
   }
   out += "\n  ],\n  \"warnings\": [";

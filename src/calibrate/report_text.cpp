@@ -38,10 +38,12 @@ std::string parameters(const CalibrationResult& c) {
 
 std::string fits(const CalibrationResult& c) {
   if (c.msd.empty()) return "";
-  TextTable table({"Eq. 9 (m^2)", "pieces", "before", "after", "noise floor", "after / floor"});
+  TextTable table({"Eq. 9 (m^2)", "pieces", "before", "after", "noise floor", "after / floor",
+                   "two simulations", "p"});
   for (const MsdFit& m : c.msd) {
     table.add({m.recordings, std::to_string(m.pieces) + " of " + digits(m.seconds) + " s",
-               digits(m.before), digits(m.after), digits(m.floor), fixed(m.after / m.floor, 2)});
+               digits(m.before), digits(m.after), digits(m.floor), fixed(m.after / m.floor, 2),
+               digits(m.equals), p_text(m.equals_p)});
   }
   return "\n" + table.text();
 }

@@ -164,6 +164,11 @@ Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& shapes_of
 
 std::vector<double> CalibrationSetup::numbers(const std::vector<Recording>& recordings) const {
   if (options.objective == CalibrationObjective::summary) return summarise(recordings, summary);
+  return displacements(recordings);
+}
+
+std::vector<double> CalibrationSetup::displacements(
+    const std::vector<Recording>& recordings) const {
   Eq9 rule = kLocalCurve;
   rule.seconds = piece;
   std::vector<double> curve = eq9_curve(recordings, rule);

@@ -36,6 +36,8 @@ struct CalibrationSetup {
 
   /// What the objective compares, of recordings of the experiment's whole length.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;
+  /// Eq. 9's MSD at coarse lags, m^2: what the displacement objectives compare.
+  std::vector<double> displacements(const std::vector<Recording>& recordings) const;
   std::vector<SummaryEntry> entries() const;
   /// The extracted flow without its mean error, as a grid that a run reads; empty where the
   /// scenario's flow is used.

@@ -75,6 +75,18 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
                     const Eigen::VectorXd& observed, CalibrationResult& out);
 
+/// What all numbers say of the parameters (fitted scale, nuisances at the end), and how surely.
+struct HonestAnswer {
+  Eigen::VectorXd middle;
+  Eigen::MatrixXd covariance;
+};
+/// Flow maps have errors, and drag, damping and the water's strength do nearly the same: numbers
+/// may leave open along which parameters an experiment lies. Of those that they allow, these are
+/// the ones whose MSD in the best flow is most like the recorded one [Eq. 9]. `centre`: where to
+/// begin.
+Eigen::VectorXd nearest_displacements(Stages& stages, const HonestAnswer& honest,
+                                      const Eigen::VectorXd& centre);
+
 /// Eq. 9 before and after, against the noise floor, and Fig. 7's maps.
 void compare_with_data(Stages& stages, CalibrationResult& out);
 
