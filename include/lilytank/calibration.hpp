@@ -83,7 +83,8 @@ struct CalibratedParameter {
   double start = 0;     ///< the scenario's
   double searched = 0;  ///< the search's answer
   /// What all compared numbers say, without its bias, within the bounds; and, of what they leave
-  /// open, the value that makes the MSD most like the recorded one (objective `summary`).
+  /// open, the value that makes the MSD most like the recorded one (objective `summary`, flow from
+  /// balls).
   double middle = 0, estimate = 0;
   double low = 0, high = 0;  ///< 95 %
   double deviation = 0;      ///< standard error, on the fitted scale

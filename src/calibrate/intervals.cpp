@@ -250,7 +250,7 @@ void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& m
                                     ? by_the_answer(stages, answer, std::move(made))
                                     : by_others(answer, std::move(made), observed);
   Vector chosen = replicates.middle;
-  if (setup.options.objective == CalibrationObjective::summary) {
+  if (setup.options.objective == CalibrationObjective::summary && maps.uncertain()) {
     chosen = nearest_displacements(stages, {replicates.middle, replicates.covariance}, centre);
   }
   tell_parameters(stages, answer, replicates, chosen, out);

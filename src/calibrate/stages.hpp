@@ -80,10 +80,10 @@ struct HonestAnswer {
   Eigen::VectorXd middle;
   Eigen::MatrixXd covariance;
 };
-/// Flow maps have errors, and drag, damping and the water's strength do nearly the same: numbers
-/// may leave open along which parameters an experiment lies. Of those that they allow, these are
-/// the ones whose MSD in the best flow is most like the recorded one [Eq. 9]. `centre`: where to
-/// begin.
+/// Numbers are those of any flow that the balls allow, and drag, damping and the water's strength
+/// do nearly the same: along these they may leave an experiment open. Of the parameters that they
+/// allow, these are the ones whose MSD in the best flow is most like the recorded one [Eq. 9].
+/// `centre`: where to begin.
 Eigen::VectorXd nearest_displacements(Stages& stages, const HonestAnswer& honest,
                                       const Eigen::VectorXd& centre);
 
