@@ -1,8 +1,7 @@
 // Which search finds the better parameters of an experiment with the same number of simulations?
 //
 //   calibration_searches EXPERIMENT.toml [--objective=msd] [--budget=1880] [--seeds=5]
-//   [--fresh=100]
-//                        [--set=PATH=VALUE ...]
+//                        [--fresh=100] [--set=PATH=VALUE ...]
 //
 // For each search and seed the mean of the objective over fresh pieces of simulation, the same for
 // all, at the point that it ends with; then the mean over the seeds with its standard error.

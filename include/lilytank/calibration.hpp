@@ -114,7 +114,8 @@ struct LocalRound {
 /// pieces, each against as many pieces: `floor` against the other half, `before` and `after`
 /// against simulated ones, `equals` between simulated ones at the estimate. So equal numbers mean
 /// equal likeness: a true model is at `equals`, above the floor, as the pieces of one recording are
-/// more alike than those of two, and `after` is as large with probability `equals_p`.
+/// more alike than those of two, and `after` is as large with probability `equals_p`. Where an
+/// experiment diverged, `before` or `after` is infinite and the last two are NaN.
 struct MsdFit {
   std::string recordings;  ///< "training", "held out"
   int pieces = 0;          ///< in all

@@ -75,6 +75,7 @@ std::string with_interval(const Estimate& estimate, double unit, int most_decima
 }
 
 std::string p_text(double p) {
+  if (std::isnan(p)) return "-";
   return with_precision(p, std::chars_format::general, 2);
 }
 

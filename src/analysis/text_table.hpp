@@ -26,7 +26,7 @@ std::string fixed(double value, int decimals);
 /// "2.13 [1.80, 2.47]", with two digits of the interval's half width, but `most_decimals` at most;
 /// no interval where it is unbounded on both sides. All numbers are divided by `unit`.
 std::string with_interval(const Estimate& estimate, double unit = 1, int most_decimals = 9);
-/// Two digits: "0.031", "4.2e-05".
+/// Two digits: "0.031", "4.2e-05"; "-" for NaN.
 std::string p_text(double p);
 
 /// A unit of time that suits a length in seconds.

@@ -72,6 +72,10 @@ class Comparison {
   // Every simulated experiment against the others, as the recordings are.
   void compare_equals(const std::vector<Curve>& same) {
     const std::size_t n = same.size();
+    if (n == 0) {
+      out_.equals = out_.equals_p = NAN;
+      return;
+    }
     std::size_t as_far = 0;
     for (std::size_t i = 0; i < n; ++i) {
       double mean = 0;

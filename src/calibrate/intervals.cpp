@@ -237,6 +237,24 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
   }
 }
 
+// Of an estimate that displacements chose.
+void warn_of_choice(const Stages& stages, const NearestPoint& chosen, CalibrationResult& out) {
+  if (!chosen.settled) {
+    out.warnings.push_back("the choice by displacements had not settled after " +
+                           std::to_string(chosen.rounds) +
+                           " rounds: others among these parameters may be nearer by Eq. 9");
+  }
+  std::vector<std::string> outside;
+  for (std::size_t i = 0; i < stages.setup().told(); ++i) {
+    const CalibratedParameter& p = out.parameters[i];
+    if (p.estimate < p.low || p.estimate > p.high) outside.push_back(short_name(p.parameter));
+  }
+  if (outside.empty()) return;
+  out.warnings.push_back("recorded displacements ask for " + listed(outside) +
+                         " outside the interval that all numbers give: the model lacks something, "
+                         "or the flow is off");
+}
+
 }  // namespace
 
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
@@ -249,14 +267,15 @@ void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& m
   const Replicates replicates = setup.options.objective == CalibrationObjective::msd
                                     ? by_the_answer(stages, answer, std::move(made))
                                     : by_others(answer, std::move(made), observed);
-  Vector chosen = replicates.middle;
-  if (setup.options.objective == CalibrationObjective::summary && maps.uncertain()) {
-    chosen = nearest_displacements(stages, {replicates.middle, replicates.covariance}, centre);
+  NearestPoint chosen{replicates.middle, 0, true};
+  if (setup.chosen_by_displacements()) {
+    chosen = nearest_displacements(stages, replicates.middle, replicates.covariance, centre);
   }
-  tell_parameters(stages, answer, replicates, chosen, out);
+  tell_parameters(stages, answer, replicates, chosen.point, out);
   tell_numbers(stages, replicates, centre, observed, out);
   tell_profiles(stages, replicates, observed, out);
   warn(stages, answer, out);
+  warn_of_choice(stages, chosen, out);
 }
 
 }  // namespace lilytank

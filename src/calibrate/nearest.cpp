@@ -1,6 +1,7 @@
 // Of all parameters that the data cannot tell apart, those that move modules most alike.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
@@ -18,73 +19,70 @@ constexpr double kMostSpread = 0.1;  // deviation of a round's points, as a shar
 constexpr double kReach = 2;         // deviations of the points that a round may go
 constexpr double kSettled = 1;       // ... that its answer may be off their centre
 constexpr int kMostRounds = 6;
+// Points of a round at least: three for each coefficient of a quadratic of five parameters.
+constexpr int kPerParameter = 12;
 constexpr int kEvaluations = 4000;  // of a local model
 
 // The way there, in parameters that are told; nuisances stay as they are.
 class Nearest {
  public:
-  Nearest(Stages& stages, const HonestAnswer& honest)
+  Nearest(Stages& stages, const Vector& middle, const Matrix& covariance)
       : stages_(stages),
-        emulator_(stages.setup().emulator(stages.setup().shapes, Stages::Of::experiments)),
         told_(static_cast<Eigen::Index>(stages.setup().told())),
-        middle_(honest.middle),
-        to_unit_(lower_inverse(lower_root(honest.covariance.topLeftCorner(told_, told_)))) {
+        middle_(middle),
+        to_unit_(lower_inverse(lower_root(covariance.topLeftCorner(told_, told_)))) {
     const FitBounds all = stages.bounds();
     bounds_.low = all.low.head(told_), bounds_.high = all.high.head(told_);
     const std::vector<double> curve = stages.setup().displacements(stages.setup().training);
     observed_ = Eigen::Map<const Vector>(curve.data(), static_cast<Eigen::Index>(curve.size()));
-    spread_ = spread_of(honest.covariance.topLeftCorner(told_, told_), 1,
+    spread_ = spread_of(covariance.topLeftCorner(told_, told_), 1,
                         kMostSpread * (bounds_.high - bounds_.low));
   }
 
   // From a centre about which simulations were made before.
-  Vector from(Vector centre) {
-    for (int round = 1; round <= kMostRounds; ++round) {
-      const Vector next = step(centre, round);
-      const bool settled = solve_lower(spread_, next - centre).cwiseAbs().maxCoeff() < kSettled;
-      centre = next;
-      if (settled) break;
+  NearestPoint from(const Vector& centre) {
+    NearestPoint out;
+    Vector told = centre.head(told_);
+    while (!out.settled && out.rounds < kMostRounds) {
+      const Vector next = step(told, ++out.rounds);
+      out.settled = solve_lower(spread_, next - told).cwiseAbs().maxCoeff() < kSettled;
+      told = next;
     }
-    return centre;
+    out.point = with(told);
+    return out;
   }
 
  private:
   Vector step(const Vector& centre, int round) {
     const std::uint64_t seed =
         derived_seed(stages_.setup().options.seed, kNearestSeed + static_cast<unsigned>(round));
-    const int count = std::max(stages_.setup().options.round, static_cast<int>(12 * told_));
+    const int count =
+        std::max(stages_.setup().options.round, static_cast<int>(kPerParameter * told_));
     const Matrix points = scattered(centre, spread_, count, bounds_, seed);
-    const Design design = design_of(points, simulated(points, round, seed));
-    const LocalModel model(design, Misfit::absolute);
-    double usual = 0;
-    for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
-      usual += model.misfit(design.numbers.row(i), design.points.row(i));
-    }
-    usual /= static_cast<double>(design.points.rows());
-    return least(model, usual, centre, seed);
+    Matrix whole(count, middle_.size());
+    for (int i = 0; i < count; ++i) whole.row(i) = with(points.row(i));
+    const std::string stage = "displacements " + std::to_string(round);
+    const LocalModel model(design_of(points, stages_.displacements(stage, whole, seed)),
+                           Misfit::absolute);
+    return least(model, centre, seed);
   }
 
-  std::vector<std::vector<double>> simulated(const Matrix& points, int round, std::uint64_t seed) {
-    const CalibrationSetup& setup = stages_.setup();
-    const auto work = [&](int i) {
-      Vector whole = middle_;
-      whole.head(told_) = points.row(i);
-      const auto made =
-          emulator_.record(stages_.from_scale(whole), derived_seed(seed, static_cast<unsigned>(i)));
-      return made ? setup.displacements(*made) : std::vector<double>{};
-    };
-    return stages_.rows("displacements " + std::to_string(round), static_cast<int>(points.rows()),
-                        work);
+  Vector with(const Vector& told) const {
+    Vector out = middle_;
+    out.head(told_) = told;
+    return out;
   }
 
-  // Twice the negative log likelihood of parameters: normal by what all numbers say, and of the
-  // sizes of differences of the MSD, whose mean among equal experiments is `usual` [Laplace].
+  // Twice the negative log likelihood of parameters: normal by what all numbers say, and of the sum
+  // of the MSD's differences' sizes, whose mean among equal experiments is `usual` [Laplace].
   double doubt(const LocalModel& model, double usual, const Vector& point) const {
     const double by_numbers = (to_unit_ * (point - middle_.head(told_))).squaredNorm();
     return by_numbers + 2 * model.misfit(observed_, point) / usual;
   }
 
-  Vector least(const LocalModel& model, double usual, const Vector& centre, std::uint64_t seed) {
+  Vector least(const LocalModel& model, const Vector& centre, std::uint64_t seed) {
+    const double usual = std::sqrt(2 / std::numbers::pi) *  // of a normal deviate's size
+                         model.covariance().diagonal().cwiseSqrt().sum();
     SearchSpace space;
     for (Eigen::Index k = 0; k < told_; ++k) {
       space.push_back({"z" + std::to_string(k), -kReach, kReach});
@@ -106,7 +104,6 @@ class Nearest {
   }
 
   Stages& stages_;
-  Emulator emulator_;
   Eigen::Index told_;
   Vector middle_;
   Matrix to_unit_, spread_;
@@ -116,11 +113,9 @@ class Nearest {
 
 }  // namespace
 
-Vector nearest_displacements(Stages& stages, const HonestAnswer& honest, const Vector& centre) {
-  Vector out = honest.middle;
-  const auto told = static_cast<Eigen::Index>(stages.setup().told());
-  out.head(told) = Nearest(stages, honest).from(centre.head(told));
-  return out;
+NearestPoint nearest_displacements(Stages& stages, const Vector& middle, const Matrix& covariance,
+                                   const Vector& centre) {
+  return Nearest(stages, middle, covariance).from(centre);
 }
 
 }  // namespace lilytank

@@ -34,9 +34,8 @@ std::string overlay(const CalibrationResult& c) {
 
 std::string intervals_csv(const CalibrationResult& c) {
   std::string out =
-      "parameter,unit,scale,bound_low,bound_high,start,searched,middle,estimate,low,high,deviation,"
-      "bias,"
-      "nuisance\n";
+      "parameter,unit,scale,bound_low,bound_high,start,searched,middle,estimate,low,high,"
+      "deviation,bias,nuisance\n";
   for (const CalibratedParameter& p : c.parameters) {
     const FitParameter& of = p.parameter;
     out += of.path + "," + of.unit + "," + (of.logarithmic ? "log" : "linear");

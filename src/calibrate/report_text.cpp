@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kWorst = 5;  // numbers that are named where the model does not fit
 
 std::string digits(double value) {
-  return significant(value, 4);
+  return std::isnan(value) ? "-" : significant(value, 4);
 }
 
 std::string head(const CalibrationResult& c) {

@@ -151,6 +151,14 @@ std::vector<std::string> CalibrationSetup::paths() const {
   return out;
 }
 
+bool CalibrationSetup::draws_flow() const {
+  return flow && flow->noise && options.flow_draws >= 2;
+}
+
+bool CalibrationSetup::chosen_by_displacements() const {
+  return options.objective == CalibrationObjective::summary && draws_flow();
+}
+
 std::size_t CalibrationSetup::told() const {
   return static_cast<std::size_t>(std::count_if(parameters.begin(), parameters.end(),
                                                 [](const FitParameter& p) { return !p.nuisance; }));

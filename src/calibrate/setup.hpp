@@ -29,6 +29,10 @@ struct CalibrationSetup {
 
   std::vector<std::string> paths() const;
   std::size_t told() const;  ///< parameters without nuisances
+  /// The flow is the balls', with an error that can be drawn.
+  bool draws_flow() const;
+  /// The estimate is the one among those that numbers allow that moves modules most alike.
+  bool chosen_by_displacements() const;
   /// Of pieces, which must be fast, or of whole experiments, which must be right: their gusts are
   /// drawn point by point.
   enum class Of { experiments, pieces };

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFlowCost = 3;  // of simulating balls and extracting, in simulated experiments
-constexpr double kRoundsExpected = 3, kRoughExpected = 4;
+constexpr double kRoundsExpected = 3, kRoughExpected = 4, kNearestExpected = 2;
 constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
 
 std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchSpace& space) {
@@ -57,6 +57,7 @@ Stages::Stages(CalibrationSetup& setup)
   search_cost_ = static_cast<double>(budget_of(o)) * piece_cost_;
   expected_ = (setup.flow ? kFlowCost * o.flow_draws : 0) + search_cost_ +
               (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round + o.replicates +
+              (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
               (setup.held_out.empty() ? 2 : 4) * o.comparisons;
   if (setup.options.out.empty()) return;
   std::error_code ignored;
@@ -90,8 +91,7 @@ void Stages::tell(double spent, const std::string& stage) const {
 }
 
 FlowMaps Stages::flow_maps() {
-  const bool exact = !setup_.flow || !setup_.flow->noise || setup_.options.flow_draws < 2;
-  if (exact) return FlowMaps(setup_.model.field);
+  if (!setup_.draws_flow()) return FlowMaps(setup_.model.field);
   const std::uint64_t seed = derived_seed(setup_.options.seed, kFlowSeed);
   const auto found = rows(
       "flow errors", setup_.options.flow_draws,
@@ -176,6 +176,18 @@ std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
   if (of == Of::pieces) return rows(stage, count, piece, piece_cost_);
   simulations_ += count;
   return rows(stage, count, experiment);
+}
+
+std::vector<std::vector<double>> Stages::displacements(const std::string& stage,
+                                                       const Eigen::MatrixXd& points,
+                                                       std::uint64_t seed) {
+  const auto count = static_cast<int>(points.rows());
+  simulations_ += count;
+  return rows(stage, count, [&](int i) {
+    const auto made =
+        whole_.record(from_scale(points.row(i)), derived_seed(seed, static_cast<unsigned>(i)));
+    return made ? setup_.displacements(*made) : std::vector<double>{};
+  });
 }
 
 Eigen::VectorXd Stages::to_scale(const std::vector<double>& values) const {

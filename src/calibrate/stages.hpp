@@ -31,6 +31,9 @@ class Stages {
   std::vector<std::vector<double>> simulate(const std::string& stage, const Eigen::MatrixXd& points,
                                             std::uint64_t seed, const FlowMaps& maps,
                                             Of of = Of::experiments);
+  /// Eq. 9's MSD of whole experiments simulated at points, in the best flow.
+  std::vector<std::vector<double>> displacements(const std::string& stage,
+                                                 const Eigen::MatrixXd& points, std::uint64_t seed);
   /// Rows kept under a stage's name. `cost` of one, in simulated experiments, is for the progress.
   std::vector<std::vector<double>> rows(const std::string& stage, int count,
                                         const std::function<std::vector<double>(int)>& work,
@@ -44,6 +47,7 @@ class Stages {
   /// How many simulated experiments are still to come, for the progress, by whoever knows better
   /// than a calibration's usual course.
   void expect(double experiments) { expected_ = spent_ + experiments; }
+  /// Experiments that estimates and intervals rest on.
   int simulations() const { return simulations_; }
   /// A piece's share of an experiment.
   double piece_cost() const { return piece_cost_; }
@@ -75,17 +79,19 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
                     const Eigen::VectorXd& observed, CalibrationResult& out);
 
-/// What all numbers say of the parameters (fitted scale, nuisances at the end), and how surely.
-struct HonestAnswer {
-  Eigen::VectorXd middle;
-  Eigen::MatrixXd covariance;
+/// Where the search by displacements ended, on the fitted scale.
+struct NearestPoint {
+  Eigen::VectorXd point;
+  int rounds = 0;
+  bool settled = false;  ///< the last round was about the point
 };
 /// Numbers are those of any flow that the balls allow, and drag, damping and the water's strength
 /// do nearly the same: along these they may leave an experiment open. Of the parameters that they
-/// allow, these are the ones whose MSD in the best flow is most like the recorded one [Eq. 9].
-/// `centre`: where to begin.
-Eigen::VectorXd nearest_displacements(Stages& stages, const HonestAnswer& honest,
-                                      const Eigen::VectorXd& centre);
+/// allow, by their middle and covariance (fitted scale, nuisances at the end), these are the ones
+/// whose MSD in the best flow is most like the recorded one [Eq. 9]. `centre`: where to begin.
+NearestPoint nearest_displacements(Stages& stages, const Eigen::VectorXd& middle,
+                                   const Eigen::MatrixXd& covariance,
+                                   const Eigen::VectorXd& centre);
 
 /// Eq. 9 before and after, against the noise floor, and Fig. 7's maps.
 void compare_with_data(Stages& stages, CalibrationResult& out);

@@ -36,7 +36,9 @@ struct Known {
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(middle.size(), 0.01);
     deviation(0) = known;
     const Eigen::MatrixXd covariance = deviation.cwiseAbs2().asDiagonal();
-    return nearest_displacements(stages, {middle, covariance}, middle)(0) - std::log(truth[0]);
+    const NearestPoint found = nearest_displacements(stages, middle, covariance, middle);
+    EXPECT_TRUE(found.settled);
+    return found.point(0) - std::log(truth[0]);
   }
 };
 
