@@ -9,6 +9,8 @@
 
 namespace lilytank {
 
+struct Proof;
+
 struct ProofOptions {
   int worlds = 100;
   double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
@@ -17,6 +19,8 @@ struct ProofOptions {
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
+  /// Called after every world that was judged, with all of them so far.
+  std::function<void(const Proof& so_far)> judged;
 };
 
 /// A 95 % interval of a model that was fitted, and the truth.
@@ -60,9 +64,10 @@ struct ProofWorld {
 };
 
 struct Proof {
-  std::string key;   ///< a line a world: kind, effect, its held numbers, amplitudes, factors
-  std::string hash;  ///< SHA-256 of the key
-  std::vector<ProofWorld> worlds;
+  std::string key;         ///< a line a world: kind, effect, its held numbers, amplitudes, factors
+  std::string hash;        ///< SHA-256 of the key
+  std::size_t sealed = 0;  ///< worlds of the key
+  std::vector<ProofWorld> worlds;  ///< those that were judged, from the first
 };
 
 /// Makes a tank, its balls and sealed experiments in it (other steps than the diagnosis's, gusts

@@ -45,17 +45,20 @@ int prove_verb(const Arguments& arguments) {
   job.sealed = [](const std::string& hash) {
     std::cout << "sealed; SHA-256 of the key: " << hash << std::endl;
   };
+  const std::filesystem::path dir(job.diagnosis.out);
+  // The key stays closed until the last world is judged.
+  job.judged = [&](const Proof& so_far) {
+    write_atomically((dir / "proof.txt").string(), proof_text(so_far));
+    write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
+    write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
+  };
   const auto proof = prove(job);
   progress.clear();
   if (!proof) {
     std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
-  const std::filesystem::path dir(job.diagnosis.out);
-  write_atomically((dir / "proof.txt").string(), proof_text(*proof));
   write_atomically((dir / "key.txt").string(), proof->key);
-  write_atomically((dir / "proof.csv").string(), proof_csv(*proof));
-  write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(*proof));
   std::cout << proof_text(*proof) << std::flush;
   std::cerr << "results in " << job.diagnosis.out << "\n";
   return Exit::done;

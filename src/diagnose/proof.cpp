@@ -152,7 +152,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     sealed.push_back(seal(tank, effects, shapes, seed, w));
     out.key += std::to_string(w) + " " + key_text(sealed.back());
   }
-  out.hash = sha256(out.key);
+  out.hash = sha256(out.key), out.sealed = sealed.size();
   if (options.sealed) options.sealed(out.hash);
   DiagnosisOptions job = options.diagnosis;
   job.hold_out = 0;
@@ -190,6 +190,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
                   derived_seed(seed, kFurtherSeed + w), d, world);
     }
     out.worlds.push_back(std::move(world));
+    if (options.judged) options.judged(out);
   }
   return out;
 } catch (const Stopped&) {

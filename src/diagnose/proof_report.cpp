@@ -144,7 +144,9 @@ std::string proof_text(const Proof& proof) {
     }
     taken[{key_of(w), said_of(w)}] += 1;
   }
-  std::string out = "proof on " + std::to_string(proof.worlds.size()) +
+  std::string out = "proof on " +
+                    std::string(proof.worlds.size() < proof.sealed ? "the first " : "") +
+                    std::to_string(proof.worlds.size()) + " of " + std::to_string(proof.sealed) +
                     " sealed experiments\nSHA-256 of the key (key.txt): " + proof.hash + "\n\n";
   TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
   for (const auto& [name, r] : rates) {
