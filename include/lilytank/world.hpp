@@ -61,6 +61,9 @@ class World {
   World& operator=(World&&) noexcept;
   ~World();
 
+  /// Goes on from another state of the same model, as a new world would, but allocates nothing.
+  void go_on_from(const State& state);
+
   /// Advances by dt: forces, controllers, velocities and contacts, positions, damping. Returns
   /// diverged, and does nothing further, once a number is not finite or a body exceeds 20 m/s.
   RunStatus step();

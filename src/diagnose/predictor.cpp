@@ -61,24 +61,25 @@ struct Scratch {
   }
 };
 
-// The expected tank with any number of modules, and the state that its worlds begin from.
+// The expected tank with any number of modules.
 class Tanks {
  public:
   explicit Tanks(Model model) : model_(std::move(model)) {}
   struct Tank {
+    explicit Tank(Model of)
+        : model(std::move(of)), state(initial_state(model, 0)), world(model, state) {}
     Model model;
-    State state;
+    State state;  ///< to be filled in, and the world to go on from it
+    World world;
   };
-  const Tank& with(int modules) {
+  Tank& with(int modules) {
     auto found = tanks_.find(modules);
     if (found != tanks_.end()) return *found->second;
-    auto tank = std::make_unique<Tank>();
-    tank->model = model_;
-    tank->model.module.count = modules;
-    tank->model.start.layout = Layout::poses;
-    tank->model.start.poses.assign(static_cast<std::size_t>(modules), Pose{});
-    tank->state = initial_state(tank->model, 0);
-    return *tanks_.emplace(modules, std::move(tank)).first->second;
+    Model model = model_;
+    model.module.count = modules;
+    model.start.layout = Layout::poses;
+    model.start.poses.assign(static_cast<std::size_t>(modules), Pose{});
+    return *tanks_.emplace(modules, std::make_unique<Tank>(std::move(model))).first->second;
   }
 
  private:
@@ -146,8 +147,8 @@ class Filter {
   void step(int frame, double time) {
     const auto n = carried_.size();
     at_.resize(n);
-    const Tanks::Tank& tank = tanks_.with(static_cast<int>(n));
-    State state = tank.state;
+    Tanks::Tank& tank = tanks_.with(static_cast<int>(n));
+    State& state = tank.state;
     for (std::size_t i = 0; i < n; ++i) {
       const Carried& c = carried_[i];
       const Rot r = rotation(c.theta);
@@ -159,7 +160,8 @@ class Filter {
       at_.told[i] = (frame - c.begun) * dt_ >= options_.start ? 1 : 0;
     }
     state.step = std::llround(time / tank.model.dt);
-    World world(tank.model, std::move(state));
+    World& world = tank.world;
+    world.go_on_from(state);
     for (int k = 0; k < options_.substeps; ++k) {
       // An expected tank that diverges predicts rest: the next frame corrects it.
       if (world.step() == RunStatus::diverged) return;

@@ -105,10 +105,10 @@ HWY_INLINE FaceSum uniform_face(const Task& task, const FaceFrame& f) {
           hn::IfThenElse(mixed, each.moment, sum.moment)};
 }
 
-template <Gusts kGusts, FlowAt kAt>
+template <Gusts kGusts, FlowAt kAt, bool kDrawn = true>
 HWY_INLINE void sum_faces(const Task& task, const Modules& m, WrenchSum& out) {
   Spread spread;
-  if (kGusts == Gusts::moment_matched) spread.clear();
+  if (kGusts == Gusts::moment_matched && kDrawn) spread.clear();
   for (int face = 0; face < 4; ++face) {
     const FaceFrame f = face_frame(task, m, face);
     FaceSum sum;
@@ -117,10 +117,10 @@ HWY_INLINE void sum_faces(const Task& task, const Modules& m, WrenchSum& out) {
     else if (kGusts == Gusts::per_module)
       sum = kAt == FlowAt::centre ? uniform_face(task, f) : module_face(task, f);
     else
-      sum = matched_face<kAt>(task, f, face, spread);
+      sum = matched_face<kAt, kDrawn>(task, f, face, spread);
     add_face(f, sum, task.half, out);
   }
-  if (kGusts == Gusts::moment_matched) spread.draw(task, m, out);
+  if (kGusts == Gusts::moment_matched && kDrawn) spread.draw(task, m, out);
 }
 
 template <FlowAt kAt>
@@ -129,6 +129,8 @@ void sum_modules(const Task& task, const Modules& m, WrenchSum& out) {
     sum_faces<Gusts::per_module, kAt>(task, m, out);
   else if (task.settings.gusts == Gusts::per_point)
     sum_faces<Gusts::per_point, kAt>(task, m, out);
+  else if (task.settings.expected)
+    sum_faces<Gusts::moment_matched, kAt, false>(task, m, out);
   else
     sum_faces<Gusts::moment_matched, kAt>(task, m, out);
 }

@@ -103,21 +103,24 @@ HWY_INLINE Node node_of(const Task& task, const FaceFrame& f, const Water& u, Fl
   return n;
 }
 
-HWY_INLINE void add_node(const SegmentMoments& s, Float at, Float weight, FaceSum& sum,
-                         FaceCovariance& c) {
-  const Float square = hn::Mul(weight, s.square), nn = hn::Mul(weight, s.nn);
-  const Float nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
+HWY_INLINE void add_mean(const SegmentMoments& s, Float at, Float weight, FaceSum& sum) {
+  const Float square = hn::Mul(weight, s.square);
   sum.n = hn::Sub(sum.n, square);
   sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
   sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
+}
+
+HWY_INLINE void add_covariance(const SegmentMoments& s, Float at, Float weight, FaceCovariance& c) {
+  const Float nn = hn::Mul(weight, s.nn), nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
   c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
   c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
   c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
   c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
 }
 
-// In stages over the three nodes, whose chains the processor can then overlap.
-template <FlowAt kAt>
+// In stages over the three nodes, whose chains the processor can then overlap. Of an expected drag
+// nothing is drawn, so its covariance is not asked for.
+template <FlowAt kAt, bool kDrawn>
 HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, Spread& spread) {
   const Floats d;
   const Float zero = hn::Zero(d);
@@ -136,9 +139,11 @@ HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, 
     const Node& n = node[k];
     const Float A = hn::Add(n.wt, hn::Mul(n.b, n.mean));
     const Float weight = hn::Mul(hn::Set(d, task.settings.weights[k]), f.open);
-    add_node(segment_moments(moments[k], A, n.b, n.rho), hn::Set(d, places[k]), weight, sum, c);
+    const SegmentMoments s = segment_moments(moments[k], A, n.b, n.rho);
+    add_mean(s, hn::Set(d, places[k]), weight, sum);
+    if (kDrawn) add_covariance(s, hn::Set(d, places[k]), weight, c);
   }
-  spread.add(face, c, task.half);
+  if (kDrawn) spread.add(face, c, task.half);
   return sum;
 }
 

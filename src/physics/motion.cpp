@@ -218,6 +218,10 @@ bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
   return true;
 }
 
+void Motion::forget() {
+  impl_->searched = false;
+}
+
 std::span<const std::pair<int, int>> Motion::near_pairs(const Assemblies& assemblies,
                                                         double distance) {
   Impl& m = *impl_;

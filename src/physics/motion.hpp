@@ -36,6 +36,8 @@ class Motion {
   /// The span is valid until the next call. The search serves advance() as well, so poses must not
   /// change in between other than by settle().
   std::span<const std::pair<int, int>> near_pairs(const Assemblies& assemblies, double distance);
+  /// Forgets the search: poses are others.
+  void forget();
 
  private:
   struct Impl;

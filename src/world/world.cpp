@@ -158,6 +158,15 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
+void World::go_on_from(const State& state) {
+  Impl& w = *impl_;
+  w.state = state;
+  derive(*w.model, w.state, w.assemblies);
+  w.motion.forget();
+  w.events.clear();
+  w.status = RunStatus::ok, w.divergence = {}, w.tallies = {};
+}
+
 RunStatus World::step() {
   Impl& w = *impl_;
   if (w.status != RunStatus::ok) return w.status;

@@ -52,6 +52,17 @@ TEST(Memory, NothingIsAllocatedAfterTheFirstStep) {
   }
 }
 
+TEST(Memory, NothingIsAllocatedToGoOnFromAnotherState) {
+  const Model model = test::chain_scene(Clock::firmware);
+  World world(model, 5), other(model, 6);
+  for (int step = 0; step < 2000; ++step) world.step(), other.step();
+  world.go_on_from(other.state());
+  const std::int64_t before = calls;
+  world.go_on_from(other.state());
+  for (int step = 0; step < 200; ++step) ASSERT_EQ(world.step(), RunStatus::ok);
+  EXPECT_EQ(calls, before);
+}
+
 TEST(Memory, AWorldOfFifteenLiliesHoldsUnder100Kilobytes) {
   const Model model = test::chain_scene(Clock::firmware);
   const std::int64_t before = bytes;
