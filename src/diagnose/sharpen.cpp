@@ -7,10 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "analysis/linear.hpp"
-#include "analysis/text_table.hpp"
 #include "diagnose/diagnoser.hpp"
-#include "lilytank/random.hpp"
 
 namespace lilytank {
 namespace {
@@ -19,12 +16,10 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
 constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
-constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
 constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
 constexpr double kLeastOwn = 1;  // z of an effect by the scatter of experiments with it
-constexpr double kClear = 10;    // deviations of own scores
 
 // A distance between places, ranges by their logarithms.
 double far_apart(const std::vector<std::pair<std::string, double>>& a,
@@ -73,40 +68,6 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
     const bool same = other.effect >= 0 && effect(other).name == effect(f).name;
     return !same && other.gain > kNear * leading.front().gain;
   });
-}
-
-// The fingerprint about the amplitudes that were found, in the place of the one before.
-Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
-                                        const Judged& judged) {
-  return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
-                                   atlas_->calibrated(judged.observed.summary).point,
-                                   stage_name(f, judged.details));
-}
-
-// A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
-// numbers would lead astray. Knots that bodies hardly visit stay near nothing.
-Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
-                           const Vector& residual) const {
-  const Eigen::Index first = atlas_->named_numbers() + shape * kKnots;
-  const Eigen::MatrixXd own = fingerprint.first.middleRows(first, kKnots);
-  const Vector scores = residual.segment(first, kKnots);
-  const double error = 1 + kInexact * kInexact * scores.squaredNorm() / kKnots;
-  Eigen::MatrixXd normal = own.transpose() * own;
-  normal.diagonal().array() += error / (kUsual * kUsual);
-  return solve_symmetric(normal, Vector(own.transpose() * scores));
-}
-
-std::optional<Vector> Diagnoser::strong_by_own_scores(int effect, const Judged& judged) const {
-  const auto e = static_cast<std::size_t>(effect);
-  const Effect& of = atlas_->plan().effects[e];
-  if (!of.scored) return std::nullopt;
-  const auto first = static_cast<Eigen::Index>(atlas_->plan().first_of_effect(e));
-  const auto m = static_cast<Eigen::Index>(of.paths.size());
-  const Vector own = atlas_->uncalibrated(judged.observed.scores).segment(first, m);
-  const Vector z = own.cwiseQuotient(atlas_->deviations().segment(first, m));
-  const bool strong = own.cwiseAbs().maxCoeff() > kLearnedSize && z.norm() > kClear;
-  if (!strong || (!of.two_sided && own.minCoeff() < 0)) return std::nullopt;
-  return own;
 }
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
@@ -338,56 +299,6 @@ Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& ju
                                  const Vector& residual) {
   if (e.found.empty() || plain(naming, e, residual)) return e;
   return Sharpening(*this, naming, judged, residual).run();
-}
-
-const Effect& Diagnoser::effect(const EffectFit& f) const {
-  return atlas_->plan().effects[static_cast<std::size_t>(f.effect)];
-}
-
-std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
-                                                     const ScoreDetails& details) const {
-  if (effect.name == "local_flow") {
-    const StreamPlace& s = details.stream;
-    return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
-                   Eigen::Vector2d(s.speed_x, s.speed_y)};
-  }
-  const bool attracts = effect.name == "pair_attraction";
-  const double strength = attracts ? details.pair.strength : -details.pair.strength;
-  if (!(attracts || effect.name == "pair_repulsion") || !(strength > 0)) return std::nullopt;
-  return Scanned{{{effect.shape[0].first, details.pair.range}},
-                 Vector::Constant(1, strength / effect.sizes[0])};
-}
-
-Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
-  if (f.effect < 0) return effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]);
-  Effect out = effect(f);
-  if (out.name == "flow_pulsation") {
-    out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
-  }
-  if (const auto told = scanned(out, details)) out.shape = told->shape;
-  if (out.name == "heterogeneous_module") {
-    out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
-  }
-  return out;
-}
-
-// Experiments with pumps of nearly one frequency serve each other.
-std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& details) const {
-  if (f.effect < 0) return "shape " + std::to_string(f.shape);
-  const std::string out = "effect " + std::to_string(f.effect);
-  const std::string& name = effect(f).name;
-  if (name == "flow_pulsation") return out + " at " + fixed(details.pulsation, 1) + " Hz";
-  const auto told = scanned(effect(f), details);
-  if (!told) return out;
-  std::string place = name;
-  for (const auto& [path, value] : told->shape) place += " " + fixed(value, 4);
-  return place;
-}
-
-Fingerprint Diagnoser::shape_fingerprint(int s) {
-  return atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
-                             "shape " + std::to_string(s),
-                             derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s)));
 }
 
 }  // namespace lilytank
