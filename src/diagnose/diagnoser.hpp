@@ -62,15 +62,15 @@ class Diagnoser {
   ScorePlan plan(const Eigen::VectorXd& centre) const;
   Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
   bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;
-  Explanation sharpened(Naming& naming, Explanation e, const Judged& judged,
+  Explanation sharpened(Naming& naming, Explanation e, Judged& judged,
                         const Eigen::VectorXd& residual);
   class Sharpening;
   const Effect& effect(const EffectFit& fit) const;
-  /// The effect of this name as recordings tell it directly, with its amplitudes: a stream at its
-  /// place, a force between modules of its range.
+  /// The effect of this name as recordings tell it directly, with its amplitudes if they do: a
+  /// stream at its place, a force between modules of its range, vortices of their frequency.
   struct Scanned {
     std::vector<std::pair<std::string, double>> shape;
-    Eigen::VectorXd amplitudes;
+    std::optional<Eigen::VectorXd> amplitudes;
   };
   std::optional<Scanned> scanned(const Effect& effect, const ScoreDetails& details) const;
   /// With what recordings tell of it directly: the line of pumps, the module that differs, what is

@@ -72,6 +72,7 @@ void add_walls(std::vector<Effect>& all) {
   }
   Effect layer = one("wall_layer", "share", 0.6, "1", "radius");
   layer.shape = {{force("wall_layer", "thickness"), 0.02}};
+  layer.refine = {{force("wall_layer", "thickness"), "m", 0.005, 0.08, true, false}};
   layer.split = kOtherBody;
   all.push_back(layer);
 }
@@ -137,6 +138,7 @@ void add_noise(std::vector<Effect>& all) {
   for (const double frequency : {0.3, 0.8}) {
     Effect vortices = one("vortex_shedding", "coefficient", 0.8, "1", "lag");
     vortices.shape = {{force("vortex_shedding", "frequency"), frequency}};
+    vortices.refine = {{force("vortex_shedding", "frequency"), "Hz", 0.1, 3, true, false}};
     vortices.scored = false;
     all.push_back(vortices);
   }

@@ -42,12 +42,13 @@ Experiment open_tank(const ProofOptions& options) {
 }
 
 // A world's vector as a row, with what a regression says of it before.
-constexpr Eigen::Index kRowBegins = 11;
+constexpr Eigen::Index kRowBegins = 12;
 std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
   const StreamPlace& s = j.details.stream;
   std::vector<double> row{static_cast<double>(kept.effect),
                           static_cast<double>(j.observed.summary.size()),
                           j.details.pulsation,
+                          j.details.swinging,
                           static_cast<double>(j.details.heaviest),
                           s.x,
                           s.y,
@@ -63,10 +64,10 @@ std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
 Judged judged_of(const std::vector<double>& row) {
   Judged j;
   const auto summary = static_cast<Eigen::Index>(row[1]);
-  j.details = {row[2],
-               static_cast<int>(row[3]),
-               {row[4], row[5], row[6], row[7], row[8]},
-               {row[9], row[10]}};
+  j.details.pulsation = row[2], j.details.swinging = row[3];
+  j.details.heaviest = static_cast<int>(row[4]);
+  j.details.stream = {row[5], row[6], row[7], row[8], row[9]};
+  j.details.pair = {row[10], row[11]};
   const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
                                               static_cast<Eigen::Index>(row.size()) - kRowBegins);
   j.observed = {all.head(summary), all.tail(all.size() - summary)};

@@ -1,5 +1,6 @@
 // What is measured of an experiment: the list of effects, curves and numbers that scores are of.
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,13 @@ struct PairRange {
 /// Beside the vector, what a verdict needs of one experiment.
 struct ScoreDetails {
   double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
+  double swinging = 0;   ///< Hz, the clearest line across the slip; 0: none is clear
   int heaviest = 0;      ///< module that answers least
   StreamPlace stream;    ///< that raises the likelihood most
   PairRange pair;        ///< likewise
+  /// Ranges, times and lengths by path, where experiments with others than those of the catalogue
+  /// and of scans fit better.
+  std::map<std::string, double> refined;
 };
 
 }  // namespace lilytank

@@ -19,7 +19,11 @@ constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as 
 constexpr int kRivals = 3, kMostSharpened = 6, kMostCentred = 2;
 constexpr double kBeside = 0.5;  // of the spread of experiments, that the likeliest may be off
 constexpr std::size_t kMostMeetings = 3;
-constexpr double kLeastOwn = 1;  // z of an effect by the scatter of experiments with it
+constexpr double kFurther = 1.5;  // from one range to the next that is tried
+constexpr int kMostTries = 5;
+constexpr double kLeastFall = 4;    // of a doubt, that makes a range the better one
+constexpr double kCurveLeft = 0.4;  // of what was found, that a curve may be which is left
+constexpr double kLeastOwn = 1;     // z of an effect by the scatter of experiments with it
 
 // A distance between places, ranges by their logarithms.
 double far_apart(const std::vector<std::pair<std::string, double>>& a,
@@ -74,7 +78,7 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
 // experiments of its own strength.
 class Diagnoser::Sharpening {
  public:
-  Sharpening(Diagnoser& diagnoser, Naming& naming, const Judged& judged, const Vector& residual)
+  Sharpening(Diagnoser& diagnoser, Naming& naming, Judged& judged, const Vector& residual)
       : of_(diagnoser),
         naming_(naming),
         judged_(judged),
@@ -101,12 +105,8 @@ class Diagnoser::Sharpening {
       if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
     }
     Explanation e = explained();
-    for (int more = 0; more < kMostSharpened; ++more) {
-      const std::optional<EffectFit> next = next_after(e);
-      if (!next) break;
-      sharpen(*next);
-      e = explained();
-    }
+    e = settled(std::move(e));
+    if (refine(e)) e = settled(explained());
     return met(std::move(e));
   }
 
@@ -135,13 +135,66 @@ class Diagnoser::Sharpening {
     alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
   }
 
+  Explanation settled(Explanation e) {
+    for (int more = 0; more < kMostSharpened; ++more) {
+      const std::optional<EffectFit> next = next_after(e);
+      if (!next) break;
+      sharpen(*next);
+      e = explained();
+    }
+    return e;
+  }
+
+  // Where the likeliest name leaves something, its law may have another range, time or length than
+  // the experiments with it had. Each is sought up and down until it fits no better.
+  bool refine(const Explanation& e) {
+    const std::optional<EffectFit> name = likeliest(true);
+    const bool curve = std::any_of(e.found.begin(), e.found.end(),
+                                   [](const EffectFit& f) { return f.effect < 0; });
+    if (!name || !(curve || naming_.leaves_something(e))) return false;
+    bool better = false;
+    for (const FitParameter& p : of_.effect(*name).refine) {
+      if (!p.logarithmic) continue;
+      for (const double factor : {kFurther, 1 / kFurther}) {
+        bool further = false;
+        while (tries_ < kMostTries && fits_better(*name, p, factor)) further = true;
+        better = better || further;
+        if (further) break;
+      }
+    }
+    return better;
+  }
+
+  bool fits_better(const EffectFit& name, const FitParameter& p, double factor) {
+    tries_ += 1;
+    EffectFit f = name;
+    f.amplitudes = alone_.at(name_of(f)).amplitudes;
+    double now = 0;
+    for (const auto& [path, value] : of_.found_effect(f, judged_.details).shape) {
+      if (path == p.path) now = value;
+    }
+    const double next = std::clamp(now * factor, p.low, p.high);
+    if (next == now) return false;
+    const double doubt = alone_.at(name_of(f)).doubt;
+    const auto before = std::tuple(known_, alone_, home_, naming_, judged_.details.refined);
+    judged_.details.refined[p.path] = next;
+    home_[of_.effect(f).name] = name_of(f).first;
+    sharpen(f);
+    f.amplitudes = alone_.at(name_of(f)).amplitudes;
+    if (off_centre(f, kBeside)) sharpen(f);
+    if (alone_.at(name_of(f)).doubt < doubt - kLeastFall) return true;
+    std::tie(known_, alone_, home_, naming_, judged_.details.refined) = before;
+    return false;
+  }
+
   // Where its first experiments are to be.
   EffectFit begun(EffectFit f) {
     f.effect = name_of(f).first;
     if (f.shape >= 0) {
       f.amplitudes = of_.knots_of(f.shape, fingerprint(f), residual_);
-    } else if (const auto told = of_.scanned(of_.effect(f), judged_.details)) {
-      f.amplitudes = told->amplitudes;
+    } else if (const auto told = of_.scanned(of_.effect(f), judged_.details);
+               told && told->amplitudes) {
+      f.amplitudes = *told->amplitudes;
     } else if (const auto own = of_.strong_by_own_scores(f.effect, judged_)) {
       f.amplitudes = *own;
     }
@@ -186,6 +239,7 @@ class Diagnoser::Sharpening {
     }
     if (!likely || likely->shape >= 0 || is_found(*likely, e)) return e;
     Explanation other = naming.explain(residual_, {*likely});
+    if (leaves_curve(naming, other) && !naming.leaves_something(e)) return e;
     return other.doubt < e.doubt ? other : e;
   }
 
@@ -197,6 +251,14 @@ class Diagnoser::Sharpening {
       e.found.clear(), e.misfit = nothing_, e.share_left = 1;
     }
     return e;
+  }
+
+  // Whether a curve is left that is not much weaker than what was found: more than what a
+  // fingerprint is wrong by.
+  bool leaves_curve(const Naming& naming, const Explanation& e) const {
+    double largest = 0;
+    for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
+    return e.left_shape.z > std::max(naming.shape_threshold(), kCurveLeft * largest);
   }
 
   bool is_found(const EffectFit& f, const Explanation& e) const {
@@ -286,16 +348,17 @@ class Diagnoser::Sharpening {
 
   Diagnoser& of_;
   Naming& naming_;
-  const Judged& judged_;
+  Judged& judged_;
   const Vector& residual_;
   double nothing_;                     // squared distance of nothing, by the scatter of nulls
   std::map<std::string, int> home_;    // the effect that stands for all of a name
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
+  int tries_ = 0;
 };
 
-Explanation Diagnoser::sharpened(Naming& naming, Explanation e, const Judged& judged,
+Explanation Diagnoser::sharpened(Naming& naming, Explanation e, Judged& judged,
                                  const Vector& residual) {
   if (e.found.empty() || plain(naming, e, residual)) return e;
   return Sharpening(*this, naming, judged, residual).run();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/median.hpp"
 #include "diagnose/scatter.hpp"
 #include "text/number.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kFastest = 6;        // Hz, of pulsation
 constexpr double kOversampled = 1.5;  // frequencies in a line's width
 constexpr int kPiece = 512;           // frames of a piece of a module's series
+constexpr int kAside = 6;             // lines on either side that a line is compared with
+constexpr double kClear = 8;          // deviations, of a line that is no chance
 
 constexpr std::size_t kBank = 16;
 
@@ -69,6 +72,7 @@ class Spectrum final : public ScatterPart {
   }
   void tell(std::vector<double>& values, ScoreDetails* details) const override {
     values.push_back(line(details));
+    if (details != nullptr) details->swinging = swinging();
     double all = 1e-300, most = 0;
     for (const double p : swing_) all += p / kSwings, most = std::max(most, p);
     values.push_back(std::log(std::max(most, 1e-300) / all));
@@ -102,7 +106,36 @@ class Spectrum final : public ScatterPart {
       add_powers(piece, radians, power);
       for (std::size_t k = 0; k < kBank; ++k) swing_[first + k] += power[k];
     }
-    piece.clear();
+    piece.clear(), whole_ += 1;
+  }
+
+  // What every line across the slip has more than those about it, as a share.
+  std::vector<double> beyond() const {
+    std::vector<double> out;
+    for (int k = 0; k < kSwings; ++k) {
+      std::vector<double> about;
+      for (int j = std::max(0, k - kAside); j <= std::min(kSwings - 1, k + kAside); ++j) {
+        if (std::abs(j - k) > 1) about.push_back(swing_[static_cast<std::size_t>(j)]);
+      }
+      const double usual = std::max(median(std::move(about)), 1e-300);
+      out.push_back(swing_[static_cast<std::size_t>(k)] / usual - 1);
+    }
+    return out;
+  }
+
+  // The clearest of them, between its neighbours by what these have more as well. Powers of many
+  // pieces scatter by one over the root of their number.
+  double swinging() const {
+    const std::vector<double> more = beyond();
+    const auto most = std::max_element(more.begin(), more.end());
+    if (!(*most * std::sqrt(whole_) > kClear)) return 0;
+    const auto best = static_cast<int>(most - more.begin());
+    double sum = 0, place = 0;
+    for (int k = std::max(0, best - 1); k <= std::min(kSwings - 1, best + 1); ++k) {
+      const double own = std::max(0.0, more[static_cast<std::size_t>(k)]);
+      sum += own, place += own * frequency(k);
+    }
+    return place / sum;
   }
 
   // The strongest line of the flow's gain over the mean.
@@ -133,6 +166,7 @@ class Spectrum final : public ScatterPart {
   int recording_ = -1;
   std::vector<std::vector<double>> series_, pieces_;
   std::vector<double> swing_;
+  double whole_ = 0;  // pieces that swing_ is the sum of
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 // What is suspected: an effect as recordings tell it directly, where its experiments are to be.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -28,6 +29,9 @@ std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
     return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
                    Eigen::Vector2d(s.speed_x, s.speed_y)};
   }
+  if (effect.name == "vortex_shedding" && details.swinging > 0) {
+    return Scanned{{{effect.shape[0].first, details.swinging}}, std::nullopt};
+  }
   const bool attracts = effect.name == "pair_attraction";
   const double strength = attracts ? details.pair.strength : -details.pair.strength;
   if (!(attracts || effect.name == "pair_repulsion") || !(strength > 0)) return std::nullopt;
@@ -42,6 +46,10 @@ Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) 
     out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
   }
   if (const auto told = scanned(out, details)) out.shape = told->shape;
+  for (auto& [path, value] : out.shape) {
+    const auto better = details.refined.find(path);
+    if (better != details.refined.end()) value = better->second;
+  }
   if (out.name == "heterogeneous_module") {
     out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
   }
@@ -54,10 +62,13 @@ std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& detail
   const std::string out = "effect " + std::to_string(f.effect);
   const std::string& name = effect(f).name;
   if (name == "flow_pulsation") return out + " at " + fixed(details.pulsation, 1) + " Hz";
-  const auto told = scanned(effect(f), details);
-  if (!told) return out;
+  const auto shape = found_effect(f, details).shape;
+  const bool own = std::any_of(shape.begin(), shape.end(), [&](const auto& one) {
+    return details.refined.count(one.first) > 0;
+  });
+  if (!own && !scanned(effect(f), details)) return out;
   std::string place = name;
-  for (const auto& [path, value] : told->shape) place += " " + fixed(value, 4);
+  for (const auto& [path, value] : shape) place += " " + fixed(value, 4);
   return place;
 }
 
