@@ -164,6 +164,21 @@ TEST(Scores, TellTheRangeOfAForceBetweenModules) {
   EXPECT_EQ(find_pair_range(plan_for(model, nothing), nothing).strength, 0);
 }
 
+// The frequency of vortices to a tenth; none where there are none.
+TEST(Scores, TellTheFrequencyOfVortices) {
+  const Model model = drifting(15);
+  const std::vector<std::string> paths{"forces.vortex_shedding.coefficient",
+                                       "forces.vortex_shedding.frequency"};
+  const auto shedding =
+      filmed(with_parameters(model, paths, std::vector<double>{1.2, 1.13}), 60, 5);
+  ScoreDetails found;
+  score(plan_for(model, shedding), shedding, &found);
+  EXPECT_NEAR(found.swinging, 1.13, 0.1);
+  const auto nothing = filmed(model, 60, 5);
+  score(plan_for(model, nothing), nothing, &found);
+  EXPECT_EQ(found.swinging, 0);
+}
+
 // Same recordings, same bits.
 TEST(Scores, AreRepeatable) {
   const Model model = drifting(5);
