@@ -25,9 +25,8 @@ constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;  // one over the square of a second order that is expected
-// Of a fingerprint about found amplitudes: experiments, how far from these as a share of them, and
-// one over the square of an error of the slopes that is expected.
-constexpr int kAbout = 10;
+// Of a fingerprint about found amplitudes: how far its experiments are from these as a share of
+// them, and one over the square of an error of the slopes that is expected.
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 constexpr double kFarOff = 100;     // deviations
 constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
@@ -70,9 +69,9 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
 }
 
 // Amplitudes about found ones, in pairs opposite each other.
-Matrix about(const Vector& amplitudes, bool two_sided, std::uint64_t seed) {
-  Matrix out(kAbout, amplitudes.size());
-  for (int i = 0; i < kAbout; ++i) {
+Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
+  Matrix out(count, amplitudes.size());
+  for (int i = 0; i < count; ++i) {
     for (Eigen::Index c = 0; c < out.cols(); ++c) {
       const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
       out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
@@ -296,19 +295,23 @@ Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, cons
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
                                      const Effect& effect, const Vector& calibrated,
-                                     const std::string& name) {
+                                     const std::string& name, int experiments) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
   const Vector point =
       (calibrated - from.moved(amplitudes)).cwiseMax(bounds.low).cwiseMin(bounds.high);
-  if (const Local* known = learned_near(name, amplitudes, point)) return known->fingerprint;
+  if (const Local* known = learned_near(name, amplitudes, point, experiments)) {
+    return known->fingerprint;
+  }
   // By what is simulated, not by who asked first.
   Fnv place;
   place.add(std::span(amplitudes.data(), static_cast<std::size_t>(m)));
   place.add(std::span(point.data(), static_cast<std::size_t>(point.size())));
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
-  const Answers made = answers(effect, "sharp " + name + " " + hex(place.value()), point,
-                               about(amplitudes, effect.two_sided, seed), seed);
+  std::string stage = "sharp " + name + " " + hex(place.value());
+  if (experiments != kAbout) stage += " of " + std::to_string(experiments);
+  const Answers made =
+      answers(effect, stage, point, about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
@@ -328,18 +331,19 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
                 std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
   out.experiments = static_cast<int>(off.rows());
-  local_[name].push_back({point, out});
+  local_[name].push_back({point, out, experiments});
   return out;
 }
 
 // The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
 const Atlas::Local* Atlas::learned_near(const std::string& name, const Vector& amplitudes,
-                                        const Vector& point) const {
+                                        const Vector& point, int experiments) const {
   const auto all = local_.find(name);
   if (all == local_.end()) return nullptr;
   const Local* nearest = nullptr;
   double least = 1;
   for (const Local& one : all->second) {
+    if (one.experiments < experiments) continue;
     const Vector& at = one.fingerprint.about;
     const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();
     const double off = solve_lower(spread_, point - one.point).cwiseAbs().maxCoeff();

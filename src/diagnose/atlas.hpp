@@ -59,6 +59,8 @@ class Atlas {
   Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Eigen::VectorXd& centre,
         const Eigen::MatrixXd& spread, const AtlasOptions& options);
 
+  static constexpr int kAbout = 10;  ///< experiments of a fingerprint about found amplitudes
+
   const ScorePlan& plan() const { return plan_; }
   Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
   /// Parameters (fitted scale) that explain a summary best.
@@ -81,10 +83,11 @@ class Atlas {
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
   /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
   /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
-  /// that was learned there before serves again. `name`: of the effect or shape, its own.
+  /// that was learned there before, by no fewer experiments (an even number), serves again.
+  /// `name`: of the effect or shape, its own.
   Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
                                 const Effect& effect, const Eigen::VectorXd& calibrated,
-                                const std::string& name);
+                                const std::string& name, int experiments = kAbout);
   /// Mean residual of `experiments` simulated with an effect at these amplitudes and parameters;
   /// kept as `stage`.
   Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
@@ -107,9 +110,10 @@ class Atlas {
   struct Local {
     Eigen::VectorXd point;
     Fingerprint fingerprint;
+    int experiments = kAbout;  ///< that were asked for
   };
   const Local* learned_near(const std::string& name, const Eigen::VectorXd& amplitudes,
-                            const Eigen::VectorXd& point) const;
+                            const Eigen::VectorXd& point, int experiments) const;
   Eigen::Index summary_numbers() const;
   Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
   Stages& stages_;

@@ -84,7 +84,7 @@ class Diagnoser {
   Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
                            const Eigen::VectorXd& residual) const;
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
-                               const Judged& judged);
+                               const Judged& judged, int experiments = Atlas::kAbout);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;

@@ -19,8 +19,9 @@ constexpr int kMostPasses = 4;
 // those about found amplitudes better; of a curve six straight pieces are off by more.
 constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
-// Of a curve's gain: it may bend to what names leave, less so if both are known where they are.
-constexpr double kCurve = 0.85, kCurveAbout = 0.95;
+// Share of a curve's gain that does not count: it may bend to what names leave, the less the better
+// both are known.
+constexpr double kBent = 0.15, kBentAbout = 0.5;  // the second: by one experiment
 // Shares of a distance that an explanation may not leave: where something is left, and where that
 // is as many times what nulls have.
 constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFar = 2;
@@ -76,7 +77,7 @@ bool Naming::within_curve(const Known& of, const std::vector<EffectFit>& found) 
 double Naming::floor_beside(const std::vector<EffectFit>& found) const {
   double floor = 0;
   for (const EffectFit& f : found) {
-    floor = std::max(floor, (f.shape >= 0 ? kRough : f.about ? kInexactAbout : kInexact) * f.z);
+    floor = std::max(floor, (f.shape >= 0 ? kRough : f.about > 0 ? kInexactAbout : kInexact) * f.z);
   }
   return floor;
 }
@@ -145,7 +146,8 @@ std::vector<Naming::Candidate> Naming::candidates(const Together& set, EffectFit
 }
 
 double Naming::worth_of(double gain, const EffectFit& of) const {
-  const double share = of.shape < 0 ? 1 : of.about ? kCurveAbout : kCurve;
+  const double bent = of.about > 0 ? kBentAbout / of.about : kBent;
+  const double share = of.shape < 0 ? 1 : 1 - bent;
   return share * gain - kAmplitudePrice * static_cast<double>(of.amplitudes.size());
 }
 

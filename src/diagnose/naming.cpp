@@ -144,7 +144,8 @@ std::size_t Naming::place_of(int effect, int shape) const {
 EffectFit Naming::fitted(const Known& of, const Answer& answer, const Vector& data) {
   AnswerFit fit = fit_answer(answer, data);
   EffectFit out;
-  out.effect = of.effect, out.shape = of.shape, out.about = of.source.local();
+  out.effect = of.effect, out.shape = of.shape,
+  out.about = of.source.local() ? of.source.experiments : 0;
   out.gain = data.squaredNorm() - fit.left.squaredNorm();
   out.at_reach = out.gain > 0 && answer.at_reach(fit.amplitudes);
   out.amplitudes = std::move(fit.amplitudes);

@@ -15,7 +15,7 @@ struct EffectFit {
   Eigen::VectorXd amplitudes;  ///< in units of the effect's sizes
   Eigen::VectorXd moved;  ///< how far it moves a calibration that knows nothing of it, in its scale
   double gain = 0;        ///< fall of the squared distance
-  bool about = false;     ///< by a fingerprint about found amplitudes
+  int about = 0;          ///< experiments of a fingerprint about found amplitudes; 0: learned
   bool at_reach = false;  ///< as far as its fingerprint holds: the truth may be beyond
   double z = 0;           ///< deviations of a normal number with the same probability
 };

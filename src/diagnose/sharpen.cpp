@@ -21,6 +21,9 @@ constexpr double kBeside = 0.5;  // of the spread of experiments, that the likel
 constexpr std::size_t kMostMeetings = 3;
 constexpr double kFurther = 1.5;  // from one range to the next that is tried
 constexpr int kMostTries = 5;
+constexpr double kNamesFirst = 30;  // of a doubt
+constexpr double kClose = 60;       // likewise
+constexpr int kMany = 30;           // experiments that decide a close call
 constexpr double kLeastFall = 4;    // of a doubt, that makes a range the better one
 constexpr double kCurveLeft = 0.4;  // of what was found, that a curve may be which is left
 constexpr double kLeastOwn = 1;     // z of an effect by the scatter of experiments with it
@@ -107,11 +110,13 @@ class Diagnoser::Sharpening {
     Explanation e = explained();
     e = settled(std::move(e));
     if (refine(e)) e = settled(explained());
+    if (close_call()) e = settled(explained());
     return met(std::move(e));
   }
 
  private:
   using Name = std::pair<int, int>;  // effect and shape
+  using Suspect = std::pair<const Name, Naming::Alone>;
   Name name_of(const EffectFit& f) const {
     if (f.effect < 0) return {f.effect, f.shape};
     const auto home = home_.find(of_.effect(f).name);
@@ -126,10 +131,10 @@ class Diagnoser::Sharpening {
                          : of_.shape_fingerprint(f.shape);
   }
 
-  void sharpen(EffectFit f) {
+  void sharpen(EffectFit f, int experiments = Atlas::kAbout) {
     if (known_.count(name_of(f)) == 0) f = begun(f);
     const Fingerprint from = fingerprint(f);
-    const Fingerprint to = of_.fingerprint_near(f, from, judged_);
+    const Fingerprint to = of_.fingerprint_near(f, from, judged_, experiments);
     known_[name_of(f)] = to;
     naming_.sharpen(f, to);
     alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
@@ -163,6 +168,25 @@ class Diagnoser::Sharpening {
       }
     }
     return better;
+  }
+
+  // Where the likeliest name and the likeliest curve are about as likely, more experiments with
+  // each are to tell: by ten a doubt is known to some ten only.
+  bool close_call() {
+    const Suspect *name = nullptr, *curve = nullptr;
+    for (const Suspect& one : alone_) {
+      const Suspect*& best = one.first.first < 0 ? curve : name;
+      if (best == nullptr || one.second.doubt < best->second.doubt) best = &one;
+    }
+    if (name == nullptr || curve == nullptr) return false;
+    if (std::fabs(name->second.doubt - curve->second.doubt) > kClose) return false;
+    for (const Name& of : {name->first, curve->first}) {
+      EffectFit f;
+      std::tie(f.effect, f.shape) = of;
+      f.amplitudes = alone_.at(of).amplitudes;
+      sharpen(f, kMany);
+    }
+    return true;
   }
 
   bool fits_better(const EffectFit& name, const FitParameter& p, double factor) {
@@ -201,11 +225,13 @@ class Diagnoser::Sharpening {
     return f;
   }
 
-  // What alone, by its own scatter, is most likely there.
+  // What alone, by its own scatter, is most likely there. The scatter of ten experiments leaves a
+  // doubt uncertain, and a curve has more ways to be near: names come first.
   std::optional<EffectFit> likeliest(bool effects_only = false) const {
-    const auto least = [&](const auto& a, const auto& b) {
-      return a.second.doubt < b.second.doubt;
+    const auto doubt = [](const auto& one) {
+      return one.second.doubt + (one.first.first < 0 ? kNamesFirst : 0);
     };
+    const auto least = [&](const auto& a, const auto& b) { return doubt(a) < doubt(b); };
     std::map<Name, Naming::Alone> those = alone_;
     if (effects_only) {
       std::erase_if(those, [](const auto& one) { return one.first.first < 0; });
@@ -218,13 +244,19 @@ class Diagnoser::Sharpening {
     return out;
   }
 
-  // Judged by the scatter of the experiments with what is likeliest, which are to be where it is.
+  // Judged by the scatter of the experiments with what is likeliest. These are to be where it is,
+  // and so are those of the likeliest name: off it, a curve would seem to fit better.
   Explanation explained() {
-    std::optional<EffectFit> likely = likeliest();
-    for (int pass = 0; likely && off_centre(*likely, kBeside) && pass < kMostCentred; ++pass) {
-      sharpen(*likely);
-      likely = likeliest();
+    for (int pass = 0; pass < kMostCentred; ++pass) {
+      bool moved = false;
+      for (const bool effects_only : {false, true}) {
+        const std::optional<EffectFit> likely = likeliest(effects_only);
+        if (!likely || !off_centre(*likely, kBeside)) continue;
+        sharpen(*likely), moved = true;
+      }
+      if (!moved) break;
     }
+    const std::optional<EffectFit> likely = likeliest();
     if (likely) naming_.loosen(known_[name_of(*likely)].scatter);
     return explained_by(naming_);
   }

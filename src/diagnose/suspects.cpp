@@ -80,10 +80,10 @@ Fingerprint Diagnoser::shape_fingerprint(int s) {
 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
-                                        const Judged& judged) {
+                                        const Judged& judged, int experiments) {
   return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
                                    atlas_->calibrated(judged.observed.summary).point,
-                                   stage_name(f, judged.details));
+                                   stage_name(f, judged.details), experiments);
 }
 
 // A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
