@@ -71,15 +71,7 @@ TEST(SmallTank, IsDiagnosed) {
   const Diagnosis pumps = of(with("forces.flow_pulsation.share", 0.25), 41);
   ASSERT_EQ(pumps.verdict, Verdict::missing) << diagnosis_text(pumps);
   EXPECT_EQ(pumps.findings.front().effect, "flow_pulsation") << diagnosis_text(pumps);
-  // Vortices of another frequency than the catalogue's, eddies that live as long as none of its.
-  const Model shedding =
-      with_parameters(small_tank(),
-                      std::vector<std::string>{"forces.vortex_shedding.coefficient",
-                                               "forces.vortex_shedding.frequency"},
-                      std::vector<double>{0.8, 1.15});
-  const Diagnosis vortices = of(shedding, 71);
-  ASSERT_EQ(vortices.verdict, Verdict::missing) << diagnosis_text(vortices);
-  EXPECT_EQ(vortices.findings.front().effect, "vortex_shedding") << diagnosis_text(vortices);
+  // Eddies that live as long as none of the catalogue's.
   const Model swirling = with_parameters(
       small_tank(),
       std::vector<std::string>{"forces.correlated_gusts.share", "forces.correlated_gusts.time",
