@@ -121,7 +121,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "15 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "16 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -168,7 +168,7 @@ ScorePlan Diagnoser::plan(const Vector& centre) const {
     longest = std::max(longest, r.frames / r.rate);
     modules = std::max(modules, static_cast<int>(r.tracks.size()));
   }
-  p.shapes = shape_catalogue(setup_.model, longest);
+  p.shapes = shape_catalogue(p.model, longest);
   p.rate = setup_.training.front().rate, p.modules = std::max(modules, setup_.shapes[0].bodies);
   return p;
 }
