@@ -10,8 +10,10 @@ namespace lilytank {
 struct NeighbourQuery;
 
 /// For every body, the bodies whose centres are nearer than a distance: bits for few bodies, lists
-/// from a uniform grid for many, with the same result. Float32 and vector code; a pair that misses
-/// the distance by a few micrometres may be listed too, so users test what they need for
+/// for many, with the same result. Lists are found on a uniform grid, for a distance that is larger
+/// by a margin, and serve all searches until bodies have moved by that margin; what is asked of
+/// them is tested anew, so no result depends on the age of a list. Float32 and vector code; a pair
+/// that misses the distance by a few micrometres may be told too, so users test what they need for
 /// themselves.
 class Neighbours {
  public:
@@ -29,15 +31,15 @@ class Neighbours {
     if (bodies_ <= kFew)
       each_bit(bits_[i] >> i >> 1 << i << 1, use);
     else
-      for (int k = begin_[i]; k < begin_[i + 1]; ++k) use(who_[k]);
+      each_listed(i, above_[i], use);
   }
-  /// The same for all bodies near body i, without i itself; not to be called from `use`.
+  /// The same for all bodies near body i, without i itself.
   template <class Use>
-  void around(int i, Use&& use) {
+  void around(int i, Use&& use) const {
     if (bodies_ <= kFew)
       each_bit(bits_[i], use);
     else
-      for (const int j : scan_around(i)) use(j);
+      each_listed(i, begin_[i], use);
   }
   /// The distance of the last search, m.
   double distance() const { return distance_; }
@@ -47,8 +49,18 @@ class Neighbours {
   static void each_bit(std::uint64_t bits, Use&& use) {
     for (; bits != 0; bits &= bits - 1) use(std::countr_zero(bits));
   }
-  void search_grid();
-  std::span<const int> scan_around(int i);
+  // Those listed for body i from place k on that are near it now.
+  template <class Use>
+  void each_listed(int i, int k, Use& use) const {
+    const float x = x_[i], y = y_[i];
+    for (; k < begin_[i + 1]; ++k) {
+      const int j = who_[k];
+      const float dx = x_[j] - x, dy = y_[j] - y;
+      if (dx * dx + dy * dy < reach2_) use(j);
+    }
+  }
+  bool lists_serve() const;
+  void make_lists();
   NeighbourQuery query() const;
   void sort_into_cells();
   int cell_of(float v) const;
@@ -56,16 +68,20 @@ class Neighbours {
   int bodies_;
   float extent_;
   double distance_ = 0;
-  int cells_ = 1;                     // per side
-  float per_cell_ = 0;                // cells per metre
-  std::vector<float> own_x_, own_y_;  // in order of bodies
-  std::vector<float> x_, y_;          // in order of cells, padded by one vector
-  std::vector<int> id_;               // the bodies in that order
-  std::vector<int> column_, row_;     // cell of each body
-  std::vector<int> start_;            // where each cell begins in the order of cells
-  std::vector<int> begin_, who_;      // above body i: who_[begin_[i], begin_[i + 1])
-  std::vector<int> found_;            // of scan_around()
-  std::vector<std::uint64_t> bits_;
+  float reach2_ = 0;                 // m^2, of the last search, rounding allowed for
+  std::vector<float> x_, y_;         // in order of bodies, padded by one vector
+  std::vector<std::uint64_t> bits_;  // [i] bit j: body j is near body i
+  // For many bodies: lists, and the places for which they were made.
+  float listed_ = -1;                     // m, distance of the lists; negative: there are none
+  std::vector<float> then_x_, then_y_;    // in order of bodies
+  std::vector<int> begin_, who_, above_;  // near body i: who_[begin_[i], begin_[i + 1]), ascending;
+                                          // above_[i]: where those above i begin
+  int cells_ = 1;                         // per side
+  float per_cell_ = 0;                    // cells per metre
+  std::vector<float> cell_x_, cell_y_;    // in order of cells, padded by one vector
+  std::vector<int> id_;                   // the bodies in that order
+  std::vector<int> column_, row_;         // cell of each body
+  std::vector<int> start_;                // where each cell begins in the order of cells
 };
 
 }  // namespace lilytank
