@@ -1,0 +1,127 @@
+// Further experiments with what was found: other ranges, more of them, several effects at once.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "diagnose/sharpening.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr std::size_t kMostMeetings = 3;
+constexpr double kFurther = 1.5;  // from one range to the next that is tried
+constexpr int kMostTries = 5;
+constexpr double kClose = 60;     // of a doubt
+constexpr int kMany = 30;         // experiments that decide a close call
+constexpr double kLeastFall = 4;  // of a doubt, that makes a range the better one
+
+}  // namespace
+
+bool Diagnoser::Sharpening::refine(const Explanation& e) {
+  const std::optional<EffectFit> name = likeliest(true);
+  const bool curve =
+      std::any_of(e.found.begin(), e.found.end(), [](const EffectFit& f) { return f.effect < 0; });
+  if (!name || !(curve || naming_.leaves_something(e))) return false;
+  bool better = false;
+  for (const FitParameter& p : of_.effect(*name).refine) {
+    if (!p.logarithmic) continue;
+    for (const double factor : {kFurther, 1 / kFurther}) {
+      bool further = false;
+      while (tries_ < kMostTries && fits_better(*name, p, factor)) further = true;
+      better = better || further;
+      if (further) break;
+    }
+  }
+  return better;
+}
+
+bool Diagnoser::Sharpening::close_call() {
+  const Suspect *name = nullptr, *curve = nullptr;
+  for (const Suspect& one : alone_) {
+    const Suspect*& best = one.first.first < 0 ? curve : name;
+    if (best == nullptr || one.second.doubt < best->second.doubt) best = &one;
+  }
+  if (name == nullptr || curve == nullptr) return false;
+  if (std::fabs(name->second.doubt - curve->second.doubt) > kClose) return false;
+  for (const Name& of : {name->first, curve->first}) {
+    EffectFit f;
+    std::tie(f.effect, f.shape) = of;
+    f.amplitudes = alone_.at(of).amplitudes;
+    sharpen(f, kMany);
+  }
+  return true;
+}
+
+bool Diagnoser::Sharpening::fits_better(const EffectFit& name, const FitParameter& p,
+                                        double factor) {
+  tries_ += 1;
+  EffectFit f = name;
+  f.amplitudes = alone_.at(name_of(f)).amplitudes;
+  double now = 0;
+  for (const auto& [path, value] : of_.found_effect(f, judged_.details).shape) {
+    if (path == p.path) now = value;
+  }
+  const double next = std::clamp(now * factor, p.low, p.high);
+  if (next == now) return false;
+  const double doubt = alone_.at(name_of(f)).doubt;
+  const auto before = std::tuple(known_, alone_, home_, naming_, judged_.details.refined);
+  judged_.details.refined[p.path] = next;
+  home_[of_.effect(f).name] = name_of(f).first;
+  sharpen(f);
+  f.amplitudes = alone_.at(name_of(f)).amplitudes;
+  if (off_centre(f, kBeside)) sharpen(f);
+  if (alone_.at(name_of(f)).doubt < doubt - kLeastFall) return true;
+  std::tie(known_, alone_, home_, naming_, judged_.details.refined) = before;
+  return false;
+}
+
+Explanation Diagnoser::Sharpening::met(Explanation e) {
+  std::set<std::string> told;
+  while (e.found.size() > 1 && told.size() < kMostMeetings) {
+    std::vector<EffectFit> found = e.found;
+    std::sort(found.begin(), found.end(),
+              [this](const EffectFit& a, const EffectFit& b) { return name_of(a) < name_of(b); });
+    std::string name;
+    for (const EffectFit& f : found) {
+      name += (name.empty() ? "" : ", ") + of_.stage_name(f, judged_.details);
+    }
+    const bool camera = std::any_of(found.begin(), found.end(), [&](const EffectFit& f) {
+      return of_.found_effect(f, judged_.details).camera();
+    });
+    if (camera || !told.insert(name).second) break;
+    const Fingerprint at_once = simulated(found, name);
+    Naming both = naming_;
+    both.add_meeting(found, at_once.base, at_once.experiments);
+    // Without their scatter if it does not make them likelier.
+    naming_ = both;
+    both.loosen(at_once.scatter);
+    Explanation loose = explained_by(both);
+    if (loose.doubt <= e.doubt) {
+      naming_ = std::move(both), e = std::move(loose);
+    } else {
+      e = explained_by(naming_);
+    }
+  }
+  return e;
+}
+
+Fingerprint Diagnoser::Sharpening::simulated(const std::vector<EffectFit>& found,
+                                             const std::string& name) {
+  std::vector<Effect> effects;
+  std::vector<Fingerprint> each;
+  std::vector<Vector> at;
+  for (const EffectFit& f : found) {
+    effects.push_back(of_.found_effect(f, judged_.details)), each.push_back(fingerprint(f)),
+        at.push_back(f.amplitudes);
+  }
+  const Fingerprint sum = together(each, at);
+  Fingerprint out =
+      of_.atlas_->fingerprint_about(sum.about, sum, together(effects),
+                                    of_.atlas_->calibrated(judged_.observed.summary).point, name);
+  out.base = out.at(sum.about), out.about = sum.about;
+  return out;
+}
+
+}  // namespace lilytank
