@@ -18,9 +18,11 @@ constexpr Parameter kParameters[] = {
 void load_block(const Kinematics& k, int first, int count, bool shadowing, DragBlock& block) {
   const auto load = [&](std::span<const double> from, float* to) {
     for (int i = 0; i < count; ++i) to[i] = static_cast<float>(from[first + i]);
+    std::fill(to + count, to + kBulkBodies, 0.0f);
   };
   load(k.x, block.x), load(k.y, block.y), load(k.c, block.c), load(k.s, block.s);
   load(k.vx, block.vx), load(k.vy, block.vy), load(k.omega, block.omega);
+  std::fill_n(block.covered, kBulkBodies, std::uint8_t{0});
   if (shadowing) std::copy_n(&k.covered[first], count, block.covered);
 }
 
@@ -45,7 +47,7 @@ class FaceDrag final : public ForceTerm {
         p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
     for (int first = 0; first < k.modules; first += kBulkBodies) {
       const int count = std::min(kBulkBodies, k.modules - first);
-      DragBlock block{};
+      DragBlock block;
       DragSums sums;
       load_block(k, first, count, model.module.shadowing, block);
       // Water that moves and turns faster is a module that does so slower.

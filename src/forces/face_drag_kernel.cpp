@@ -155,9 +155,11 @@ void drag(const DragSettings& settings, const std::uint32_t counter[4], const st
   const Lookup field(*settings.field);
   alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
   const bool drawn = settings.gusty && !settings.expected;
-  if (!drawn) std::fill(z, z + 4 * kBulkBodies, 0.0f);
+  if (drawn)
+    normals_of_all(counter, key, numbers(settings), z);
+  else
+    std::fill(z, z + 4 * kBulkBodies, 0.0f);
   for (int i = 0; i < kBulkBodies; i += static_cast<int>(hn::Lanes(d))) {
-    if (drawn) normals_of(counter, key, static_cast<std::uint32_t>(i), numbers(settings), z + i);
     const Modules m{hn::Load(d, block.x + i),    hn::Load(d, block.y + i),
                     hn::Load(d, block.c + i),    hn::Load(d, block.s + i),
                     hn::Load(d, block.vx + i),   hn::Load(d, block.vy + i),
@@ -205,6 +207,10 @@ DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
     second += square, fourth += square * square;
   }
   squares = static_cast<float>(second);
+  if (gusts == Gusts::moment_matched) set_nodes(second, fourth);
+}
+
+void DragSettings::set_nodes(double second, double fourth) {
   const double square = second > 0 ? fourth / second : 0;
   const double beside = square > 0 ? 0.5 * second / square : 0, way = std::sqrt(square);
   nodes[0] = static_cast<float>(-way), nodes[1] = 0, nodes[2] = static_cast<float>(way);

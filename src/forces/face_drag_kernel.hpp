@@ -27,8 +27,13 @@ struct DragSettings {
   float places[kMostSegments];  ///< m, where segments lie: from a face's middle along its tangent
   float squares;                ///< m^2, sum of their squares
   /// m; three places and their weights, whose sums over polynomials up to degree five equal those
-  /// over the segments (Gauss's rule with the segments' places as the measure).
+  /// over the segments (Gauss's rule with the segments' places as the measure). Set for
+  /// moment-matched gusts only.
   float nodes[3], weights[3];
+
+ private:
+  /// From the sums of the places' second and fourth powers.
+  void set_nodes(double second, double fourth);
 };
 
 /// Poses and twists of up to sixteen modules (m, m/s, rad/s); `covered` as in Kinematics.

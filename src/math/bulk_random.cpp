@@ -12,9 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
 
 void normals(const std::uint32_t counter[4], const std::uint32_t key[2], int count, float* out) {
-  const int lanes = static_cast<int>(hn::Lanes(Floats()));
-  for (int i = 0; i < kBulkBodies; i += lanes)
-    normals_of(counter, key, static_cast<std::uint32_t>(i), count, out + i);
+  normals_of_all(counter, key, count, out);
 }
 
 void words(const std::uint32_t counter[4], const std::uint32_t key[2], std::uint32_t* out) {

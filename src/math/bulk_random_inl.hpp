@@ -161,7 +161,7 @@ HWY_INLINE void store_numbers(const Blocks& block, int count, float* out) {
   if (count > 4) store_pair<2>(block, rest, out);
 }
 
-// bulk_normals() for the bodies of one vector, from `body` on.
+// The numbers of the bodies of one vector, from `body` on.
 HWY_INLINE void normals_of(const std::uint32_t counter[4], const std::uint32_t key[2],
                            std::uint32_t body, int count, float* out) {
   constexpr int kEach = 6 * kBulkBodies;
@@ -177,6 +177,24 @@ HWY_INLINE void normals_of(const std::uint32_t counter[4], const std::uint32_t k
     Blocks set = counters(counter, body, static_cast<std::uint32_t>(done / 6));
     philox<1>(&set, key);
     store_numbers(set, count - done, out);
+  }
+}
+
+// bulk_normals(). Where one block each is enough, two vectors of bodies are drawn side by side.
+HWY_INLINE void normals_of_all(const std::uint32_t counter[4], const std::uint32_t key[2],
+                               int count, float* out) {
+  const int lanes = static_cast<int>(hn::Lanes(Floats()));
+  if (count > 6 || lanes == kBulkBodies) {
+    for (int i = 0; i < kBulkBodies; i += lanes)
+      normals_of(counter, key, static_cast<std::uint32_t>(i), count, out + i);
+    return;
+  }
+  for (int i = 0; i < kBulkBodies; i += 2 * lanes) {
+    Blocks sets[2] = {counters(counter, static_cast<std::uint32_t>(i), 0),
+                      counters(counter, static_cast<std::uint32_t>(i + lanes), 0)};
+    philox<2>(sets, key);
+    store_numbers(sets[0], count, out + i);
+    store_numbers(sets[1], count, out + i + lanes);
   }
 }
 
