@@ -155,7 +155,7 @@ Neighbours::Neighbours(int bodies, double extent)
   }
   then_x_ = cell_x_ = x_, then_y_ = cell_y_ = y_, id_.assign(n + kWidest, -1);
   begin_.assign(n + 1, 0), above_.assign(n, 0), column_.assign(n, 0), row_.assign(n, 0);
-  who_.assign(24 * n + 4 * kWidest, 0);
+  who_.assign(48 * n + 4 * kWidest, 0);  // enough for packed modules
   start_.reserve(4 * n + 4);
 }
 
