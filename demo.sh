@@ -5,7 +5,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/packages.sh
 
-duration="20 min"  # simulated; with seed 1 all three chains stand after eighteen minutes
 out=out/demo
 
 need_packages "${build_packages[@]}" "${film_packages[@]}"
@@ -16,7 +15,5 @@ options=()
 configure build -DCMAKE_BUILD_TYPE=Release "${options[@]}"
 cmake --build build --target lilytank
 
-build/lilytank run scenarios/chain5.toml --set "run.duration='$duration'" \
-               --set output.rate=10 --set "output.metrics_interval='5 s'" \
-               --out "$out" --force --video
+build/lilytank run scenarios/demo.toml --out "$out" --force --video
 echo "In $out: video.mp4, yield.png, summary.txt, and the run's data"

@@ -186,6 +186,12 @@ TEST_F(VerbsTest, ShippedScenariosLoad) {
   }
 }
 
+TEST_F(VerbsTest, TheDemoBuildsAllItsChains) {
+  const Answer demo = lilytank_("run '" LILYTANK_SOURCE_DIR "/scenarios/demo.toml' --out demo");
+  EXPECT_EQ(demo.code, 0) << demo.err;
+  EXPECT_NE(demo.out.find("3 of 3 possible"), std::string::npos) << demo.out;
+}
+
 #ifdef LILYTANK_HAS_RENDER
 TEST_F(VerbsTest, RenderDrawsFramesAndFilms) {
   lilytank_("run pair.toml --out a --set run.duration=2");
