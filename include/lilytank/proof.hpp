@@ -2,6 +2,7 @@
 // key.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,11 +76,15 @@ struct Proof {
 /// nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
 std::optional<Proof> prove(const ProofOptions& options);
 
-/// Rates with binomial intervals, by kind and by expected z; what was taken for what.
-std::string proof_text(const Proof& proof);
+/// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by
+/// kind and by expected z; what was taken for what.
+std::string proof_text(std::span<const Proof> proofs);
 /// One row a world.
 std::string proof_csv(const Proof& proof);
 /// One row an interval.
 std::string proof_intervals_csv(const Proof& proof);
+/// A finished proof from its directory's key.txt, proof.csv and intervals.csv. Throws InputError
+/// where one is absent, damaged, or not of that key.
+Proof read_proof(const std::string& dir);
 
 }  // namespace lilytank

@@ -10,10 +10,29 @@
 
 namespace lilytank::cli {
 
+namespace {
+
+int tell_together(const std::vector<std::string>& dirs) {
+  std::vector<Proof> proofs;
+  for (const std::string& dir : dirs) {
+    proofs.push_back(read_proof(dir));
+    for (std::size_t i = 0; i + 1 < proofs.size(); ++i) {
+      if (proofs[i].hash == proofs.back().hash) {
+        throw InputError(dir + " has the same key as " + dirs[i]);
+      }
+    }
+  }
+  std::cout << proof_text(proofs) << std::flush;
+  return Exit::done;
+}
+
+}  // namespace
+
 int prove_verb(const Arguments& arguments) {
-  VerbOptions options("prove", "",
+  VerbOptions options("prove", "[PROOF...]",
                       "Seals experiments with known effects, none, or odd ones, diagnoses them "
-                      "blind, opens the key, and tells how often the diagnosis was right.");
+                      "blind, opens the key, and tells how often the diagnosis was right. With "
+                      "the directories of finished proofs: tells it of all their experiments.");
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
@@ -25,7 +44,7 @@ int prove_verb(const Arguments& arguments) {
       "threads", "worlds at a time (default: one a core)", text(), "N")(
       "force", "replace another proof's files")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
-  if (!options.positional().empty()) options.refuse("prove takes no file: it makes its own");
+  if (!options.positional().empty()) return tell_together(options.positional());
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
@@ -48,7 +67,7 @@ int prove_verb(const Arguments& arguments) {
   const std::filesystem::path dir(job.diagnosis.out);
   // The key stays closed until the last world is judged.
   job.judged = [&](const Proof& so_far) {
-    write_atomically((dir / "proof.txt").string(), proof_text(so_far));
+    write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
     write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
     write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
   };
@@ -59,7 +78,7 @@ int prove_verb(const Arguments& arguments) {
     return Exit::stopped;
   }
   write_atomically((dir / "key.txt").string(), proof->key);
-  std::cout << proof_text(*proof) << std::flush;
+  std::cout << proof_text({&*proof, 1}) << std::flush;
   std::cerr << "results in " << job.diagnosis.out << "\n";
   return Exit::done;
 }

@@ -1,4 +1,4 @@
-// What sealed experiments say of a diagnosis, as text and as a table.
+// What sealed experiments say of a diagnosis, as text.
 #include <algorithm>
 #include <map>
 
@@ -121,9 +121,8 @@ std::string simpler_text(const Proof& proof) {
          " noticed, none named\n";
 }
 
-}  // namespace
-
-std::string proof_text(const Proof& proof) {
+/// The tables of all worlds together.
+std::string worlds_text(const Proof& proof) {
   struct Rate {
     int right = 0, wrong_name = 0, silent = 0, all = 0;
   };
@@ -144,10 +143,6 @@ std::string proof_text(const Proof& proof) {
     }
     taken[{key_of(w), said_of(w)}] += 1;
   }
-  std::string out = "proof on " +
-                    std::string(proof.worlds.size() < proof.sealed ? "the first " : "") +
-                    std::to_string(proof.worlds.size()) + " of " + std::to_string(proof.sealed) +
-                    " sealed experiments\nSHA-256 of the key (key.txt): " + proof.hash + "\n\n";
   TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
   for (const auto& [name, r] : rates) {
     const Estimate e = wilson(r.right, r.all);
@@ -155,42 +150,28 @@ std::string proof_text(const Proof& proof) {
                fixed(100 * e.high, 1) + " %", std::to_string(r.wrong_name),
                std::to_string(r.silent)});
   }
-  out += table.text() + "\nwhat was taken for what\n";
+  std::string out = table.text() + "\nwhat was taken for what\n";
   TextTable confusion({"key", "said", "times"});
   for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
   return out + confusion.text() + models_text(proof) + simpler_text(proof);
 }
 
-std::string proof_csv(const Proof& proof) {
-  std::string out =
-      "world,kind,key,expected_z,verdict,said,alternatives,z,removed,gain_nat,regression,"
-      "msd_misfit,right,wrong_name\n";
-  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
-    const ProofWorld& w = proof.worlds[i];
-    std::vector<std::string> alternatives, z;
-    for (const ProofFinding& f : w.findings) {
-      alternatives.push_back(f.alternatives.empty() ? "-" : joined(f.alternatives));
-      z.push_back(significant(f.z, 3));
-    }
-    out += std::to_string(i) + "," + w.kind + "," + joined(w.effects) + "," +
-           shortest(w.expected_z) + "," + name_of(w.verdict) + ",\"" + said_of(w) + "\",\"" +
-           joined(alternatives) + "\"," + joined(z) + "," + shortest(w.removed) + "," +
-           shortest(w.gain) + "," + w.regression + "," + shortest(w.displacement) +
-           (w.right() ? ",1" : ",0") + (w.wrong_name() ? ",1\n" : ",0\n");
-  }
-  return out;
-}
+}  // namespace
 
-std::string proof_intervals_csv(const Proof& proof) {
-  std::string out = "world,effect,path,truth,value,low,high,holds\n";
-  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
-    for (const ProofInterval& of : proof.worlds[i].intervals) {
-      out += std::to_string(i) + "," + joined(proof.worlds[i].effects) + "," + of.path + "," +
-             shortest(of.truth) + "," + shortest(of.value) + "," + shortest(of.low) + "," +
-             shortest(of.high) + (of.holds() ? ",1\n" : ",0\n");
-    }
+std::string proof_text(std::span<const Proof> proofs) {
+  Proof all;
+  std::string hashes;
+  for (const Proof& p : proofs) {
+    all.worlds.insert(all.worlds.end(), p.worlds.begin(), p.worlds.end());
+    all.sealed += p.sealed;
+    hashes += "SHA-256 of " + std::string(proofs.size() > 1 ? "a" : "the") +
+              " key (key.txt): " + p.hash + "\n";
   }
-  return out;
+  return "proof on " + std::string(all.worlds.size() < all.sealed ? "the first " : "") +
+         std::to_string(all.worlds.size()) + " of " + std::to_string(all.sealed) +
+         " sealed experiments" +
+         (proofs.size() > 1 ? " in " + std::to_string(proofs.size()) + " tanks\n" : "\n") + hashes +
+         "\n" + worlds_text(all);
 }
 
 }  // namespace lilytank

@@ -25,7 +25,7 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"diagnose latched.toml", "was recorded with latches on"},
       {"diagnose balls.toml", "has no recording of body = \"lily\" that is not held out"},
       {"diagnose " + kTank + " --budget none", "--budget"},
-      {"prove tank.toml", "prove takes no file"},
+      {"prove nowhere", "nowhere holds no finished proof"},
       {"prove --worlds 0", "--worlds"},
   };
   for (const auto& c : cases) {

@@ -1,0 +1,194 @@
+// Tables of a proof, written and read back: one row a world, one row an interval.
+#include <algorithm>
+#include <filesystem>
+
+#include "io/atomic_file.hpp"
+#include "io/csv.hpp"
+#include "io/sha256.hpp"
+#include "lilytank/proof.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kWorldColumns =
+    "world,kind,key,expected_z,verdict,said,alternatives,z,removed,gain_nat,gain_low_nat,"
+    "regression,msd_misfit,right,wrong_name";
+enum WorldColumn : std::size_t {
+  kWorld,
+  kKind,
+  kKey,
+  kExpected,
+  kVerdict,
+  kSaid,
+  kAlternatives,
+  kZ,
+  kRemoved,
+  kGain,
+  kGainLow,
+  kRegression,
+  kMsd
+};
+const std::string kIntervalColumns = "world,effect,path,truth,value,low,high,holds";
+enum IntervalColumn : std::size_t { kOf, kEffect, kPath, kTruth, kValue, kLow, kHigh };
+// Between the words of a cell, between those of one finding, and where a finding has none.
+constexpr std::string_view kAnd = " + ", kOr = " | ", kNone = "-";
+const std::string kUnnamed = "unnamed: ";
+
+std::string joined(const std::vector<std::string>& words, std::string_view between) {
+  std::string out;
+  for (const std::string& word : words) {
+    if (&word != words.data()) out += between;
+    out += word;
+  }
+  return out;
+}
+
+std::vector<std::string> split(std::string_view cell, std::string_view between) {
+  std::vector<std::string> out;
+  while (!cell.empty()) {
+    const auto end = cell.find(between);
+    out.emplace_back(cell.substr(0, end));
+    cell = end == std::string_view::npos ? "" : cell.substr(end + between.size());
+  }
+  return out;
+}
+
+/// The one of `words` that a cell holds.
+std::string word_in(const CsvReader& rows, std::size_t column,
+                    const std::vector<std::string>& words) {
+  const std::string word(rows.text(column));
+  if (std::find(words.begin(), words.end(), word) == words.end()) {
+    rows.refuse(column,
+                "'" + word + "' is not one of " + joined(words, ", ") + did_you_mean(word, words));
+  }
+  return word;
+}
+
+Verdict verdict_in(const CsvReader& rows) {
+  std::vector<std::string> words;
+  for (const Verdict v :
+       {Verdict::complete, Verdict::missing, Verdict::measurement, Verdict::undecided}) {
+    words.push_back(name_of(v));
+    if (rows.text(kVerdict) == words.back()) return v;
+  }
+  word_in(rows, kVerdict, words);
+  return {};
+}
+
+std::vector<ProofFinding> findings_in(const CsvReader& rows) {
+  const auto said = split(rows.text(kSaid), kAnd), z = split(rows.text(kZ), kAnd),
+             others = split(rows.text(kAlternatives), kAnd);
+  if (z.size() != said.size() || others.size() != said.size()) {
+    rows.refuse(kSaid, "said, alternatives and z do not have as many findings");
+  }
+  std::vector<ProofFinding> out;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    ProofFinding f;
+    f.effect = said[i];
+    if (f.effect.starts_with(kUnnamed)) {
+      f.variable = f.effect.substr(kUnnamed.size()), f.effect = "unnamed";
+    }
+    if (others[i] != kNone) f.alternatives = split(others[i], kOr);
+    const auto number = parse_number(z[i]);
+    if (!number) rows.refuse(kZ, "'" + z[i] + "' is not a number");
+    f.z = *number;
+    out.push_back(std::move(f));
+  }
+  return out;
+}
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+void read_worlds(const std::string& dir, Proof& proof) {
+  const std::string file = (std::filesystem::path(dir) / "proof.csv").string();
+  const std::string text = read_whole(file);
+  CsvReader rows(text, file, {kWorldColumns});
+  const std::vector<std::string> key = split(proof.key, "\n");
+  while (rows.next()) {
+    ProofWorld w;
+    const std::size_t number = proof.worlds.size();
+    rows.whole(kWorld, static_cast<std::int64_t>(number), static_cast<std::int64_t>(number));
+    w.kind = word_in(rows, kKind, {"null", "named", "two", "unnamed"});
+    if (number >= key.size() || !key[number].starts_with(std::to_string(number) + " " + w.kind)) {
+      rows.refuse(kKind, "the key says otherwise");
+    }
+    w.effects = split(rows.text(kKey), kAnd);
+    w.expected_z = rows.number(kExpected);
+    w.verdict = verdict_in(rows);
+    w.findings = findings_in(rows);
+    if (w.findings.empty() &&
+        (w.verdict == Verdict::missing || w.verdict == Verdict::measurement)) {
+      rows.refuse(kSaid, "such a verdict has findings");
+    }
+    w.removed = rows.number(kRemoved);
+    w.gain = rows.number(kGain), w.gain_low = rows.number(kGainLow);
+    w.regression = rows.text(kRegression);
+    w.displacement = rows.number(kMsd);
+    proof.worlds.push_back(std::move(w));
+  }
+}
+
+void read_intervals(const std::string& dir, Proof& proof) {
+  const std::string file = (std::filesystem::path(dir) / "intervals.csv").string();
+  const std::string text = read_whole(file);
+  CsvReader rows(text, file, {kIntervalColumns});
+  while (rows.next()) {
+    const auto world = static_cast<std::size_t>(
+        rows.whole(kOf, 0, static_cast<std::int64_t>(proof.worlds.size()) - 1));
+    proof.worlds[world].intervals.push_back({std::string(rows.text(kPath)), rows.number(kTruth),
+                                             rows.number(kValue), rows.number(kLow),
+                                             rows.number(kHigh)});
+  }
+}
+
+}  // namespace
+
+std::string proof_csv(const Proof& proof) {
+  std::string out = kWorldColumns + "\n";
+  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
+    const ProofWorld& w = proof.worlds[i];
+    std::vector<std::string> said, others, z;
+    for (const ProofFinding& f : w.findings) {
+      said.push_back(f.effect == "unnamed" ? kUnnamed + f.variable : f.effect);
+      others.push_back(f.alternatives.empty() ? std::string(kNone) : joined(f.alternatives, kOr));
+      z.push_back(significant(f.z, 3));
+    }
+    out += std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +
+           shortest(w.expected_z) + "," + name_of(w.verdict) + "," + joined(said, kAnd) + "," +
+           joined(others, kAnd) + "," + joined(z, kAnd) + "," + shortest(w.removed) + "," +
+           shortest(w.gain) + "," + shortest(w.gain_low) + "," + w.regression + "," +
+           shortest(w.displacement) + (w.right() ? ",1" : ",0") +
+           (w.wrong_name() ? ",1\n" : ",0\n");
+  }
+  return out;
+}
+
+std::string proof_intervals_csv(const Proof& proof) {
+  std::string out = kIntervalColumns + "\n";
+  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
+    for (const ProofInterval& of : proof.worlds[i].intervals) {
+      out += std::to_string(i) + "," + joined(proof.worlds[i].effects, kAnd) + "," + of.path + "," +
+             shortest(of.truth) + "," + shortest(of.value) + "," + shortest(of.low) + "," +
+             shortest(of.high) + (of.holds() ? ",1\n" : ",0\n");
+    }
+  }
+  return out;
+}
+
+Proof read_proof(const std::string& dir) {
+  const std::filesystem::path key = std::filesystem::path(dir) / "key.txt";
+  if (!std::filesystem::exists(key)) {
+    throw InputError(dir + " holds no finished proof: there is no key.txt");
+  }
+  Proof proof;
+  proof.key = read_whole(key.string());
+  proof.hash = sha256(proof.key), proof.sealed = lines_of(proof.key);
+  read_worlds(dir, proof);
+  read_intervals(dir, proof);
+  return proof;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,89 @@
+// What a proof leaves on the disk: read back as it was, told together with others, refused where
+// damaged.
+#include <gtest/gtest.h>
+
+#include "io/sha256.hpp"
+#include "lilytank/error.hpp"
+#include "lilytank/proof.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+Proof three_worlds() {
+  Proof p;
+  p.key = "0 null 1 1\n1 two coriolis 2 wall_force 3 1 1\n2 unnamed slip 4 1 1\n";
+  p.hash = sha256(p.key), p.sealed = 3;
+  ProofWorld null, two, odd;
+  null.kind = "null", null.displacement = 0.125;
+  two.kind = "two", two.effects = {"coriolis", "wall_force"}, two.expected_z = 12.5;
+  two.verdict = Verdict::missing;
+  two.findings = {{"magnus_lift", {"coriolis", "spin_torque"}, "", 20.1},
+                  {"wall_force", {}, "", 7}};
+  two.intervals = {{"forces.coriolis.strength", 1, 1.1, 0.9, 1.3}, {"K_F", 0.5, 0.7, 0.6, 0.8}};
+  two.removed = 0.9, two.gain = 120, two.gain_low = 80, two.regression = "body_force";
+  odd.kind = "unnamed", odd.effects = {"slip"}, odd.expected_z = 30;
+  odd.verdict = Verdict::missing, odd.findings = {{"unnamed", {}, "slip", 25}};
+  p.worlds = {null, two, odd};
+  return p;
+}
+
+class ProofFiles : public testing::Test {
+ protected:
+  void write(const std::string& dir, const Proof& p) const {
+    here.write(dir + "/key.txt", p.key);
+    here.write(dir + "/proof.csv", proof_csv(p));
+    here.write(dir + "/intervals.csv", proof_intervals_csv(p));
+  }
+  std::string refusal(const std::string& dir) const {
+    try {
+      read_proof(here.path(dir));
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "(none)";
+  }
+  TemporaryDirectory here;
+};
+
+TEST_F(ProofFiles, AreReadBackAsTheyWere) {
+  const Proof p = three_worlds();
+  write("a", p);
+  const Proof q = read_proof(here.path("a"));
+  EXPECT_EQ(proof_csv(q), proof_csv(p));
+  EXPECT_EQ(proof_intervals_csv(q), proof_intervals_csv(p));
+  EXPECT_EQ(proof_text({&q, 1}), proof_text({&p, 1}));
+  EXPECT_EQ(q.worlds[1].findings[0].alternatives, p.worlds[1].findings[0].alternatives);
+  EXPECT_TRUE(q.worlds[1].right());
+}
+
+TEST_F(ProofFiles, AreToldTogether) {
+  const Proof both[] = {three_worlds(), three_worlds()};
+  const std::string text = proof_text(both);
+  EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks\n")) << text;
+  EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
+}
+
+TEST_F(ProofFiles, AreRefusedWhereDamaged) {
+  const Proof p = three_worlds();
+  write("unfinished", p);
+  std::filesystem::remove(here.path("unfinished/key.txt"));
+  EXPECT_NE(refusal("unfinished").find("holds no finished proof"), std::string::npos);
+  Proof other = p;
+  other.worlds[0].kind = "named", other.worlds[0].effects = {"coriolis"};
+  write("other", other);
+  EXPECT_NE(refusal("other").find("proof.csv:2:3: the key says otherwise"), std::string::npos)
+      << refusal("other");
+  Proof mute = p;
+  mute.worlds[2].findings.clear();
+  write("mute", mute);
+  EXPECT_NE(refusal("mute").find("such a verdict has findings"), std::string::npos);
+  write("typo", p);
+  std::string rows = proof_csv(p);
+  rows.replace(rows.find("complete"), 8, "compelte");
+  here.write("typo/proof.csv", rows);
+  EXPECT_NE(refusal("typo").find("did you mean 'complete'?"), std::string::npos) << refusal("typo");
+}
+
+}  // namespace
+}  // namespace lilytank
