@@ -34,7 +34,7 @@ struct StoppingRule {
 
 /// One combination of the axes' values.
 struct Setting {
-  std::string label;  ///< "count=15, p=p_e", for legends
+  std::string label;  ///< "count=15, p_e", for legends
   /// The axes' values as in table.csv: "0.3", "p_e". Numbers are in the unit of the scenario's key,
   /// whatever unit the study file gives them in: SI, but % for flow.pump_power.
   std::vector<std::string> texts;

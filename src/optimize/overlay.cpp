@@ -54,7 +54,8 @@ std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vecto
     text += "ruleset.file = " + toml_quoted(rules_file) + "\n";
     files.push_back({rules_file, to_text(other.rules)});
     // Of all its rules: a scenario below may speak of rules with the same names.
-    for (const Rule& rule : scenario(point).model.rulesets.front().rules) {
+    const Scenario all = scenario(point);
+    for (const Rule& rule : all.model.rulesets.front().rules) {
       text += "rules." + rule.name + ".p = " + shortest(rule.p) + "\n";
     }
   }

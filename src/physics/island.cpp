@@ -76,7 +76,9 @@ void hold_spin(Mover& a, Mover& b, double moved, double nx, double ny) {
     const double spin =
         reduced * (dx * vy - dy * vx) + a.inertia * a.twist.omega + b.inertia * b.twist.omega;
     const double omega = spin / inertia, least = spin * omega;  // of the pair as one rigid body
-    const double share = std::sqrt(std::max(allowed - least, 0.0) / (now - least));
+    // A pair that moves as one already has nothing to give but rounding.
+    const double above = now - least, may = std::max(allowed - least, 0.0);
+    const double share = above > may ? std::sqrt(may / above) : 0;
     vx = share * vx - (1 - share) * omega * dy, vy = share * vy + (1 - share) * omega * dx;
     a.twist.omega = share * a.twist.omega + (1 - share) * omega;
     b.twist.omega = share * b.twist.omega + (1 - share) * omega;

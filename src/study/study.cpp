@@ -193,7 +193,9 @@ struct Study::Source {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       const StudyAxis& axis = file.axes[i];
       const Choice& choice = *chosen[i];
-      out.label += (i == 0 ? "" : ", ") + short_name(axis) + "=" + choice.text;
+      // Names that were given to overlays speak for themselves.
+      const bool named = axis.path.keys.empty() && !axis.labels.empty();
+      out.label += (i == 0 ? "" : ", ") + (named ? "" : short_name(axis) + "=") + choice.text;
       const std::string path = axis.path.path();
       const auto entry =
           std::find_if(scenario.entries.begin(), scenario.entries.end(),

@@ -110,6 +110,11 @@ TEST_F(StudyFileTest, LabelsAndNamesAreOnesOwn) {
   EXPECT_EQ(study.plan().axes, Texts{"p"});
   EXPECT_EQ(labels(this->study(kHead + "[[axis]]\npath = \"rules.part.p\"\nvalues = [0]\n")),
             Texts{"part.p=0"});
+  const std::string overlays =
+      kHead + "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n";
+  EXPECT_EQ(labels(this->study(overlays)), (Texts{"rules=sticky", "rules=loose"}));
+  EXPECT_EQ(labels(this->study(overlays + "labels = [\"by hand\", \"as found\"]\n")),
+            (Texts{"by hand", "as found"}));
 }
 
 TEST_F(StudyFileTest, SetsLieOnTopOfEverySetting) {
