@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -197,48 +198,80 @@ TEST(Optimize, TheOverlayIsThePoint) {
   }
 }
 
-constexpr const char* kFiles[] = {"search.state", "evaluations.csv", "history.csv", "optimum.toml",
-                                  "compare.toml"};
-
-std::string all_of(const std::string& dir) {
+std::string all_of(const std::string& dir, const std::vector<std::string>& files) {
   std::string out;
-  for (const char* file : kFiles) {
+  for (const std::string& file : files) {
     const std::string path = dir + "/" + file;
     out += std::filesystem::exists(path) ? read_whole(path) : "(absent)";
   }
   return out;
 }
 
-TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
-  const OptimizeRig rig;
-  const std::string text = kHead + kSearch + kPart +
-                           "[compare]\nreplicates = 3\noverlays = [\"sticky.toml\", "
-                           "\"loose.toml\"]\n";
+/// Runs it whole by two threads, then stopped again and again by one, and expects the same files.
+OptimizationResult expect_same_files(const OptimizeRig& rig, const std::string& text,
+                                     const std::vector<std::string>& files) {
   OptimizationOptions options;
   options.threads = 2;
   options.out = rig.here.path("whole");
   EXPECT_FALSE(run_optimization(rig.read(text), options).stopped);
-  const std::string whole = all_of(options.out);
+  const std::string whole = all_of(options.out, files);
   EXPECT_EQ(whole.find("(absent)"), std::string::npos);
   options.out = rig.here.path("parts");
   std::atomic<bool> stop{false};
   options.stop = &stop;
   options.threads = 1;
-  bool stopped = true;
-  for (int calls = 0; stopped; ++calls) {
-    ASSERT_LT(calls, 60);
+  OptimizationResult result;
+  result.stopped = true;
+  for (int calls = 0; result.stopped && calls < 60; ++calls) {
     stop = false;
-    int told = 0;
+    int told = 0;  // of a race what is done already is told again
     options.progress = [&](double, const std::string&) {
-      if (++told == 1) stop = true;
+      if (++told > calls / 2) stop = true;
     };
-    stopped = run_optimization(rig.read(text), options).stopped;
+    result = run_optimization(rig.read(text), options);
   }
-  EXPECT_EQ(all_of(options.out), whole);
+  EXPECT_EQ(all_of(options.out, files), whole);
+  return result;
+}
+
+TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
+  const OptimizeRig rig;
+  const OptimizationResult result = expect_same_files(
+      rig,
+      kHead + kSearch + kPart +
+          "[compare]\nreplicates = 3\noverlays = [\"sticky.toml\", \"loose.toml\"]\n",
+      {"search.state", "evaluations.csv", "history.csv", "optimum.toml", "compare.toml"});
   // The comparison is a study that can be read.
-  const Study study(options.out + "/compare.toml");
+  const Study study(result.compare);
   EXPECT_EQ(study.plan().settings.size(), 3u);
   EXPECT_TRUE(study.plan().until_settled);
+}
+
+TEST(Optimize, TheRacesWinnerIsAnOverlayForAnyScenarioOfTheTarget) {
+  const OptimizeRig rig;
+  rig.here.write("l4.toml", "base = \"pair.toml\"\n[module]\ncount = 8\n[ruleset]\nfile = '" +
+                                std::string(LILYTANK_SOURCE_DIR) +
+                                "/scenarios/rulesets/l4.rules'\n");
+  const OptimizationResult result = expect_same_files(
+      rig,
+      "[optimize]\nscenario = \"l4.toml\"\n" + kSearch +
+          "[[parameter]]\npath = \"rules.*_reverse.p\"\nlow = 0.001\nhigh = 1\n"
+          "[race]\nrulesets = 3\nevaluations = 4\n",
+      {"race.csv", "search.state", "evaluations.csv", "optimum.toml", "optimum.rules"});
+  ASSERT_EQ(result.race.size(), 3u);
+  const auto last = std::max_element(
+      result.race.begin(), result.race.end(),
+      [](const RaceEntry& a, const RaceEntry& b) { return a.round + a.kept < b.round + b.kept; });
+  EXPECT_TRUE(last->kept);
+  const Scenario read = load_scenario({rig.here.path("l4.toml"), result.optimum}, {});
+  const Ruleset& rules = read.model.rulesets.front();
+  EXPECT_EQ(rules.name, last->ruleset);
+  std::vector<double> searched;
+  for (const Rule& rule : rules.rules) {
+    if (rule.kind == RuleKind::unlink && rule.p > 0) searched.push_back(rule.p);
+    if (rule.kind == RuleKind::link) EXPECT_EQ(rule.p, 1) << rule.name;
+  }
+  EXPECT_EQ(searched, result.best.point);
 }
 
 TEST(Optimize, WhatMakesNoSenseIsRefused) {
