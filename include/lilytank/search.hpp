@@ -153,8 +153,8 @@ struct CmaEsOptions {
   /// distribution [Hansen, Niederberger, Guzzella and Koumoutsakos 2009].
   bool handle_uncertainty = true;
   int most_evaluations = 16;
-  /// Of the budget, kept for the end and shared out by OCBA among the leading samples and the final
-  /// mean, by new values only. 0, or at least 4.
+  /// Of the budget, kept for the end and shared out by OCBA among the leading samples, the final
+  /// mean and the start, if one is given, by new values only. 0, or at least 4.
   int final_evaluations = 100;
   bool common_random_numbers = false;
 };

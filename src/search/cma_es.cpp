@@ -98,10 +98,14 @@ std::vector<Trial> CmaEs::ask_generation() const {
   return trials;
 }
 
-/// The final mean, which lies in the box, and the best samples share what is left of the budget.
+/// The final mean, which lies in the box, a start that somebody gave, and the best samples share
+/// what is left of the budget.
 void CmaEs::begin_selection() {
   const int left = static_cast<int>(options_.budget - told_);
   std::vector<UnitPoint> points{distribution_.mean()};
+  if (!options_.start.empty() && selection_size(left) > 1) {
+    points.push_back(to_unit(space_, options_.start));
+  }
   int most = 0;
   for (const Elite& elite : elites_) {
     if (static_cast<int>(points.size()) == selection_size(left)) break;

@@ -303,6 +303,25 @@ TEST(Search, TheFinalMeanIsHonest) {
   }
 }
 
+// What one has already is given up only for something better: the start stands in a hole that no
+// sample finds.
+TEST(Search, CmaEsKeepsAStartThatNothingBeats) {
+  const Point start{2, -3};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CmaEsOptions o;
+    o.budget = 200, o.final_evaluations = 40, o.start = start;
+    const auto search = make_cma_es(box(2), o, seed);
+    carry_through(*search, [&](const Trial& t) {
+      const double off = std::hypot(t.point[0] - start[0], t.point[1] - start[1]);
+      return noisy(off < 1e-9 ? -3 : sphere(t.point), t, 1, seed);
+    });
+    const Point best = search->best().point;
+    EXPECT_NEAR(best[0], start[0], 1e-12) << seed;
+    EXPECT_NEAR(best[1], start[1], 1e-12) << seed;
+    EXPECT_GE(search->best().evaluations, 4) << seed;
+  }
+}
+
 TEST(Search, PresetsAndWordsAreKnownByName) {
   for (const std::string& name : swarm_presets()) EXPECT_NO_THROW(swarm_preset(name));
   const SwarmOptions lilies = swarm_preset("paper-lilies");
