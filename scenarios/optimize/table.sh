@@ -1,10 +1,11 @@
 #!/bin/sh
-# For each target: our optimum of the probabilities, then from there a hybrid strategy, the choice of
-# the ruleset, and pump power by feedback; and one study that compares them all.
+# For each target: our optimum of the probabilities, then from there a hybrid strategy and the choice
+# of the ruleset, and from the ruleset that won pump power by feedback; and one study that compares
+# them all.
 #
 #   scenarios/optimize/table.sh [OUT [TARGET...]]
 #
-# Environment: LILYTANK (build/lilytank), HORIZON of the searches (1 h; the comparison takes 4 h),
+# Environment: LILYTANK (build/lilytank), HORIZON of the searches (4 h, as of the comparison),
 # REPLICATES of each strategy in the comparison (200), THREADS (one a core). Stopped or killed, the same command goes on.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -29,13 +30,13 @@ for target; do
     "$lilytank" optimize "$here/$1.toml" --out "$out/$target/$2" --no-compare $threads \
       --overlay "$scenarios/$target.toml" --overlay "$empirical" \
       --overlay "$scenarios/moment_matched.toml" ${3:+--overlay "$3"} \
-      --set run.duration="${HORIZON:-1 h}"
+      --set run.duration="${HORIZON:-4 h}"
   }
   search probabilities p
   best=$out/$target/p/optimum.toml
   search hybrid hybrid "$best"
-  search agitation agitation "$best"
   search race joint "$best"
+  search agitation agitation "$out/$target/joint/optimum.toml"
   {
     echo "[study]"
     echo "name = \"$target\""
@@ -47,7 +48,7 @@ for target; do
     echo "name = \"strategy\""
     echo "overlays = [\"$empirical\", ${paper:+\"$paper\",} \"$best\", \"$out/$target/hybrid/optimum.toml\","
     echo "  \"$out/$target/joint/optimum.toml\", \"$out/$target/agitation/optimum.toml\"]"
-    echo "labels = [\"p_e\", ${paper:+\"p_o\",} \"optimum\", \"hybrid\", \"joint\", \"agitation\"]"
+    echo "labels = [\"p_e\", ${paper:+\"p_o\",} \"optimum\", \"hybrid\", \"joint\", \"joint, agitation\"]"
   } > "$out/$target/compare.toml"
   "$lilytank" study "$out/$target/compare.toml" --out "$out/$target/compare" $threads
 done
