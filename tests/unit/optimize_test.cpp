@@ -269,7 +269,9 @@ TEST(Optimize, TheRacesWinnerIsAnOverlayForAnyScenarioOfTheTarget) {
   std::vector<double> searched;
   for (const Rule& rule : rules.rules) {
     if (rule.kind == RuleKind::unlink && rule.p > 0) searched.push_back(rule.p);
-    if (rule.kind == RuleKind::link) EXPECT_EQ(rule.p, 1) << rule.name;
+    if (rule.kind == RuleKind::link) {
+      EXPECT_EQ(rule.p, 1) << rule.name;
+    }
   }
   EXPECT_EQ(searched, result.best.point);
 }
