@@ -61,6 +61,9 @@ struct RaceEntry {
   double best = 0;               ///< mean fitness of its best point, by that round's search
   double standard_error = 0;
   bool kept = false;  ///< it went on to the next round, or won the last
+  /// Mean fitness in the last comparison: of the winner as it was then searched, and of the
+  /// scenario's own ruleset at the start.
+  std::optional<double> last;
 };
 
 /// What a file of an optimisation says.

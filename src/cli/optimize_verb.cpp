@@ -69,9 +69,12 @@ std::string found_text(const OptimizationPlan& plan, const OptimizationResult& r
   const std::string unit = fitness_unit(plan.fitness.fitness);
   std::string out;
   for (const RaceEntry& entry : result.race) {
-    if (entry.kept) continue;
-    out += "  " + entry.ruleset + ": left in round " + std::to_string(entry.round) + " with " +
-           four(entry.best) + "\n";
+    if (!entry.kept) {
+      out += "  " + entry.ruleset + ": left in round " + std::to_string(entry.round) + " with " +
+             four(entry.best) + "\n";
+    }
+    if (entry.last)
+      out += "  " + entry.ruleset + ": " + four(*entry.last) + " in the last comparison\n";
   }
   return out + "best: " + four(result.best.mean) + (unit == "1" ? "" : " " + unit) +
          ", standard error " + four(result.best.standard_error) + ", " +

@@ -59,6 +59,7 @@ class Race {
     for (const Contestant& one : contestants_) out.entries.push_back(one.entry);
     out.start = alive.front()->point;
     out.winner = std::move(alive.front()->source);
+    out.own = std::move(contestants_.front().source);  // none where it is the winner
     return out;
   }
 
@@ -123,34 +124,10 @@ class Race {
 
   /// The mean at the point where it stands; replicates are the same for all.
   bool repeat(Contestant& one, int round, std::int64_t each) const {
-    const std::string file = place(one, round) + ".csv";
-    std::vector<std::optional<double>> values(static_cast<std::size_t>(each));
-    std::error_code ignored;
-    if (fs::exists(file, ignored)) {
-      const std::string text = read_whole(file);
-      CsvReader csv(text, file, {"replicate,value"});
-      for (auto& value : values) {
-        if (csv.next()) value = csv.text(1) == "inf" ? INFINITY : csv.number(1);
-      }
-    }
-    for_each_world(static_cast<int>(each), options_->threads, [&](int i) {
-      auto& value = values[static_cast<std::size_t>(i)];
-      if (!value) value = one.source->evaluate({one.point, i}, options_->stop);
-    });
-    std::string text = "replicate,value\n";
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!values[i]) return false;
-      text +=
-          std::to_string(i) + "," + (std::isinf(*values[i]) ? "inf" : shortest(*values[i])) + "\n";
-      sum += *values[i];
-    }
-    one.entry.best = sum / static_cast<double>(each);
-    for (const auto& value : values) squares += std::pow(*value - one.entry.best, 2);
-    const auto n = static_cast<double>(each);
-    one.entry.standard_error = std::sqrt(squares / (n - 1) / n);
-    fs::create_directories(fs::path(file).parent_path(), ignored);
-    write_atomically(file, text);
+    const auto mean =
+        repeated(*one.source, one.point, 0, each, place(one, round) + ".csv", *options_);
+    if (!mean) return false;
+    one.entry.best = mean->mean, one.entry.standard_error = mean->standard_error;
     return true;
   }
 
@@ -237,6 +214,41 @@ std::int64_t race_evaluations(int rulesets, std::int64_t each) {
   std::int64_t sum = 0;
   for (; rulesets > 1; rulesets = (rulesets + 1) / 2, each *= 2) sum += rulesets * each;
   return sum;
+}
+
+std::optional<Incumbent> repeated(const Optimization::Source& source,
+                                  const std::vector<double>& point, std::int64_t first,
+                                  std::int64_t count, const std::string& file,
+                                  const OptimizationOptions& options) {
+  std::vector<std::optional<double>> values(static_cast<std::size_t>(count));
+  std::error_code ignored;
+  if (fs::exists(file, ignored)) {
+    const std::string text = read_whole(file);
+    CsvReader csv(text, file, {"replicate,value"});
+    for (auto& value : values) {
+      if (csv.next()) value = csv.text(1) == "inf" ? INFINITY : csv.number(1);
+    }
+  }
+  for_each_world(static_cast<int>(count), options.threads, [&](int i) {
+    auto& value = values[static_cast<std::size_t>(i)];
+    if (!value) value = source.evaluate({point, first + i}, options.stop);
+  });
+  std::string text = "replicate,value\n";
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i]) return std::nullopt;
+    text += std::to_string(first + static_cast<std::int64_t>(i)) + "," +
+            (std::isinf(*values[i]) ? "inf" : shortest(*values[i])) + "\n";
+    sum += *values[i];
+  }
+  Incumbent out;
+  const auto n = static_cast<double>(count);
+  out.point = point, out.mean = sum / n, out.evaluations = count;
+  for (const auto& value : values) squares += std::pow(*value - out.mean, 2);
+  out.standard_error = std::sqrt(squares / (n - 1) / n);
+  fs::create_directories(fs::path(file).parent_path(), ignored);
+  write_atomically(file, text);
+  return out;
 }
 
 RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options) {

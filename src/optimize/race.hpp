@@ -9,6 +9,7 @@ namespace lilytank {
 struct RaceOutcome {
   std::unique_ptr<const Optimization::Source> winner;  ///< none: no race was asked for, or stopped
   std::vector<double> start;                           ///< its best point
+  std::unique_ptr<const Optimization::Source> own;     ///< the scenario's, where another one won
   std::vector<RaceEntry> entries;
   double share = 0;  ///< of all evaluations, the final search's included, that the race takes
   bool stopped = false;
@@ -18,6 +19,13 @@ struct RaceOutcome {
 std::vector<Ruleset> race_rulesets(const Optimization::Source& source);
 /// What its rounds take.
 std::int64_t race_evaluations(int rulesets, std::int64_t each);
+
+/// A point's mean fitness over `count` worlds, from replicate `first` on; at least two. They are
+/// kept in `file`. Nothing if it was stopped.
+std::optional<Incumbent> repeated(const Optimization::Source& source,
+                                  const std::vector<double>& point, std::int64_t first,
+                                  std::int64_t count, const std::string& file,
+                                  const OptimizationOptions& options);
 
 /// Successive halving [Jamieson and Talwalkar, AISTATS 2016]: the better half of each round goes on
 /// with twice the evaluations. In the first rounds every ruleset is judged at its start, with the

@@ -13,6 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kLeastLast = 12;           // worlds of the last comparison
+constexpr std::int64_t kFirstOfLast = 1LL << 32;  // their replicates; no search comes that far
+
 std::string four(double value) {
   return significant(value, 4);
 }
@@ -50,6 +53,31 @@ std::string compare_text(const Optimization::Source& source, const std::string& 
          "\nlabels = " + list_of(labels) + "\n";
 }
 
+/// What one has is given up only for something better: a race's winner, as it was searched, against
+/// the scenario's own ruleset at its start, in worlds that neither had. False if it was stopped.
+bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& source,
+                        OptimizationResult& result, const OptimizationOptions& options) {
+  if (!race.own) return true;
+  const std::int64_t count = std::max(kLeastLast, source->file.cma_es.budget / 4);
+  const auto last = [&](const Optimization::Source& of, const std::vector<double>& point) {
+    const std::string name = of.scenario(point).model.rulesets.front().name;
+    const fs::path file = fs::path(options.out) / "race" / "last" / (name + ".csv");
+    const auto mean = repeated(of, point, kFirstOfLast, count, file.string(), options);
+    for (RaceEntry& entry : result.race) {
+      if (mean && entry.ruleset == name) entry.last = mean->mean;
+    }
+    return mean;
+  };
+  const auto searched = last(*source, result.best.point);
+  if (!searched) return false;
+  const auto own = last(*race.own, race.own->plan.start);
+  if (!own) return false;
+  const bool stays = !(searched->mean < own->mean);
+  if (stays) source = race.own.get();
+  result.best = stays ? *own : *searched;
+  return true;
+}
+
 }  // namespace
 
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options) {
@@ -80,7 +108,7 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
       run);
   result.best = found.search->best();
   result.history = found.search->history();
-  result.stopped = found.stopped;
+  result.stopped = found.stopped || !keep_own_if_better(race, source, result, options);
   if (result.stopped) return result;
   for (const auto& file :
        source->overlay(result.best.point, "optimum", comment_of(source->plan, result.best))) {
