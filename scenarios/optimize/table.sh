@@ -37,6 +37,9 @@ for target; do
   search hybrid hybrid "$best"
   search race joint "$best"
   search agitation agitation "$out/$target/joint/optimum.toml"
+  # What a search found goes over what it was begun with.
+  together=$out/$target/joint_agitation.toml
+  echo 'base = ["joint/optimum.toml", "agitation/optimum.toml"]' > "$together"
   {
     echo "[study]"
     echo "name = \"$target\""
@@ -47,7 +50,7 @@ for target; do
     echo "[[axis]]"
     echo "name = \"strategy\""
     echo "overlays = [\"$empirical\", ${paper:+\"$paper\",} \"$best\", \"$out/$target/hybrid/optimum.toml\","
-    echo "  \"$out/$target/joint/optimum.toml\", \"$out/$target/agitation/optimum.toml\"]"
+    echo "  \"$out/$target/joint/optimum.toml\", \"$together\"]"
     echo "labels = [\"p_e\", ${paper:+\"p_o\",} \"optimum\", \"hybrid\", \"joint\", \"joint, agitation\"]"
   } > "$out/$target/compare.toml"
   "$lilytank" study "$out/$target/compare.toml" --out "$out/$target/compare" $threads

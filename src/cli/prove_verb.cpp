@@ -9,7 +9,6 @@
 #include "lilytank/proof.hpp"
 
 namespace lilytank::cli {
-
 namespace {
 
 int tell_together(const std::vector<std::string>& dirs) {
@@ -44,7 +43,13 @@ int prove_verb(const Arguments& arguments) {
       "threads", "worlds at a time (default: one a core)", text(), "N")(
       "force", "replace another proof's files")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
-  if (!options.positional().empty()) return tell_together(options.positional());
+  if (!options.positional().empty()) {
+    for (const char* other : {"worlds", "minutes", "known-flow", "modelled", "budget", "seed",
+                              "out", "threads", "force"}) {
+      if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
+    }
+    return tell_together(options.positional());
+  }
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");

@@ -7,6 +7,7 @@
 #include "io/sha256.hpp"
 #include "lilytank/proof.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -34,15 +35,6 @@ enum IntervalColumn : std::size_t { kOf, kEffect, kPath, kTruth, kValue, kLow, k
 // Between the words of a cell, between those of one finding, and where a finding has none.
 constexpr std::string_view kAnd = " + ", kOr = " | ", kNone = "-";
 const std::string kUnnamed = "unnamed: ";
-
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
-  std::string out;
-  for (const std::string& word : words) {
-    if (&word != words.data()) out += between;
-    out += word;
-  }
-  return out;
-}
 
 std::vector<std::string> split(std::string_view cell, std::string_view between) {
   std::vector<std::string> out;

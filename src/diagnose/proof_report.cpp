@@ -6,6 +6,7 @@
 #include "lilytank/proof.hpp"
 #include "lilytank/statistics.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 
@@ -36,15 +37,9 @@ bool ProofWorld::wrong_name() const {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& w : words) out += (out.empty() ? "" : " + ") + w;
-  return out;
-}
-
 std::string key_of(const ProofWorld& w) {
   if (w.kind == "null") return "(nothing)";
-  return (w.kind == "unnamed" ? "odd " : "") + joined(w.effects);
+  return (w.kind == "unnamed" ? "odd " : "") + joined(w.effects, " + ");
 }
 
 std::string said_of(const ProofWorld& w) {
@@ -52,7 +47,7 @@ std::string said_of(const ProofWorld& w) {
   for (const ProofFinding& f : w.findings) {
     names.push_back(f.effect == "unnamed" ? "unnamed, " + f.variable : f.effect);
   }
-  return names.empty() ? name_of(w.verdict) : joined(names);
+  return names.empty() ? name_of(w.verdict) : joined(names, " + ");
 }
 
 std::string held_text(int held, int all) {

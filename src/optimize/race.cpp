@@ -6,10 +6,9 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "io/csv.hpp"
 #include "lilytank/search_run.hpp"
-#include "lilytank/study.hpp"
 #include "lilytank/synthesis.hpp"
+#include "optimize/repeats.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 
@@ -124,8 +123,8 @@ class Race {
 
   /// The mean at the point where it stands; replicates are the same for all.
   bool repeat(Contestant& one, int round, std::int64_t each) const {
-    const auto mean =
-        repeated(*one.source, one.point, 0, each, place(one, round) + ".csv", *options_);
+    const auto mean = repeated(*one.source, one.point, 0, static_cast<int>(each),
+                               place(one, round) + ".csv", *options_);
     if (!mean) return false;
     one.entry.best = mean->mean, one.entry.standard_error = mean->standard_error;
     return true;
@@ -214,41 +213,6 @@ std::int64_t race_evaluations(int rulesets, std::int64_t each) {
   std::int64_t sum = 0;
   for (; rulesets > 1; rulesets = (rulesets + 1) / 2, each *= 2) sum += rulesets * each;
   return sum;
-}
-
-std::optional<Incumbent> repeated(const Optimization::Source& source,
-                                  const std::vector<double>& point, std::int64_t first,
-                                  std::int64_t count, const std::string& file,
-                                  const OptimizationOptions& options) {
-  std::vector<std::optional<double>> values(static_cast<std::size_t>(count));
-  std::error_code ignored;
-  if (fs::exists(file, ignored)) {
-    const std::string text = read_whole(file);
-    CsvReader csv(text, file, {"replicate,value"});
-    for (auto& value : values) {
-      if (csv.next()) value = csv.text(1) == "inf" ? INFINITY : csv.number(1);
-    }
-  }
-  for_each_world(static_cast<int>(count), options.threads, [&](int i) {
-    auto& value = values[static_cast<std::size_t>(i)];
-    if (!value) value = source.evaluate({point, first + i}, options.stop);
-  });
-  std::string text = "replicate,value\n";
-  double sum = 0, squares = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!values[i]) return std::nullopt;
-    text += std::to_string(first + static_cast<std::int64_t>(i)) + "," +
-            (std::isinf(*values[i]) ? "inf" : shortest(*values[i])) + "\n";
-    sum += *values[i];
-  }
-  Incumbent out;
-  const auto n = static_cast<double>(count);
-  out.point = point, out.mean = sum / n, out.evaluations = count;
-  for (const auto& value : values) squares += std::pow(*value - out.mean, 2);
-  out.standard_error = std::sqrt(squares / (n - 1) / n);
-  fs::create_directories(fs::path(file).parent_path(), ignored);
-  write_atomically(file, text);
-  return out;
 }
 
 RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options) {

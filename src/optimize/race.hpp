@@ -20,13 +20,6 @@ std::vector<Ruleset> race_rulesets(const Optimization::Source& source);
 /// What its rounds take.
 std::int64_t race_evaluations(int rulesets, std::int64_t each);
 
-/// A point's mean fitness over `count` worlds, from replicate `first` on; at least two. They are
-/// kept in `file`. Nothing if it was stopped.
-std::optional<Incumbent> repeated(const Optimization::Source& source,
-                                  const std::vector<double>& point, std::int64_t first,
-                                  std::int64_t count, const std::string& file,
-                                  const OptimizationOptions& options);
-
 /// Successive halving [Jamieson and Talwalkar, AISTATS 2016]: the better half of each round goes on
 /// with twice the evaluations. In the first rounds every ruleset is judged at its start, with the
 /// same seeds; once they are enough, each has a search of its own, begun at its best point so far.

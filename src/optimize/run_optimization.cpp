@@ -5,6 +5,7 @@
 #include "io/scenario_values.hpp"
 #include "lilytank/search_run.hpp"
 #include "optimize/race.hpp"
+#include "optimize/repeats.hpp"
 #include "optimize/source.hpp"
 #include "text/number.hpp"
 
@@ -13,8 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kLeastLast = 12;           // worlds of the last comparison
-constexpr std::int64_t kFirstOfLast = 1LL << 32;  // their replicates; no search comes that far
+constexpr std::int64_t kFirstOfLast = 1LL << 32;  // replicates; no search comes that far
+
+/// Worlds of each of the two in a race's last comparison.
+int last_worlds(const Optimization::Source& source) {
+  return static_cast<int>(std::max<std::int64_t>(12, source.file.cma_es.budget / 4));
+}
 
 std::string four(double value) {
   return significant(value, 4);
@@ -58,9 +63,10 @@ std::string compare_text(const Optimization::Source& source, const std::string& 
 bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& source,
                         OptimizationResult& result, const OptimizationOptions& options) {
   if (!race.own) return true;
-  const std::int64_t count = std::max(kLeastLast, source->file.cma_es.budget / 4);
+  const int count = last_worlds(*source);
   const auto last = [&](const Optimization::Source& of, const std::vector<double>& point) {
     const std::string name = of.scenario(point).model.rulesets.front().name;
+    if (options.progress) options.progress(1, "last comparison: " + name);
     const fs::path file = fs::path(options.out) / "race" / "last" / (name + ".csv");
     const auto mean = repeated(of, point, kFirstOfLast, count, file.string(), options);
     for (RaceEntry& entry : result.race) {

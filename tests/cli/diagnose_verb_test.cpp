@@ -25,7 +25,7 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"diagnose latched.toml", "was recorded with latches on"},
       {"diagnose balls.toml", "has no recording of body = \"lily\" that is not held out"},
       {"diagnose " + kTank + " --budget none", "--budget"},
-      {"prove nowhere", "nowhere holds no finished proof"},
+      {"prove nowhere", "--out is for a new proof"},
       {"prove --worlds 0", "--worlds"},
   };
   for (const auto& c : cases) {
@@ -35,6 +35,9 @@ TEST(diagnoseVerb, refusesWithOneLine) {
     EXPECT_EQ(std::count(a.err.begin(), a.err.end(), '\n'), 1) << a.err;
     EXPECT_FALSE(lilytank.here.has("x")) << c.words;
   }
+  const Answer unfinished = lilytank("prove nowhere");
+  EXPECT_EQ(unfinished.code, 2);
+  EXPECT_EQ(unfinished.err, "nowhere holds no finished proof: there is no key.txt\n");
 }
 
 }  // namespace

@@ -262,11 +262,12 @@ class RaceTest : public testing::Test {
                     "\"corner.rules\"\n");
   }
   /// Races, expects the same files after interruptions, and that the overlay is what won.
-  OptimizationResult race(const std::string& keys, const std::string& parameter) {
+  OptimizationResult race(const std::string& keys) {
     const OptimizationResult result = expect_same_files(
         rig_,
         "[optimize]\nscenario = \"corner.toml\"\nfitness = \"yield_area\"\n" + kSearch + keys +
-            parameter + "[race]\nrulesets = 2\nevaluations = 4\n",
+            "[[parameter]]\npath = \"rules.*_reverse.p\"\nlow = 0.001\nhigh = 1\n"
+            "[race]\nrulesets = 2\nevaluations = 4\n",
         {"race.csv", "search.state", "evaluations.csv", "optimum.toml", "optimum.rules"});
     const Scenario read = load_scenario({rig_.here.path("corner.toml"), result.optimum}, {});
     rules_ = read.model.rulesets.front();
@@ -281,13 +282,11 @@ class RaceTest : public testing::Test {
   Ruleset rules_;
 };
 
-const std::string kReverse = "[[parameter]]\npath = \"rules.*_reverse.p\"\nlow = 0.001\nhigh = 1\n";
-
 TEST_F(RaceTest, ARulesetThatBuildsNothingLoses) {
   std::string own = rig_.here.read("corner.rules");
   own.replace(own.find("(4,1)  p=1") + 9, 1, "0");
   rig_.here.write("corner.rules", own);
-  const OptimizationResult result = race("", kReverse);
+  const OptimizationResult result = race("");
   ASSERT_EQ(result.race.size(), 2u);
   EXPECT_EQ(rules_.name, result.race[1].ruleset);
   ASSERT_TRUE(result.race[0].last && result.race[1].last);
@@ -299,7 +298,7 @@ TEST_F(RaceTest, ARulesetThatBuildsNothingLoses) {
 // The other ruleset is its mirror image and no better. With this seed luck lets it win the race,
 // and worlds that had no part in that tell.
 TEST_F(RaceTest, ItsOwnRulesetIsGivenUpOnlyForABetterOne) {
-  const OptimizationResult result = race("seed = 2\n", kReverse);
+  const OptimizationResult result = race("seed = 2\n");
   EXPECT_TRUE(result.race[1].kept);
   ASSERT_TRUE(result.race[0].last && result.race[1].last);
   EXPECT_LT(*result.race[0].last, *result.race[1].last);
