@@ -4,16 +4,10 @@
 #include "lilytank/diagnosis.hpp"
 #include "text/json.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
-
-template <class List, class Text>
-std::string joined(const List& list, const std::string& between, Text&& text) {
-  std::string out;
-  for (const auto& one : list) out += (out.empty() ? "" : between) + text(one);
-  return out;
-}
 
 std::string finding_json(const DiagnosisFinding& f) {
   std::string out = "\n    {\"effect\": " + json_quoted(f.effect) + ", \"alternatives\": [" +

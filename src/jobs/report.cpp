@@ -4,6 +4,7 @@
 
 #include "text/json.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -11,12 +12,6 @@ namespace {
 std::string word_of(RuleKind kind) {
   constexpr const char* words[] = {"link", "unlink", "update"};
   return words[static_cast<int>(kind)];
-}
-
-std::string joined(const std::vector<double>& values) {
-  std::string out;
-  for (const double v : values) out += (out.empty() ? "" : ", ") + without_rounding(v);
-  return out;
 }
 
 /// "5 singles, 1 of 2, 2 of 5 modules".
@@ -106,7 +101,7 @@ std::string summary_text(const Scenario& scenario, const World& world, const Ass
                               std::to_string(record.possible_copies()) + " possible, most " +
                               std::to_string(record.most_copies()));
     if (!record.completion_times().empty()) {
-      out += line("completed at", joined(record.completion_times()) + " s");
+      out += line("completed at", joined(record.completion_times(), ", ", without_rounding) + " s");
     }
   }
   if (model.module.count > 0) out += line("assemblies", sizes_text(record.by_size()));
@@ -130,7 +125,8 @@ std::string summary_json(const Scenario& scenario, const World& world, const Ass
   json.whole("copies", record.copies());
   json.whole("most_copies", record.most_copies());
   json.whole("possible_copies", record.possible_copies());
-  json.raw("completion_times_s", "[" + joined(record.completion_times()) + "]");
+  json.raw("completion_times_s",
+           "[" + joined(record.completion_times(), ", ", without_rounding) + "]");
   std::string sizes;
   for (std::size_t n = 1; n < record.by_size().size(); ++n) {
     sizes += (n == 1 ? "" : ", ") + std::to_string(record.by_size()[n]);

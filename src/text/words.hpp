@@ -1,5 +1,6 @@
 // Names in a sentence or a cell.
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,12 +15,14 @@ inline std::string listed(const std::vector<std::string>& names) {
   return out;
 }
 
-/// "r1 + r3" for " + "; "" of none.
-inline std::string joined(const std::vector<std::string>& words, std::string_view between) {
+/// "r1 + r3" for " + ", each by `text`; "" of none.
+template <class List, class Text = std::identity>
+std::string joined(const List& list, std::string_view between, Text&& text = {}) {
   std::string out;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    if (k > 0) out += between;
-    out += words[k];
+  bool first = true;
+  for (const auto& one : list) {
+    if (!first) out += between;
+    out += text(one), first = false;
   }
   return out;
 }
