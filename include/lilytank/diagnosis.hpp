@@ -66,6 +66,13 @@ struct Detectable {
   std::string effect, path;
   double smallest = 0;
   std::string unit;
+  std::string parameter() const;  ///< the path's last word
+};
+
+/// An effect alone. Of those that are tried at several ranges or times each is one.
+struct RankedEffect {
+  std::string effect, variant;  ///< "pair_attraction", "range = 0.012 m"
+  double z = 0;
 };
 
 /// How far a group of numbers is off, in mean squares of its deviations, before and after.
@@ -90,9 +97,8 @@ struct Diagnosis {
   std::vector<GroupFit> held_out;
   double msd_before = 0, msd_after = 0, msd_floor = 0;  ///< m^2, Eq. 9 of held-out recordings
   double msd_removed = 0, msd_low = 0, msd_high = 0;
-  std::vector<FoundCurve> maps;  ///< every shape's curve of what the baseline leaves
-  /// Every effect alone: name, z.
-  std::vector<std::pair<std::string, double>> ranking;
+  std::vector<FoundCurve> maps;       ///< every shape's curve of what the baseline leaves
+  std::vector<RankedEffect> ranking;  ///< strongest first
   double effect_threshold = 0, shape_threshold = 0, false_alarms = 0;
   double strongest_left = 0;  ///< z of what is left after the findings
   std::vector<std::string> checks, warnings;

@@ -172,9 +172,8 @@ std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
                                           const std::string& dir);
 
 /// Plots of a diagnosis in a directory, each as .png and .svg: "maps" of what the baseline leaves,
-/// "ranking" of effects, "laws" of the findings, "fit" before and after; and report.html, one file
-/// with all of them and `text`. Returns the files' names. Throws InputError if they cannot be
-/// written.
+/// "laws" of the findings, "fit" before and after; and report.html, one file with all of them and
+/// `text`. Returns the files' names. Throws InputError if they cannot be written.
 std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const std::string& text,
                                         const std::string& dir);
 

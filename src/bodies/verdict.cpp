@@ -321,13 +321,13 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
 // All single laws and the first pairs, by the square root of twice their gain.
 void add_ranking(const Comparison& c, Diagnosis& d) {
   const auto add = [&](const LawTrial& o) {
-    d.ranking.emplace_back(o.candidate.name(), std::sqrt(2 * std::max(0.0, o.gain)));
+    d.ranking.push_back({o.candidate.name(), "", std::sqrt(2 * std::max(0.0, o.gain))});
   };
   std::for_each(c.singles.begin(), c.singles.end(), add);
   const auto pairs = static_cast<std::ptrdiff_t>(std::min<std::size_t>(c.pairs.size(), kPairsTold));
   std::for_each(c.pairs.begin(), c.pairs.begin() + pairs, add);
   std::stable_sort(d.ranking.begin(), d.ranking.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+                   [](const RankedEffect& a, const RankedEffect& b) { return a.z > b.z; });
 }
 
 }  // namespace

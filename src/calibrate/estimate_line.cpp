@@ -47,14 +47,14 @@ Line line_through(const Matrix& off, const Matrix& values) {
 
 // The normal law of parameters given their answer.
 Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer,
-                   const Vector& prior) {
+                   const Prior& prior) {
   Scatter out;
-  const Matrix before = prior.array().square().matrix().asDiagonal();
+  const Matrix before = prior.deviation.array().square().matrix().asDiagonal();
   const Matrix answers = line.slope * before * line.slope.transpose() + line.covariance;
   out.back = solve_symmetric(answers, Matrix(line.slope * before)).transpose();
-  const Vector off = out.back * (answer - line.at_centre);
-  out.estimate = centre + off;
-  tell_spread(line, before - out.back * line.slope * before, off, out);
+  const Vector expected = line.at_centre + line.slope * (prior.expected - centre);
+  out.estimate = prior.expected + out.back * (answer - expected);
+  tell_spread(line, before - out.back * line.slope * before, out.estimate - centre, out);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "lilytank/local_model.hpp"
+
 namespace lilytank {
 
 /// How values depend on the parameters about a centre: a line, and what scatters about it.
@@ -29,9 +31,9 @@ struct Scatter {
 };
 /// The local model's slopes carry noise, which draws its answers to its centre. Experiments of
 /// known parameters tell by how much: `line` is through their answers, and this is what `answer`
-/// then says, where parameters are known to be near the centre, to `prior` (deviations): what
-/// answers hardly tell stays there, and its interval is no wider than that.
+/// then says together with what is known of the parameters before: what answers hardly tell stays
+/// as it was expected, and its interval is no wider than that. `centre`: of the line.
 Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer,
-                   const Eigen::VectorXd& prior);
+                   const Prior& prior);
 
 }  // namespace lilytank

@@ -163,10 +163,6 @@ void tell_profiles(const Stages& stages, const Replicates& replicates, const Vec
   }
 }
 
-std::string short_name(const FitParameter& p) {
-  return p.path.substr(p.path.rfind('.') + 1);
-}
-
 // Of the first `n` parameters, those that go together with the `first`, directly or through
 // others.
 std::vector<std::size_t> entangled_with(std::size_t first, std::size_t n,
@@ -191,7 +187,7 @@ void warn_of_entangled(std::size_t n, CalibrationResult& out) {
     std::vector<std::string> names;
     double closest = 0;
     for (std::size_t k = 0; k < group.size(); ++k) {
-      names.push_back(short_name(out.parameters[group[k]].parameter));
+      names.push_back(own_name(out.parameters[group[k]].parameter.path));
       for (std::size_t l = 0; l < k; ++l) {
         const double r = out.correlation[group[k] * out.parameters.size() + group[l]];
         if (std::fabs(r) > std::fabs(closest)) closest = r;
@@ -216,11 +212,11 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
         (of.to_scale(p.high) - of.to_scale(p.low)) / (of.to_scale(of.high) - of.to_scale(of.low));
     if (share > kTellsNothing) {
       out.warnings.push_back(
-          "these data hardly tell " + short_name(of) + ": its interval takes up " +
+          "these data hardly tell " + own_name(of.path) + ": its interval takes up " +
           std::to_string(static_cast<int>(100 * share)) + " % of the bounds it was looked for in");
     }
     if (p.estimate <= of.low || p.estimate >= of.high) {
-      out.warnings.push_back(short_name(of) + " is at a bound, " + shortest(p.estimate) +
+      out.warnings.push_back(own_name(of.path) + " is at a bound, " + shortest(p.estimate) +
                              ": widen it, or the model lacks something");
     }
   }
@@ -247,7 +243,7 @@ void warn_of_choice(const Stages& stages, const NearestPoint& chosen, Calibratio
   std::vector<std::string> outside;
   for (std::size_t i = 0; i < stages.setup().told(); ++i) {
     const CalibratedParameter& p = out.parameters[i];
-    if (p.estimate < p.low || p.estimate > p.high) outside.push_back(short_name(p.parameter));
+    if (p.estimate < p.low || p.estimate > p.high) outside.push_back(own_name(p.parameter.path));
   }
   if (outside.empty()) return;
   out.warnings.push_back("recorded displacements ask for " + listed(outside) +

@@ -6,6 +6,7 @@
 
 #include "lilytank/experiment.hpp"
 #include "lilytank/run.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -43,7 +44,7 @@ std::string value_text(const Scenario& scenario, const std::string& path) {
 
 // "water level" of flow.water_level.
 std::string last_word(const std::string& path) {
-  std::string word = path.substr(path.rfind('.') + 1);
+  std::string word = own_name(path);
   std::replace(word.begin(), word.end(), '_', ' ');
   return word;
 }

@@ -94,6 +94,7 @@ class Diagnoser {
   void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                      Diagnosis& out) const;
   static void disown(const Explanation& e, Diagnosis& out);
+  void warn_of_rest(const Explanation& e, Diagnosis& out) const;
   void blame_camera(const Explanation& e, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                        Diagnosis& out) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -46,6 +47,10 @@ bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
 }
 
 }  // namespace
+
+std::string Detectable::parameter() const {
+  return own_name(path);
+}
 
 double GroupFit::removed() const {
   return before > 1 ? std::clamp(1 - std::max(0.0, after - 1) / (before - 1), -1.0, 1.0) : 0;

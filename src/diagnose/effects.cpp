@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "lilytank/model_parameter.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -188,6 +190,15 @@ double usual_speed(const Model& model) {
 
 bool Effect::camera() const {
   return !paths.empty() && of_camera(paths.front());
+}
+
+std::string Effect::variant() const {
+  std::string out = joined(paths, ", ", own_name);
+  for (const auto& [path, value] : shape) {
+    const std::string unit = model_parameter(path).unit;
+    out += ", " + own_name(path) + " = " + significant(value, 2) + (unit == "1" ? "" : " " + unit);
+  }
+  return out;
 }
 
 double Effect::absent(const Model& model, std::size_t component) const {

@@ -27,6 +27,8 @@ struct Effect {
   /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
   std::string split;
   bool scored = true;  ///< the term gives a force to be compared with innovations
+  /// What it has of its own among those of its name: "strength, range = 0.004 m".
+  std::string variant() const;
   /// It is the camera's doing, not the tank's.
   bool camera() const;
   /// Value of an amplitude at which the effect is absent.

@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "diagnose/diagnoser.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -18,7 +20,9 @@ void Diagnoser::tell_ranking(const Naming& naming, const Vector& residual, const
                              Diagnosis& out) const {
   for (const EffectFit& f : naming.effects(residual)) {
     const auto k = static_cast<std::size_t>(f.effect);
-    if (f.effect >= 0) out.ranking.emplace_back(atlas_->plan().effects[k].name, f.z);
+    if (f.effect < 0) continue;
+    const Effect& effect = atlas_->plan().effects[k];
+    out.ranking.push_back({effect.name, effect.variant(), f.z});
   }
   out.effect_threshold = naming.effect_threshold();
   out.shape_threshold = naming.shape_threshold(), out.false_alarms = options_.false_alarms;
@@ -131,7 +135,23 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
   out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
   blame_camera(e, out);
   if (e.found.empty() && naming.leaves_something(e)) out.verdict = Verdict::undecided;
-  if (!e.found.empty() && naming.fails(e)) disown(e, out);
+  if (e.found.empty()) return;
+  if (naming.fails(e)) {
+    disown(e, out);
+  } else if (out.verdict == Verdict::missing && naming.leaves_something(e)) {
+    warn_of_rest(e, out);
+  }
+}
+
+// Findings that leave more than a complete experiment has, and no name for the rest.
+void Diagnoser::warn_of_rest(const Explanation& e, Diagnosis& out) const {
+  std::string text = "what is left is more than in a complete experiment";
+  if (e.left_shape.z > out.shape_threshold) {
+    const Shape& shape = atlas_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
+    text += ", most over " + shape.variable + " " + shape.direction + " (z " +
+            significant(e.left_shape.z, 2) + ")";
+  }
+  out.warnings.push_back(text + ": something else may be missing, or a law has another form");
 }
 
 // Names that leave most of the mismatch are not told as findings.
@@ -155,8 +175,8 @@ void Diagnoser::blame_camera(const Explanation& e, Diagnosis& out) const {
     DiagnosisFinding f = out.findings[i];
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {
       const double value = e.found[i].amplitudes(static_cast<Eigen::Index>(c)) * effect.sizes[c];
-      f.parameters.push_back({effect.paths[c].substr(effect.paths[c].rfind('.') + 1),
-                              effect.paths[c], value, value, value, effect.units[c]});
+      f.parameters.push_back(
+          {own_name(effect.paths[c]), effect.paths[c], value, value, value, effect.units[c]});
     }
     f.equation = effect.name == "camera_tilt" ? "the camera's axis leans; from 1 m above the water"
                                               : "places are seen at x (1 + lens |x|^2)";

@@ -22,6 +22,9 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostRounds = 5;
 constexpr double kSettled = 1;  // deviations of the design
+constexpr double kReach = 2.5;  // likewise, that an answer may be off
+// Designs, in an answer's errors, of which slopes would else be noise, and in parameters' ranges.
+constexpr double kWide = 1.5, kEnough = 0.67, kMostSpread = 0.1;
 // Deviations of the first design: of what is refined, on its log scale, and of places.
 constexpr double kRefined = 0.25, kPlaced = 0.06;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
@@ -237,76 +240,135 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
 // Answers are drawn to the design's centre by the noise of the local model's slopes. Each
 // simulation is estimated by a model that did not know it: their estimates are a line in the truth,
 // and its inverse at the data's estimate by the same models gives the values.
-void tell(const Design& design, const Vector& centre, const Vector& prior, const Vector& data,
-          JointFit& fit) {
+Scatter turned_back(const Design& design, const Vector& centre, const Prior& prior,
+                    const Vector& data) {
   const CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
   const Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
-  const Scatter scatter = scatter_of(line, centre, by_others.answer, prior);
+  return scatter_of(line, centre, by_others.answer, prior);
+}
+
+void tell(const Scatter& answer, JointFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];
-    const double middle = scatter.estimate(k), half = scatter.wide * scatter.deviation(k);
+    const double middle = answer.estimate(k), half = answer.wide * answer.deviation(k);
     const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
     fit.value.push_back(within(middle));
     fit.low.push_back(within(middle - half)), fit.high.push_back(within(middle + half));
   }
 }
 
+// The next design: about the answer, as far as this one reaches, and as wide as the answer's errors
+// ask for. True if it is where this one is.
+bool settled(const Scatter& answer, const FitBounds& bounds, Vector& centre, Matrix& width) {
+  const Vector reach = kReach * width.diagonal();
+  const Vector next = answer.estimate.cwiseMax(bounds.low).cwiseMin(bounds.high);
+  const Vector moved = (next - centre).cwiseQuotient(width.diagonal());
+  const Vector wide = (kWide * answer.deviation).cwiseMin(kMostSpread * (bounds.high - bounds.low));
+  const bool stays = moved.cwiseAbs().maxCoeff() < kSettled;
+  const bool enough = (kEnough * wide - width.diagonal()).maxCoeff() < 0;
+  if (stays && enough) return true;
+  centre = next.cwiseMax(centre - reach).cwiseMin(centre + reach);
+  width.diagonal() = width.diagonal().cwiseMax(wide);
+  return false;
+}
+
+// Rounds of simulations, each about the answer of the one before.
+class Rounds {
+ public:
+  Rounds(Stages& stages, const FlowMaps& maps, const Atlas& atlas, std::vector<JointEffect> effects,
+         const Vectors& observed, JointStart baseline, JointRounds rounds)
+      : stages_(stages),
+        maps_(maps),
+        atlas_(atlas),
+        effects_(std::move(effects)),
+        numbers_(atlas, effects_),
+        data_(numbers_(observed)),
+        baseline_(std::move(baseline)),
+        rounds_(std::move(rounds)) {
+    for (std::size_t e = 0; e < effects_.size(); ++e) fit_.kept.push_back(e);
+    begin_anew();
+  }
+
+  JointFit run() {
+    Scatter answer;
+    int most = kMostRounds;
+    for (int k = 1; k <= most && !fit_.settled; ++k) {
+      const Design design = simulated(k);
+      Prior prior{centre_, prior_of(bounds_, width_)};
+      prior.expected.head(baseline_.expected.size()) = baseline_.expected;
+      if (drops_one(design, prior)) {
+        ++most;
+        continue;
+      }
+      answer = turned_back(design, centre_, prior, data_);
+      fit_.settled = settled(answer, bounds_, centre_, width_);
+    }
+    tell(answer, fit_);
+    return std::move(fit_);
+  }
+
+ private:
+  void begin_anew() {
+    begin(stages_, effects_, baseline_, fit_, centre_, width_);
+    bounds_ = bounds_of(fit_);
+    centre_ = centre_.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    joint_.emplace(stages_, maps_, atlas_, numbers_, fit_);
+    all_ = {};
+  }
+
+  // Of all rounds, those that are about the centre.
+  Design simulated(int k) {
+    const std::uint64_t seed = derived_seed(rounds_.seed, static_cast<std::uint64_t>(k));
+    // Where rounds before have been as well, fewer will do.
+    const bool known_ground = 2 * about(all_, centre_, width_).points.rows() >= rounds_.count;
+    const int count = known_ground ? static_cast<int>(kLater * rounds_.count) : rounds_.count;
+    append(joint_->simulate("joint " + rounds_.tag + " " + std::to_string(k),
+                            scattered(centre_, width_, count, bounds_, seed), seed),
+           all_);
+    return about(all_, centre_, width_);
+  }
+
+  // Whether an effect is no longer asked for; then all begins again without it.
+  bool drops_one(const Design& design, const Prior& prior) {
+    FitBounds near = bounds_;
+    near.reach = kReach;
+    const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
+    const KnownFit known = model.fit(data_, near, prior);
+    Vector point = known.fit.point;
+    const std::size_t dropped =
+        needless(stages_, effects_, known.covariance / known.doubt, rounds_.keep, point);
+    if (dropped == effects_.size()) return false;
+    read_point(stages_, point, effects_);
+    const auto at = static_cast<std::ptrdiff_t>(dropped);
+    effects_.erase(effects_.begin() + at), fit_.kept.erase(fit_.kept.begin() + at);
+    baseline_.point = point.head(baseline_.point.size());
+    begin_anew();
+    return true;
+  }
+
+  Stages& stages_;
+  const FlowMaps& maps_;
+  const Atlas& atlas_;
+  std::vector<JointEffect> effects_;
+  Numbers numbers_;  ///< of all effects that were found, also of those that are dropped
+  Vector data_;
+  JointStart baseline_;
+  JointRounds rounds_;
+  JointFit fit_;
+  Vector centre_;
+  Matrix width_;
+  FitBounds bounds_;
+  std::optional<Joint> joint_;
+  Design all_;
+};
+
 }  // namespace
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      std::vector<JointEffect> effects, const Vectors& observed,
-                     const JointStart& baseline, int round, double keep, const std::string& tag,
-                     std::uint64_t seed) {
-  JointFit fit;
-  for (std::size_t e = 0; e < effects.size(); ++e) fit.kept.push_back(e);
-  Vector centre;
-  Matrix width;
-  begin(stages, effects, baseline, fit, centre, width);
-  FitBounds bounds = bounds_of(fit);
-  const Numbers numbers(atlas, effects);
-  const Vector data = numbers(observed);
-  std::optional<Joint> joint(std::in_place, stages, maps, atlas, numbers, fit);
-  Design all, design;
-  int most = kMostRounds;
-  for (int k = 1; k <= most; ++k) {
-    const std::uint64_t own = derived_seed(seed, static_cast<std::uint64_t>(k));
-    // Where rounds before have been as well, fewer will do.
-    const bool known_ground = 2 * about(all, centre, width).points.rows() >= round;
-    const int count = known_ground ? static_cast<int>(kLater * round) : round;
-    append(joint->simulate("joint " + tag + " " + std::to_string(k),
-                           scattered(centre, width, count, bounds, own), own),
-           all);
-    design = about(all, centre, width);
-    const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
-    FitBounds near = bounds;
-    near.reach = 2.5;
-    Vector expected = centre;
-    expected.head(baseline.expected.size()) = baseline.expected;
-    const KnownFit known = model.fit(data, near, {expected, prior_of(bounds, width)});
-    Vector point = known.fit.point;
-    const std::size_t dropped =
-        needless(stages, effects, known.covariance / known.doubt, keep, point);
-    if (dropped < effects.size()) {
-      read_point(stages, point, effects);
-      const auto at = static_cast<std::ptrdiff_t>(dropped);
-      effects.erase(effects.begin() + at), fit.kept.erase(fit.kept.begin() + at);
-      begin(stages, effects,
-            {baseline.expected, point.head(baseline.point.size()), baseline.deviation}, fit, centre,
-            width);
-      bounds = bounds_of(fit);
-      centre = centre.cwiseMax(bounds.low).cwiseMin(bounds.high);
-      joint.emplace(stages, maps, atlas, numbers, fit);
-      all = {}, ++most;
-      continue;
-    }
-    const Vector moved = width.diagonal().cwiseInverse().cwiseProduct(point - centre);
-    fit.settled = !known.fit.at_reach && moved.cwiseAbs().maxCoeff() < kSettled;
-    if (fit.settled || k == most) break;
-    centre = point;
-  }
-  tell(design, centre, prior_of(bounds, width), data, fit);
-  return fit;
+                     const JointStart& baseline, const JointRounds& rounds) {
+  return Rounds(stages, maps, atlas, std::move(effects), observed, baseline, rounds).run();
 }
 
 }  // namespace lilytank

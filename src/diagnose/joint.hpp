@@ -34,14 +34,20 @@ struct JointEffect {
   int shape = -1;              ///< the plan's, if it is one: then its own scores speak as well
 };
 
+/// Rounds of simulations.
+struct JointRounds {
+  int count = 80;   ///< simulations of one
+  double keep = 4;  ///< z by which an effect's amplitudes must differ from nothing
+  std::string tag;  ///< for the names of what is kept
+  std::uint64_t seed = 1;
+};
+
 /// Effects are dropped, weakest first, that the data no longer ask for once everything is fitted
 /// together: a name may have stood for a baseline that another effect had pushed aside. At least
-/// one is kept. `keep`: z by which an effect's amplitudes must differ from nothing. `baseline`:
-/// where its parameters are expected beside them, and how surely (deviations of the first design).
-/// `round`: simulations of a round. `tag`: for the names of what is kept.
+/// one is kept. `baseline`: where its parameters are expected beside them, and how surely
+/// (deviations of the first design).
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
                      std::vector<JointEffect> effects, const Vectors& observed,
-                     const JointStart& baseline, int round, double keep, const std::string& tag,
-                     std::uint64_t seed);
+                     const JointStart& baseline, const JointRounds& rounds);
 
 }  // namespace lilytank

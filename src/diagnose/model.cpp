@@ -7,6 +7,7 @@
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -52,9 +53,9 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   const JointStart start{stages_.to_scale(setup_.start),
                          (baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit =
-      fit_jointly(stages_, *maps_, *atlas_, found, observed, start, budget_.round,
-                  naming_->effect_threshold(), judged.tag, derived_seed(options_.seed, 700));
+  const JointFit fit = fit_jointly(
+      stages_, *maps_, *atlas_, found, observed, start,
+      {budget_.round, naming_->effect_threshold(), judged.tag, derived_seed(options_.seed, 700)});
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
@@ -75,15 +76,14 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
     const std::size_t count = effect.paths.size() + effect.refine.size();
     for (std::size_t k = 0; k < count; ++k, ++at) {
       const FitParameter& p = fit.parameters[at];
-      out.findings[e].parameters.push_back({p.path.substr(p.path.rfind('.') + 1), p.path,
-                                            fit.value[at], fit.low[at], fit.high[at], p.unit});
+      out.findings[e].parameters.push_back(
+          {own_name(p.path), p.path, fit.value[at], fit.low[at], fit.high[at], p.unit});
     }
     for (const auto& [path, value] : effect.shape) {
       const bool refined = std::any_of(effect.refine.begin(), effect.refine.end(),
                                        [&p = path](const FitParameter& r) { return r.path == p; });
       if (refined || effect.name == "empirical_force") continue;
-      out.findings[e].parameters.push_back(
-          {path.substr(path.rfind('.') + 1), path, value, value, value, ""});
+      out.findings[e].parameters.push_back({own_name(path), path, value, value, value, ""});
     }
     if (effect.name == "empirical_force") {
       for (int k = 0; k < kKnots; ++k) {

@@ -45,8 +45,10 @@ std::string maps_csv(const Diagnosis& d) {
 }
 
 std::string ranking_csv(const Diagnosis& d) {
-  std::string out = "effect,z\n";
-  for (const auto& [name, z] : d.ranking) out += name + "," + number(z) + "\n";
+  std::string out = "effect,variant,z\n";
+  for (const RankedEffect& r : d.ranking) {
+    out += r.effect + ",\"" + r.variant + "\"," + number(r.z) + "\n";
+  }
   return out;
 }
 
@@ -82,6 +84,7 @@ std::string diagnosis_json(const Diagnosis& d) {
          "],\n";
   out += "  \"detectable\": [" + joined(d.detectable, ",", [](const Detectable& one) {
            return "\n    {\"effect\": " + json_quoted(one.effect) +
+                  ", \"parameter\": " + json_quoted(one.parameter()) +
                   ", \"smallest\": " + json_number(one.smallest) +
                   ", \"unit\": " + json_quoted(one.unit) + "}";
          });

@@ -103,18 +103,19 @@ std::string diagnosis_text(const Diagnosis& d) {
            " % of complete experiments exceed " + digits(d.effect_threshold) + ", curves " +
            digits(d.shape_threshold) + "); left after the findings: " + digits(d.strongest_left) +
            "\n";
-    TextTable table({"effect", "z"});
+    TextTable table({"effect", "z", "with"});
     for (std::size_t i = 0; i < d.ranking.size() && i < 8; ++i) {
-      table.add({d.ranking[i].first, digits(d.ranking[i].second)});
+      table.add({d.ranking[i].effect, digits(d.ranking[i].z), d.ranking[i].variant});
     }
     out += table.text();
     out +=
         "\nSmallest effects that would have been seen in half of all cases, along the axis and at "
         "the range that show least\n";
-    TextTable least({"effect", "smallest", "unit"});
+    TextTable least({"effect", "parameter", "smallest", "unit"});
     for (const Detectable& one : d.detectable) {
       const bool seen = std::isfinite(one.smallest);
-      least.add({one.effect, seen ? digits(one.smallest) : "never", seen ? one.unit : ""});
+      least.add({one.effect, one.parameter(), seen ? digits(one.smallest) : "never",
+                 seen ? one.unit : ""});
     }
     out += least.text();
   }

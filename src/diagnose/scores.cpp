@@ -8,6 +8,7 @@
 #include "diagnose/scatter.hpp"
 #include "diagnose/sensitivity.hpp"
 #include "forces/pairs.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -208,10 +209,9 @@ std::vector<ScoreEntry> ScorePlan::entries() const {
     for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) {
       std::string name = effect.name;
       for (const auto& [path, value] : effect.shape) {
-        name += " " + path.substr(path.rfind('.') + 1) + " " + std::to_string(value);
+        name += " " + own_name(path) + " " + std::to_string(value);
       }
-      if (effect.paths.size() > 1)
-        name += " " + effect.paths[c].substr(effect.paths[c].rfind('.') + 1);
+      if (effect.paths.size() > 1) name += " " + own_name(effect.paths[c]);
       out.push_back({"score", name});
     }
   }

@@ -26,6 +26,14 @@ struct Moments {
   }
 };
 
+// Whether most simulations say the same: a ring that hardly any module visits.
+bool hardly_varies(const std::vector<std::vector<double>>& simulated, std::size_t k) {
+  std::vector<double> values;
+  for (const auto& row : simulated) values.push_back(row[k]);
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 4] == values[(3 * values.size()) / 4];
+}
+
 // Mean squared deviation of observed numbers from simulated ones, of every group.
 std::map<std::string, double> misfit_by_group(const std::vector<SummaryEntry>& entries,
                                               const std::vector<double>& observed,
@@ -37,7 +45,7 @@ std::map<std::string, double> misfit_by_group(const std::vector<SummaryEntry>& e
     for (const auto& row : simulated) of.add(row[k]);
     for (const auto& row : scatter) width.add(row[k]);
     const double variance = width.variance() * (1 + 1 / std::max(1.0, of.count));
-    if (!(variance > 0)) continue;
+    if (!(variance > 0) || hardly_varies(scatter, k)) continue;
     const double off = observed[k] - of.mean();
     groups[entries[k].group].add(off * off / variance);
   }

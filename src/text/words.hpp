@@ -15,6 +15,11 @@ inline std::string listed(const std::vector<std::string>& names) {
   return out;
 }
 
+/// "K_F" of "forces.face_drag.K_F".
+inline std::string own_name(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
 /// "r1 + r3" for " + ", each by `text`; "" of none.
 template <class List, class Text = std::identity>
 std::string joined(const List& list, std::string_view between, Text&& text = {}) {
