@@ -121,7 +121,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "16 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "17 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "diagnose/slack.hpp"
+#include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
@@ -13,9 +15,12 @@
 namespace lilytank {
 namespace {
 
+using Vector2 = Eigen::Vector2d;
+
 constexpr double kBlock = 10;  // s
 constexpr double kFar = 6;     // deviations at which an innovation stops to count more
 constexpr double kContact = 0.03;
+constexpr int kPhases = 8, kFinePhases = 360;
 
 struct Moments {
   double count = 0, sum = 0, square = 0;
@@ -65,20 +70,51 @@ std::vector<double> mean_curve(const std::vector<std::vector<double>>& curves,
   return out;
 }
 
-// Innovations of one model, by recording, module and frame.
-using Key = std::pair<std::pair<int, int>, int>;
-std::map<Key, std::array<double, 3>> innovations(const Model& model,
-                                                 const std::vector<Recording>& recordings,
-                                                 const PredictorOptions& predictor) {
-  std::map<Key, std::array<double, 3>> out;
-  predict(model, recordings, predictor, [&](const PredictedFrame& f) {
+// Innovations of one model in a recording, by module and frame.
+using Key = std::pair<int, int>;
+using Innovations = std::map<Key, std::array<double, 3>>;
+Innovations innovations(const Model& model, const Recording& recording,
+                        const PredictorOptions& predictor) {
+  Innovations out;
+  predict(model, {recording}, predictor, [&](const PredictedFrame& f) {
     for (std::size_t i = 0; i < f.dx.size(); ++i) {
       if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContact) continue;
-      out[{{f.recording, f.module[i]}, f.frame}] = {f.dx[i] / f.sd_x[i], f.dy[i] / f.sd_x[i],
-                                                    f.dtheta[i] / f.sd_theta[i]};
+      out[{f.module[i], f.frame}] = {std::clamp(f.dx[i] / f.sd_x[i], -kFar, kFar),
+                                     std::clamp(f.dy[i] / f.sd_x[i], -kFar, kFar),
+                                     std::clamp(f.dtheta[i] / f.sd_theta[i], -kFar, kFar)};
     }
   });
   return out;
+}
+
+// The model with its pumps in the phase that predicts a recording best: it is each recording's own,
+// as when a camera was started. Squares of innovations have two harmonics in it.
+Model in_phase(const Model& model, const Recording& recording, const PredictorOptions& predictor) {
+  const bool pumps = std::any_of(model.forces.begin(), model.forces.end(),
+                                 [](const auto& f) { return f.term->name() == "flow_pulsation"; });
+  if (!pumps) return model;
+  const std::vector<std::string> path{"forces.flow_pulsation.phase"};
+  std::array<Vector2, 2> harmonics{Vector2::Zero(), Vector2::Zero()};
+  for (int k = 0; k < kPhases; ++k) {
+    const double phase = 2 * kPi * k / kPhases;
+    const auto found =
+        innovations(with_parameters(model, path, std::vector{phase}), recording, predictor);
+    double sum = 0;
+    for (const auto& [key, z] : found) sum += z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
+    for (int h = 0; h < 2; ++h) {
+      const Rot turn = rotation((h + 1) * phase);
+      harmonics[static_cast<std::size_t>(h)] += sum * Vector2(turn.c, turn.s);
+    }
+  }
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kFinePhases; ++k) {
+    const double phase = 2 * kPi * k / kFinePhases;
+    const Rot one = rotation(phase), two = rotation(2 * phase);
+    const double sum =
+        harmonics[0].dot(Vector2(one.c, one.s)) + harmonics[1].dot(Vector2(two.c, two.s));
+    if (sum < least) least = sum, best = phase;
+  }
+  return with_parameters(model, path, std::vector{best});
 }
 
 }  // namespace
@@ -175,25 +211,27 @@ void msd_share(const std::vector<Recording>& recordings,
 
 StepGain step_gain(const Model& before, const Model& after, const PredictorOptions& predictor,
                    const std::vector<Recording>& recordings) {
-  const auto b = innovations(before, recordings, predictor);
-  const auto a = innovations(after, recordings, predictor);
+  std::vector<Innovations> was, is;
   std::array<Moments, 3> width;
-  for (const auto& [key, z] : a) {
-    for (std::size_t k = 0; k < 3; ++k) width[k].add(std::clamp(z[k], -kFar, kFar));
-  }
-  std::map<std::pair<int, int>, double> blocks;
-  for (const auto& [key, z] : b) {
-    const auto other = a.find(key);
-    if (other == a.end()) continue;
-    double gain = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double v = std::max(width[k].variance(), 1e-9);
-      const double was = std::clamp(z[k], -kFar, kFar);
-      const double is = std::clamp(other->second[k], -kFar, kFar);
-      gain += 0.5 * (was * was - is * is) / v;
+  for (const Recording& one : recordings) {
+    was.push_back(innovations(before, one, predictor));
+    is.push_back(innovations(in_phase(after, one, predictor), one, predictor));
+    for (const auto& [key, z] : is.back()) {
+      for (std::size_t k = 0; k < 3; ++k) width[k].add(z[k]);
     }
-    const double rate = recordings[static_cast<std::size_t>(key.first.first)].rate;
-    blocks[{key.first.first, static_cast<int>(key.second / (kBlock * rate))}] += gain;
+  }
+  std::map<std::pair<std::size_t, int>, double> blocks;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (const auto& [key, z] : was[r]) {
+      const auto other = is[r].find(key);
+      if (other == is[r].end()) continue;
+      double gain = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double v = std::max(width[k].variance(), 1e-9), now = other->second[k];
+        gain += 0.5 * (z[k] * z[k] - now * now) / v;
+      }
+      blocks[{r, static_cast<int>(key.second / (kBlock * recordings[r].rate))}] += gain;
+    }
   }
   Moments of;
   for (const auto& [block, gain] : blocks) of.add(gain);

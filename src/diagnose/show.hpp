@@ -29,7 +29,7 @@ void msd_share(const std::vector<Recording>& recordings,
                const std::vector<std::vector<Recording>>& after, double longest, Diagnosis& out);
 
 /// Gain in log-likelihood, one step ahead, of one model over another: nat, and its 95 % interval
-/// by blocks of ten seconds.
+/// by blocks of ten seconds. Pumps that pulsate have the phase that predicts each recording best.
 struct StepGain {
   double gain = 0, low = 0, high = 0;
 };

@@ -138,27 +138,46 @@ class Spectrum final : public ScatterPart {
     return place / sum;
   }
 
+  using Bank = std::array<double, kBank>;
+  // Of all recordings' gains, at frequencies a step apart from `first` on, Hz.
+  Bank powers(double first, double step) const {
+    Bank radians{}, power{};
+    for (std::size_t k = 0; k < kBank; ++k) {
+      radians[k] = 2 * kPi * (first + static_cast<double>(k) * step) / rate_;
+    }
+    for (const auto& series : series_) add_powers(series, radians, power);
+    return power;
+  }
+
+  // A line's frequency between those `step` about it, Hz: pumps must stay in phase over a whole
+  // recording.
+  double refined(double line, double step) const {
+    const double fine = 2 * step / (kBank - 1);
+    const Bank power = powers(line - step, fine);
+    const auto best = static_cast<std::size_t>(
+        std::max_element(power.begin() + 1, power.end() - 1) - power.begin());
+    const double bend = power[best - 1] - 2 * power[best] + power[best + 1];
+    const double off = bend < 0 ? 0.5 * (power[best - 1] - power[best + 1]) / bend : 0;
+    return line - step + (static_cast<double>(best) + std::clamp(off, -1.0, 1.0)) * fine;
+  }
+
   // The strongest line of the flow's gain over the mean.
   double line(ScoreDetails* details) const {
     std::size_t longest = 1;
     for (const auto& series : series_) longest = std::max(longest, series.size());
     const double step = rate_ / (kOversampled * static_cast<double>(longest));
     const int count = static_cast<int>(kFastest / step);
-    double most = 0, all = 0;
+    double most = 0, all = 0, at = step;
     for (int first = 1; first <= count; first += static_cast<int>(kBank)) {
-      std::array<double, kBank> radians{}, power{};
-      for (std::size_t k = 0; k < kBank; ++k) {
-        radians[k] = 2 * kPi * (first + static_cast<int>(k)) * step / rate_;
-      }
-      for (const auto& series : series_) add_powers(series, radians, power);
+      const Bank power = powers(first * step, step);
       for (int k = first; k < first + static_cast<int>(kBank) && k <= count; ++k) {
         const double one = power[static_cast<std::size_t>(k - first)];
         all += one / count;
         if (one <= most) continue;
-        most = one;
-        if (details != nullptr) details->pulsation = k * step;
+        most = one, at = k * step;
       }
     }
+    if (details != nullptr) details->pulsation = refined(at, step);
     return std::log(std::max(most, 1e-300) / std::max(all, 1e-300));
   }
 
