@@ -61,10 +61,10 @@ struct DiagnosisFinding {
 };
 
 /// The smallest size of an effect that would have been seen in half of all cases, along the axis
-/// and at the range that show least; infinite: it cannot be seen.
+/// and at the range that show least; infinite: none up to the largest that was tried.
 struct Detectable {
   std::string effect, path;
-  double smallest = 0;
+  double smallest = 0, tried = 0;
   std::string unit;
   std::string parameter() const;  ///< the path's last word
 };

@@ -312,8 +312,8 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
       for (const bool fitted : own.fitted) at -= fitted ? 1 : 0;
       least = std::min(least, own.scale[0] * f.deviation[at]);
     }
-    d.detectable.push_back({std::string(t.law->name()), t.parameters[0].name,
-                            least * std::sqrt(2 * (c.threshold() + 1)),
+    const double seen = least * std::sqrt(2 * (c.threshold() + 1));
+    d.detectable.push_back({std::string(t.law->name()), t.parameters[0].name, seen, seen,
                             unit_for(*c.experiment, t.parameters[0].unit)});
   }
 }

@@ -6,6 +6,7 @@
 
 #include "analysis/linear.hpp"
 #include "analysis/median.hpp"
+#include "analysis/summary_parts.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/scan.hpp"
 #include "diagnose/slack.hpp"
@@ -30,6 +31,9 @@ constexpr double kBend = 1;  // one over the square of a second order that is ex
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 constexpr double kFarOff = 100;     // deviations
 constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
+constexpr double kClearly = 0.5;       // of squares that chance has, by which an effect is clear
+constexpr double kLeastSpread = 0.03;  // of amplitudes' logarithms
+constexpr double kMostGrowth = 2.5;
 constexpr double kSlopesFitted = 0.5;  // degrees of freedom that a slope takes, being held so
 
 // Scores less their mean at the parameters that the summary asks for, of every experiment by local
@@ -79,6 +83,21 @@ Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t 
   }
   out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
   return out.cwiseMax(two_sided ? -1e9 : 0);
+}
+
+// Power of the amplitudes with which the length of residuals grows, where it is clear.
+double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
+  const auto numbers = static_cast<double>(residuals.cols());
+  MeanSum x, y, xx, xy;
+  for (Eigen::Index i = 0; i < residuals.rows(); ++i) {
+    const double square = residuals.row(i).squaredNorm() - numbers;
+    if (!(square > kClearly * numbers)) continue;
+    const double a = std::log(amplitudes.row(i).norm()), f = 0.5 * std::log(square);
+    x.add(a), y.add(f), xx.add(a * a), xy.add(a * f);
+  }
+  const double spread = xx.mean() - x.mean() * x.mean();
+  if (!(spread > kLeastSpread)) return 1;
+  return std::clamp((xy.mean() - x.mean() * y.mean()) / spread, 1.0, kMostGrowth);
 }
 
 }  // namespace
@@ -284,6 +303,7 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
   out.experiments = options_.experiments, out.two_sided = effect.two_sided;
+  out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
   return out;
 }
 

@@ -35,6 +35,9 @@ struct Fingerprint : Answer {
   /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
   Eigen::MatrixXd scatter;
   int experiments = 0;  ///< that it rests on, for each amplitude
+  /// Power of the amplitude by which residuals grow, from 1 to 2.5: what makes motion more
+  /// irregular is hardly seen while it is small.
+  double growth = 1;
   /// Variance of its own noise in every residual, whose deviation is one.
   double noise_at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;

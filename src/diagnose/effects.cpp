@@ -83,13 +83,13 @@ void add_walls(std::vector<Effect>& all) {
 void add_water(std::vector<Effect>& all, const Model& model) {
   // More would gather all modules in the middle: what less of it does could not be learned there.
   Effect mass = one("added_mass", "coefficient", 0.25, "1", "slip");
-  mass.split = kOtherBody;
+  mass.split = kOtherBody, mass.growth = 2;
   all.push_back(mass);
   Effect magnus = one("magnus_lift", "coefficient", 0.3, "1", "spin");
   magnus.two_sided = true;
   all.push_back(magnus);
   Effect viscous = one("viscous_drag", "coefficient", 0.03, "N s/m", "slip");
-  viscous.two_sided = true, viscous.split = kPumps;
+  viscous.two_sided = true, viscous.split = kPumps, viscous.growth = 2;
   all.push_back(viscous);
   Effect turning = one("rotational_drag", "coefficient", 5e-6, "N m s", "spin");
   turning.two_sided = true;
@@ -117,7 +117,7 @@ void add_modules(std::vector<Effect>& all) {
   all.push_back(torque);
   all.push_back(two("mass_offset", "forward", "left", 1e-3, "m", "heading"));
   Effect heavy = one("heterogeneous_module", "extra", 0.4, "1", "module");
-  heavy.scored = false;
+  heavy.scored = false, heavy.growth = 2;
   all.push_back(heavy);
 }
 
@@ -125,7 +125,7 @@ void add_modules(std::vector<Effect>& all) {
 void add_noise(std::vector<Effect>& all) {
   Effect pumps = one("flow_pulsation", "share", 0.15, "1", "time");
   pumps.shape = {{force("flow_pulsation", "frequency"), 0.9}};
-  pumps.scored = false;
+  pumps.scored = false, pumps.growth = 2;
   all.push_back(pumps);
   for (const double time : {0.25, 1.0}) {
     for (const double length : {0.03, 0.08}) {
@@ -142,18 +142,18 @@ void add_noise(std::vector<Effect>& all) {
     Effect vortices = one("vortex_shedding", "coefficient", 0.8, "1", "lag");
     vortices.shape = {{force("vortex_shedding", "frequency"), frequency}};
     vortices.refine = {{force("vortex_shedding", "frequency"), "Hz", 0.1, 3, true, false}};
-    vortices.scored = false;
+    vortices.scored = false, vortices.growth = 2;
     all.push_back(vortices);
   }
   for (const char* by : {"by_radius", "by_slip"}) {
     const bool radius = by[3] == 'r';
     Effect e = one("state_dependent_noise", by, radius ? 0.012 : 0.06, radius ? "N" : "N s/m",
                    radius ? "radius" : "slip");
-    e.scored = false;
+    e.scored = false, e.growth = 2;
     all.push_back(e);
   }
   Effect kicks = one("heavy_tailed_kicks", "impulse", 1.5e-3, "N s", "lag");
-  kicks.scored = false;
+  kicks.scored = false, kicks.growth = 2;
   all.push_back(kicks);
 }
 

@@ -27,6 +27,9 @@ struct Effect {
   /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
   std::string split;
   bool scored = true;  ///< the term gives a force to be compared with innovations
+  /// Power of its amplitude with which it begins to show: 2 if it is a variance's, or if a
+  /// calibration takes up what is in proportion.
+  double growth = 1;
   /// What it has of its own among those of its name: "strength, range = 0.004 m".
   std::string variant() const;
   /// It is the camera's doing, not the tank's.

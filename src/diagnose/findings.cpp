@@ -55,13 +55,15 @@ void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
   for (std::size_t e = 0; e < atlas_->plan().effects.size(); ++e) {
     const Effect& effect = atlas_->plan().effects[e];
     const double least = naming.smallest_seen(static_cast<int>(e)) * effect.sizes[0];
+    const double tried = kLearnedSize * effect.sizes[0];
     const auto same = std::find_if(
         out.detectable.begin(), out.detectable.end(),
         [&](const Detectable& d) { return d.effect == effect.name && d.path == effect.paths[0]; });
     if (same == out.detectable.end()) {
-      out.detectable.push_back({effect.name, effect.paths[0], least, effect.units[0]});
+      out.detectable.push_back({effect.name, effect.paths[0], least, tried, effect.units[0]});
     } else {
       same->smallest = std::max(same->smallest, least);  // whatever its range
+      same->tried = std::max(same->tried, tried);
     }
   }
 }

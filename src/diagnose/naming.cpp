@@ -20,6 +20,8 @@ constexpr double kLeastShrinkage = 0.02;
 constexpr Eigen::Index kLeastScatter = 4;
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 constexpr double kEulerGamma = 0.57721566490153286;
+// Of an effect's sizes: what is claimed of less than a tenth of what was learned would be a guess.
+constexpr double kLeastTried = 0.1, kTriedStep = 1.03;
 
 // Shrunk correlations of columns, times deviations.
 Matrix covariance_of(const Matrix& off, const Vector& deviation) {
@@ -297,15 +299,26 @@ void Naming::sharpen(const EffectFit& fit, const Fingerprint& fingerprint) {
   if (place < known_.size()) renew(known_[place], fingerprint);
 }
 
+// An effect is sought by its fingerprint, whose own noise hides some of it. Below the sizes at
+// which it was learned it vanishes as it grew.
 double Naming::smallest_seen(int effect) const {
-  const Answer& of = known_[place_of(effect, -1)].named;
-  double seen = std::numeric_limits<double>::infinity();
-  for (Eigen::Index c = 0; c < of.about.size(); ++c) {
-    const Vector one = Vector::Unit(of.about.size(), c);
-    seen = std::min(seen, expected_z(effect, one));
-    if (of.two_sided) seen = std::min(seen, expected_z(effect, -one));
+  const Known& of = known_[place_of(effect, -1)];
+  const auto least = [&](const Vector& one) {
+    const double z = expected_z(effect, one);
+    const double noise = null_misfit_ * of.source.noise_at(one) / of.scale;
+    for (double size = kLeastTried; size < kLearnedSize; size *= kTriedStep) {
+      const double own = z * std::pow(size, of.source.growth);
+      if (own * own > effect_threshold_ * std::sqrt(own * own + noise * size * size)) return size;
+    }
+    return std::numeric_limits<double>::infinity();
+  };
+  double out = 0;
+  for (Eigen::Index c = 0; c < of.named.about.size(); ++c) {
+    const Vector one = Vector::Unit(of.named.about.size(), c);
+    out = std::max(out, least(one));
+    if (of.named.two_sided) out = std::max(out, least(-one));
   }
-  return seen > 0 ? effect_threshold_ / seen : std::numeric_limits<double>::infinity();
+  return out;
 }
 
 double Naming::misfit_of_nothing(const Vector& residual) const {

@@ -86,6 +86,7 @@ std::string diagnosis_json(const Diagnosis& d) {
            return "\n    {\"effect\": " + json_quoted(one.effect) +
                   ", \"parameter\": " + json_quoted(one.parameter()) +
                   ", \"smallest\": " + json_number(one.smallest) +
+                  ", \"tried\": " + json_number(one.tried) +
                   ", \"unit\": " + json_quoted(one.unit) + "}";
          });
   return out + "]}\n";

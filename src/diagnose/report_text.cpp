@@ -114,8 +114,8 @@ std::string diagnosis_text(const Diagnosis& d) {
     TextTable least({"effect", "parameter", "smallest", "unit"});
     for (const Detectable& one : d.detectable) {
       const bool seen = std::isfinite(one.smallest);
-      least.add({one.effect, one.parameter(), seen ? digits(one.smallest) : "never",
-                 seen ? one.unit : ""});
+      least.add({one.effect, one.parameter(),
+                 (seen ? "" : "> ") + digits(seen ? one.smallest : one.tried), one.unit});
     }
     out += least.text();
   }
