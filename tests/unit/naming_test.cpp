@@ -223,5 +223,37 @@ TEST_F(NamingTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
   EXPECT_LT(naming_->expected_z(kOther, mean(0 * other_, 8), 8), 3);
 }
 
+// Of 400 experiments with an effect of the smallest size that would be seen, half show it, with a
+// deviation of 10; the threshold is met by an estimate whose mean it is to a tenth. By a
+// fingerprint of five experiments more is needed, and one that begins slowly needs the root of its
+// size.
+TEST_F(NamingTest, halfOfAllExperimentsShowTheSmallestSize) {
+  Matrix nulls(kNulls, first_.size());
+  for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
+  Effect effect;
+  effect.name = "one", effect.paths = {"forces.one.strength"}, effect.sizes = {1};
+  const auto naming = [&](const Fingerprint& f) {
+    return Naming(nulls, {effect}, {f}, kCurves, kFalseAlarms);
+  };
+  const auto shown = [&](const Naming& of, double size) {
+    int count = 0;
+    for (int i = 0; i < 400; ++i) {
+      count += of.effects(noise(9, i) + size * first_)[0].z > of.effect_threshold() ? 1 : 0;
+    }
+    return count;
+  };
+  const Naming sharp = naming(fingerprint(first_));
+  EXPECT_NEAR(shown(sharp, sharp.smallest_seen(0)), 200, 70);
+  Fingerprint blurred = fingerprint(first_);
+  blurred.first += noise(10, 0) / std::sqrt(5 * kLearnedSquare), blurred.experiments = 5;
+  const Naming blunt = naming(blurred);
+  EXPECT_GT(blunt.smallest_seen(0), sharp.smallest_seen(0));
+  EXPECT_NEAR(shown(blunt, blunt.smallest_seen(0)), 200, 70);
+  Fingerprint slow = fingerprint(first_);
+  slow.growth = 2;
+  EXPECT_NEAR(naming(slow).smallest_seen(0), std::sqrt(sharp.smallest_seen(0)), 0.03);
+  EXPECT_TRUE(std::isinf(naming(fingerprint(0.1 * first_)).smallest_seen(0)));
+}
+
 }  // namespace
 }  // namespace lilytank
