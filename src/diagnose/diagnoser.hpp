@@ -1,6 +1,7 @@
 // A diagnosis step by step: what `diagnose` does with one experiment, and `prove` with many of one
 // tank.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,7 +78,8 @@ class Diagnoser {
   /// scanned.
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
-  Fingerprint shape_fingerprint(int shape);
+  /// Learned when it is asked for first.
+  const Fingerprint& shape_fingerprint(int shape);
   /// Amplitudes by the effect's own scores, if they are beyond those that fingerprints were learned
   /// at and clear.
   std::optional<Eigen::VectorXd> strong_by_own_scores(int effect, const Judged& judged) const;
@@ -110,6 +112,7 @@ class Diagnoser {
   Eigen::VectorXd deviation_;  ///< of the baseline's parameters
   std::unique_ptr<Atlas> atlas_;
   std::unique_ptr<Naming> naming_;
+  std::map<int, Fingerprint> shape_fingerprints_;  ///< those asked for, by the plan's index
 };
 
 }  // namespace lilytank

@@ -72,10 +72,12 @@ std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& detail
   return place;
 }
 
-Fingerprint Diagnoser::shape_fingerprint(int s) {
-  return atlas_->fingerprint(effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]),
-                             "shape " + std::to_string(s),
-                             derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s)));
+const Fingerprint& Diagnoser::shape_fingerprint(int s) {
+  const auto known = shape_fingerprints_.find(s);
+  if (known != shape_fingerprints_.end()) return known->second;
+  const Effect shape = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
+  const std::uint64_t seed = derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s));
+  return shape_fingerprints_[s] = atlas_->fingerprint(shape, "shape " + std::to_string(s), seed);
 }
 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
