@@ -71,7 +71,7 @@ struct Detectable {
 
 /// An effect alone. Of those that are tried at several ranges or times each is one.
 struct RankedEffect {
-  std::string effect, variant;  ///< "pair_attraction", "range = 0.012 m"
+  std::string effect, variant;  ///< "pair_attraction", "strength, range = 0.012 m"
   double z = 0;
 };
 

@@ -25,16 +25,16 @@ constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kField
 constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
-constexpr double kBend = 1;  // one over the square of a second order that is expected
-// Of a fingerprint about found amplitudes: how far its experiments are from these as a share of
-// them, and one over the square of an error of the slopes that is expected.
+constexpr double kBend = 1;         // one over the square of a second order that is expected
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 constexpr double kFarOff = 100;     // deviations
-constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25;
-constexpr double kClearly = 0.5;       // of squares that chance has, by which an effect is clear
-constexpr double kLeastSpread = 0.03;  // of amplitudes' logarithms
-constexpr double kMostGrowth = 2.5;
-constexpr double kSlopesFitted = 0.5;  // degrees of freedom that a slope takes, being held so
+// Of a fingerprint about found amplitudes: how far its experiments are from these as a share of
+// them, one over the square of an error of the slopes that is expected, and the degrees of freedom
+// that a slope takes, being held so.
+constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25, kSlopesFitted = 0.5;
+// Of how an effect grows: of squares that chance has, by which it is clear, and of the amplitudes'
+// logarithms.
+constexpr double kClearly = 0.5, kLeastSpread = 0.03, kMostGrowth = 2.5;
 
 // Scores less their mean at the parameters that the summary asks for, of every experiment by local
 // models that did not know it: as it will be with data.
