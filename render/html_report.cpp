@@ -1,10 +1,8 @@
 #include "html_report.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "lilytank/error.hpp"
+#include "io/atomic_file.hpp"
 
 namespace lilytank {
 namespace {
@@ -27,10 +25,7 @@ std::string escaped(const std::string& text) {
 
 // A picture as text inside the page; ids of one picture must not be those of another.
 std::string embedded(const std::string& file, const std::string& prefix) {
-  std::ifstream in(file);
-  std::stringstream all;
-  all << in.rdbuf();
-  std::string svg = all.str();
+  std::string svg = read_whole(file);
   const auto begin = svg.find("<svg");
   if (begin == std::string::npos) return "";
   svg.erase(0, begin);
@@ -64,12 +59,7 @@ std::vector<std::string> write_html_report(const std::string& title,
             "<figcaption>" + escaped(f.caption) + "</figcaption></figure>\n";
   }
   html += "<pre>" + escaped(text) + "</pre>\n</body></html>\n";
-  const std::string file = (fs::path(dir) / "report.html").string();
-  std::ofstream out(file + ".part");
-  out << html;
-  out.close();
-  if (!out) throw InputError("cannot write " + file);
-  fs::rename(file + ".part", file);
+  write_atomically((fs::path(dir) / "report.html").string(), html);
   names.push_back("report.html");
   return names;
 }

@@ -16,7 +16,7 @@ struct ProofOptions {
   int worlds = 100;
   double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
   bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
-  int modelled = 10;           ///< worlds of named effects whose model is fitted as well, at most
+  int modelled = 10;           ///< rightly told worlds whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
@@ -29,6 +29,8 @@ struct ProofInterval {
   std::string path;
   double truth = 0, value = 0, low = 0, high = 0;
   bool holds() const { return low <= truth && truth <= high; }
+  /// Of an effect or a law, not of the baseline.
+  bool of_effect(const std::vector<std::string>& effects) const;
 };
 
 /// What was told: an effect, or others that are not told apart from it.
@@ -83,6 +85,29 @@ std::string proof_text(std::span<const Proof> proofs);
 std::string proof_csv(const Proof& proof);
 /// One row an interval.
 std::string proof_intervals_csv(const Proof& proof);
+/// A sealed experiment with something missing, as a point of a figure.
+struct ProofPoint {
+  enum class Outcome { right, silent, wrong_name, other };
+  std::string row;  ///< the effect; "two effects", "a law of no effect"
+  double expected_z = 0;
+  Outcome outcome = Outcome::other;
+};
+/// How often experiments of a range of expected z are told rightly, with its 95 % interval.
+struct ProofPower {
+  double z = 0;  ///< geometric mean of the range's experiments
+  int right = 0, all = 0;
+  double low = 0, high = 0;
+};
+/// What figures show of a proof.
+struct ProofFigures {
+  std::vector<ProofPoint> points;
+  std::vector<ProofPower> named, two, unnamed;  ///< by rising z
+  /// Errors of parameters in half widths of their 95 % intervals, sorted: the baseline's, and those
+  /// of effects and laws.
+  std::vector<double> baseline_errors, effect_errors;
+};
+/// Of one proof or several together.
+ProofFigures proof_figures(std::span<const Proof> proofs);
 /// A finished proof from its directory's key.txt, proof.csv and intervals.csv. Throws InputError
 /// where one is absent, damaged, or not of that key.
 Proof read_proof(const std::string& dir);

@@ -7,6 +7,7 @@
 #include "lilytank/calibration.hpp"
 #include "lilytank/diagnosis.hpp"
 #include "lilytank/flow_report.hpp"
+#include "lilytank/proof.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/search.hpp"
 #include "lilytank/study_summary.hpp"
@@ -176,6 +177,12 @@ std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
 /// `text`. Returns the files' names. Throws InputError if they cannot be written.
 std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const std::string& text,
                                         const std::string& dir);
+
+/// Figures of sealed experiments in a directory, each as .png and .svg: "power" against expected z,
+/// "outcomes" of every experiment, "errors" of what was fitted; and report.html, one file with all
+/// of them and `text`. Returns the files' names. Throws InputError if they cannot be written.
+std::vector<std::string> draw_proof(const ProofFigures& proof, const std::string& text,
+                                    const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
 /// each plot as .png and .svg. Throws InputError if it cannot be written.

@@ -7,12 +7,31 @@
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/proof.hpp"
+#include "study/kept_rows.hpp"
+#ifdef LILYTANK_HAS_RENDER
+#include "lilytank/render.hpp"
+#endif
 
 namespace lilytank::cli {
 namespace {
 
-int tell_together(const std::vector<std::string>& dirs) {
+void report(std::span<const Proof> proofs, const std::string& dir) {
+  const std::string text = proof_text(proofs);
+  write_atomically((std::filesystem::path(dir) / "proof.txt").string(), text);
+#ifdef LILYTANK_HAS_RENDER
+  draw_proof(proof_figures(proofs), text, dir);
+#else
+  std::cerr
+      << "no report.html: this program was built without the renderer (Cairo was not found)\n";
+#endif
+  std::cout << text << std::flush;
+  std::cerr << "results in " << dir << "\n";
+}
+
+// `out`: "" to print only.
+int tell_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
   std::vector<Proof> proofs;
+  std::string hashes;
   for (const std::string& dir : dirs) {
     proofs.push_back(read_proof(dir));
     for (std::size_t i = 0; i + 1 < proofs.size(); ++i) {
@@ -20,18 +39,26 @@ int tell_together(const std::vector<std::string>& dirs) {
         throw InputError(dir + " has the same key as " + dirs[i]);
       }
     }
+    hashes += " " + proofs.back().hash;
   }
-  std::cout << proof_text(proofs) << std::flush;
+  if (out.empty()) {
+    std::cout << proof_text(proofs) << std::flush;
+  } else {
+    claim_directory(out, force, "proof", "pooled" + hashes);
+    report(proofs, out);
+  }
   return Exit::done;
 }
 
 }  // namespace
 
 int prove_verb(const Arguments& arguments) {
-  VerbOptions options("prove", "[PROOF...]",
-                      "Seals experiments with known effects, none, or odd ones, diagnoses them "
-                      "blind, opens the key, and tells how often the diagnosis was right. With "
-                      "the directories of finished proofs: tells it of all their experiments.");
+  VerbOptions options(
+      "prove", "[PROOF...]",
+      "Seals experiments with known effects, none, or odd ones, diagnoses them "
+      "blind, opens the key, and tells how often the diagnosis was right. With "
+      "the directories of finished proofs: tells it of all their experiments, with --out "
+      "as a report.");
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
@@ -44,11 +71,11 @@ int prove_verb(const Arguments& arguments) {
       "force", "replace another proof's files")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    for (const char* other : {"worlds", "minutes", "known-flow", "modelled", "budget", "seed",
-                              "out", "threads", "force"}) {
+    for (const char* other :
+         {"worlds", "minutes", "known-flow", "modelled", "budget", "seed", "threads"}) {
       if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
     }
-    return tell_together(options.positional());
+    return tell_together(options.positional(), options.text("out", ""), options.has("force"));
   }
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
@@ -83,8 +110,7 @@ int prove_verb(const Arguments& arguments) {
     return Exit::stopped;
   }
   write_atomically((dir / "key.txt").string(), proof->key);
-  std::cout << proof_text({&*proof, 1}) << std::flush;
-  std::cerr << "results in " << job.diagnosis.out << "\n";
+  report({&*proof, 1}, job.diagnosis.out);
   return Exit::done;
 }
 

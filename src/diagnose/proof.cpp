@@ -92,13 +92,44 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
   return judged;
 }
 
-// The model of a world that was named rightly, against the key and further recordings of it.
+// A law that no effect has, by the knots of a curve that was found: nothing if that one is of
+// something else.
+void tell_law(const SealedEffect& own, const ForceCurve& found,
+              std::map<std::string, double>& truth) {
+  std::map<std::string, double> held(own.effect.shape.begin(), own.effect.shape.end());
+  const auto number = [&](const char* name) {
+    return held.at(std::string("forces.empirical_force.") + name);
+  };
+  const ForceCurve law{static_cast<Along>(static_cast<int>(number("variable"))),
+                       static_cast<Toward>(static_cast<int>(number("direction"))), number("low"),
+                       number("high")};
+  for (const std::string& path : own.effect.paths) truth.erase(path);
+  if (law.along != found.along || law.toward != found.toward) return;
+  const auto value = [&](int knot) {
+    const auto k = static_cast<std::size_t>(knot);
+    return own.amplitudes[k] * own.effect.sizes[k];
+  };
+  const bool closed = law.along == Along::heading;
+  const double step = (found.high - found.low) / (closed ? kKnots : kKnots - 1);
+  for (int k = 0; k < kKnots; ++k) {
+    const KnotShare at = place_on(law, found.low + k * step);
+    truth[own.effect.paths[static_cast<std::size_t>(k)]] =
+        (1 - at.share) * value(at.first) + at.share * value(at.second);
+  }
+}
+
+// The model of a world that was told rightly, against the key and further recordings of it.
 void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
                  double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
   const auto further = film_sealed(tank, s, seconds, seed);
   if (!further) return;
   diagnoser.model_and_show(judged, *further, d);
-  const auto truth = truth_of(tank, s);
+  auto truth = truth_of(tank, s);
+  if (s.kind == "unnamed") {
+    const int shape = judged.explanation.found.front().shape;
+    tell_law(s.effects.front(),
+             diagnoser.atlas().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
+  }
   const auto compare = [&](const std::string& path, double value, double low, double high) {
     const auto at = truth.find(path);
     if (at == truth.end() || !(low < high)) return;
@@ -184,8 +215,8 @@ std::optional<Proof> prove(const ProofOptions& options) try {
         expected_z(diagnoser, tank, sealed[w], w, derived_seed(seed, kExpectedSeed + w));
     Diagnosis d;
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
-    const bool named = judged && (world.kind == "named" || world.kind == "two") && world.right();
-    if (named && d.verdict == Verdict::missing && modelled < options.modelled) {
+    const bool found = judged && world.right() && d.verdict == Verdict::missing;
+    if (found && modelled < options.modelled) {
       modelled += 1;
       model_world(diagnoser, *judged, tank, sealed[w], seconds,
                   derived_seed(seed, kFurtherSeed + w), d, world);

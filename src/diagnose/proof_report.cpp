@@ -15,6 +15,12 @@ bool ProofFinding::names(const std::string& of) const {
          std::find(alternatives.begin(), alternatives.end(), of) != alternatives.end();
 }
 
+bool ProofInterval::of_effect(const std::vector<std::string>& effects) const {
+  return path.starts_with("forces.empirical_force.") || path.starts_with("contact.") ||
+         std::any_of(effects.begin(), effects.end(),
+                     [&](const std::string& of) { return path.starts_with("forces." + of + "."); });
+}
+
 bool ProofWorld::right() const {
   if (kind == "null") return verdict == Verdict::complete;
   if (verdict != Verdict::missing && verdict != Verdict::measurement) return false;
@@ -66,10 +72,7 @@ std::string models_text(const Proof& proof) {
     worlds += 1, gained += w.gain_low > 0 ? 1 : 0;
     removed.push_back(w.removed);
     for (const ProofInterval& i : w.intervals) {
-      const bool effect = std::any_of(w.effects.begin(), w.effects.end(), [&](auto& of) {
-        return i.path.rfind("forces." + of + ".", 0) == 0;
-      });
-      auto& [in, all] = by[effect ? "the effects' own" : i.path];
+      auto& [in, all] = by[i.of_effect(w.effects) ? "the effects' own" : i.path];
       all += 1, intervals += 1;
       if (i.holds()) in += 1, held += 1;
     }
@@ -78,7 +81,7 @@ std::string models_text(const Proof& proof) {
   std::sort(removed.begin(), removed.end());
   std::string out =
       "\nmodels of " + std::to_string(worlds) +
-      " rightly named worlds\n  95 % intervals that hold the truth: " + held_text(held, intervals) +
+      " rightly told worlds\n  95 % intervals that hold the truth: " + held_text(held, intervals) +
       "\n";
   for (const auto& [path, n] : by) {
     out += "    " + path + ": " + held_text(n.first, n.second) + "\n";

@@ -25,7 +25,8 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"diagnose latched.toml", "was recorded with latches on"},
       {"diagnose balls.toml", "has no recording of body = \"lily\" that is not held out"},
       {"diagnose " + kTank + " --budget none", "--budget"},
-      {"prove nowhere", "--out is for a new proof"},
+      {"prove nowhere --worlds 3", "--worlds is for a new proof"},
+      {"prove nowhere", "nowhere holds no finished proof: there is no key.txt"},
       {"prove --worlds 0", "--worlds"},
   };
   for (const auto& c : cases) {
@@ -35,9 +36,28 @@ TEST(diagnoseVerb, refusesWithOneLine) {
     EXPECT_EQ(std::count(a.err.begin(), a.err.end(), '\n'), 1) << a.err;
     EXPECT_FALSE(lilytank.here.has("x")) << c.words;
   }
-  const Answer unfinished = lilytank("prove nowhere");
-  EXPECT_EQ(unfinished.code, 2);
-  EXPECT_EQ(unfinished.err, "nowhere holds no finished proof: there is no key.txt\n");
+}
+
+// The proofs that the documents tell of, told together again.
+TEST(proveVerb, tellsFinishedProofsAsAReport) {
+  const Program lilytank;
+  const std::string seed10 = std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/seed10";
+  const Answer said = lilytank("prove " + seed10);
+  EXPECT_EQ(said.code, 0) << said.err;
+  EXPECT_TRUE(said.out.starts_with("proof on 80 of 80 sealed experiments\n")) << said.out;
+  const Answer report = lilytank("prove " + seed10 + " --out r");
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_EQ(report.out, said.out);
+  EXPECT_EQ(lilytank.here.read("r/proof.txt"), said.out);
+  const Answer twice = lilytank("prove " + seed10 + " " + seed10 + " --out r");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("has the same key as"), std::string::npos) << twice.err;
+#ifdef LILYTANK_HAS_RENDER
+  const std::string page = lilytank.here.read("r/report.html");
+  for (const char* part : {"How often sealed", "What was said of every", "local_flow"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+#endif
 }
 
 }  // namespace

@@ -64,6 +64,45 @@ TEST_F(ProofFiles, AreToldTogether) {
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
 }
 
+// Nothing is drawn of complete experiments; what is told in part is neither right nor silent.
+TEST(ProofFigures, ShowEveryExperimentWithSomethingMissing) {
+  Proof p = three_worlds();
+  p.worlds[1].findings[1] = {"unnamed", {}, "radius", 7};
+  ProofWorld silent, wrong;
+  silent.kind = wrong.kind = "named", silent.effects = wrong.effects = {"coriolis"};
+  silent.expected_z = 0, wrong.expected_z = 8;
+  wrong.verdict = Verdict::missing, wrong.findings = {{"wall_layer", {}, "", 9}};
+  p.worlds.insert(p.worlds.end(), {silent, wrong});
+  const ProofFigures f = proof_figures({&p, 1});
+  ASSERT_EQ(f.points.size(), 4u);
+  EXPECT_EQ(f.points[0].row, "two effects");
+  EXPECT_EQ(f.points[0].outcome, ProofPoint::Outcome::other);
+  EXPECT_EQ(f.points[1].outcome, ProofPoint::Outcome::right);
+  EXPECT_EQ(f.points[2].outcome, ProofPoint::Outcome::silent);
+  EXPECT_GT(f.points[2].expected_z, 0);  // on a logarithmic axis
+  EXPECT_EQ(f.points[3].outcome, ProofPoint::Outcome::wrong_name);
+  ASSERT_EQ(f.named.size(), 2u);  // below 5, and from 5 to 10
+  EXPECT_NEAR(f.named[1].z, 8, 1e-12);
+  EXPECT_EQ(f.named[1].right, 0);
+  EXPECT_EQ(f.named[1].all, 1);
+  ASSERT_EQ(f.unnamed.size(), 1u);
+  EXPECT_EQ(f.unnamed[0].right, 1);
+}
+
+TEST(ProofFigures, TellErrorsInHalfWidthsOfTheirOwnSide) {
+  Proof p = three_worlds();
+  // Half widths below and above differ: an error is told by the side on which the truth is.
+  p.worlds[1].intervals = {{"forces.coriolis.rate", 1, 1.1, 0.9, 1.5},
+                           {"flow.K_v", 1, 0.8, 0.7, 1.2},
+                           {"flow.K_v", 1, 1, 1, 1}};
+  const ProofFigures f = proof_figures({&p, 1});
+  ASSERT_EQ(f.effect_errors.size(), 1u);
+  EXPECT_NEAR(f.effect_errors[0], 0.5, 1e-12);
+  ASSERT_EQ(f.baseline_errors.size(), 2u);
+  EXPECT_NEAR(f.baseline_errors[0], -0.5, 1e-12);
+  EXPECT_EQ(f.baseline_errors[1], 0);
+}
+
 TEST_F(ProofFiles, AreRefusedWhereDamaged) {
   const Proof p = three_worlds();
   write("unfinished", p);

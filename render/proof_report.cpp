@@ -1,0 +1,144 @@
+// Figures of sealed experiments: power, outcomes, errors.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "html_report.hpp"
+#include "lilytank/render.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kUsual = 1.959964;  // deviations that a half width is
+constexpr double kFar = 3;           // half widths, where larger errors are drawn
+constexpr double kRoom = 1.2;
+constexpr double kBeside = 0.05;  // of z, that curves stand beside each other
+
+Curve power_curve(const std::string& name, const std::vector<ProofPower>& power, double aside) {
+  Curve out;
+  out.name = name, out.markers = out.bars = true;
+  out.line = aside == 0;
+  for (const ProofPower& p : power) {
+    out.x.push_back(p.z * (1 + aside)), out.y.push_back(100.0 * p.right / p.all);
+    out.low.push_back(100 * p.low), out.high.push_back(100 * p.high);
+  }
+  return out;
+}
+
+// Room beside the outermost experiments.
+void spread_x(const ProofFigures& of, Plot& plot) {
+  plot.x_low = plot.x_high = 10;
+  for (const ProofPoint& p : of.points) {
+    plot.x_low = std::min(plot.x_low, p.expected_z / kRoom);
+    plot.x_high = std::max(plot.x_high, p.expected_z * kRoom);
+  }
+}
+
+Plot power_plot(const ProofFigures& of) {
+  Plot plot;
+  plot.title = "Told rightly, by what there is to see";
+  plot.x_label = "deviations by which the effect is off (expected z)";
+  plot.y_label = "told rightly (%)";
+  plot.log_x = true, plot.y_low = 0, plot.y_high = 100;
+  plot.curves.push_back(power_curve("one effect", of.named, 0));
+  if (!of.two.empty()) {
+    plot.curves.push_back(power_curve("two effects: both", of.two, kBeside));
+  }
+  if (!of.unnamed.empty()) {
+    plot.curves.push_back(power_curve("a law of no effect", of.unnamed, -kBeside));
+  }
+  spread_x(of, plot);
+  return plot;
+}
+
+// A row an effect, a marker an experiment.
+Plot outcomes_plot(const ProofFigures& of) {
+  Plot plot;
+  plot.title = "Every sealed experiment";
+  plot.x_label = "deviations by which the effect is off (expected z)";
+  plot.log_x = true;
+  for (const ProofPoint& p : of.points) plot.y_names.push_back(p.row);
+  std::sort(plot.y_names.begin(), plot.y_names.end(), [](const auto& a, const auto& b) {
+    const bool odd_a = a.find(' ') != std::string::npos, odd_b = b.find(' ') != std::string::npos;
+    return odd_a != odd_b ? odd_b : a < b;
+  });
+  plot.y_names.erase(std::unique(plot.y_names.begin(), plot.y_names.end()), plot.y_names.end());
+  plot.height = 130 + 26 * static_cast<int>(plot.y_names.size());
+  spread_x(of, plot);
+  using Outcome = ProofPoint::Outcome;
+  const std::array<std::pair<Outcome, const char*>, 4> kinds = {
+      {{Outcome::right, "told rightly"},
+       {Outcome::wrong_name, "a wrong name"},
+       {Outcome::silent, "told as complete"},
+       {Outcome::other, "in part, unnamed or undecided"}}};
+  for (const auto& [outcome, name] : kinds) {
+    Curve curve;
+    curve.markers = true, curve.line = false;
+    for (const ProofPoint& p : of.points) {
+      if (p.outcome != outcome) continue;
+      const auto row = std::find(plot.y_names.begin(), plot.y_names.end(), p.row);
+      curve.x.push_back(p.expected_z);
+      curve.y.push_back(static_cast<double>(row - plot.y_names.begin()));
+    }
+    curve.name = std::string(name) + ": " + std::to_string(curve.x.size());
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+Curve errors_curve(const std::string& name, const std::vector<double>& sorted) {
+  Curve out;
+  out.name = name, out.steps = true;
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    out.x.push_back(std::clamp(sorted[k], -kFar, kFar));
+    out.y.push_back(100 * (static_cast<double>(k) + 0.5) / static_cast<double>(sorted.size()));
+  }
+  return out;
+}
+
+Plot errors_plot(const ProofFigures& of) {
+  Plot plot;
+  plot.title = "Errors of what was fitted";
+  plot.x_label = "error (half widths of the 95 % interval)";
+  plot.y_label = "intervals with a lower error (%)";
+  plot.x_low = -kFar, plot.x_high = kFar, plot.y_low = 0, plot.y_high = 100;
+  if (!of.baseline_errors.empty()) {
+    plot.curves.push_back(errors_curve("baseline", of.baseline_errors));
+  }
+  if (!of.effect_errors.empty()) {
+    plot.curves.push_back(errors_curve("effects and laws", of.effect_errors));
+  }
+  Curve normal;
+  normal.name = "as promised";
+  for (double x = -kFar; x <= kFar + 1e-9; x += 0.05) {
+    normal.x.push_back(x), normal.y.push_back(50 * std::erfc(-kUsual * x / std::sqrt(2.0)));
+  }
+  plot.curves.push_back(std::move(normal));
+  return plot;
+}
+
+}  // namespace
+
+std::vector<std::string> draw_proof(const ProofFigures& of, const std::string& text,
+                                    const std::string& dir) {
+  std::vector<ReportFigure> figures;
+  if (!of.points.empty()) {
+    figures.push_back({"power",
+                       "How often sealed experiments were told rightly. Bars: 95 % (Wilson). Below "
+                       "the threshold of a few deviations silence is what false alarms cost.",
+                       {{power_plot(of)}, 1, ""}});
+    figures.push_back({"outcomes",
+                       "What was said of every experiment in which something was missing. What "
+                       "shows nothing at all stands at the left edge.",
+                       {{outcomes_plot(of)}, 1, ""}});
+  }
+  if (!of.baseline_errors.empty() || !of.effect_errors.empty()) {
+    figures.push_back({"errors",
+                       "Errors of fitted parameters: 95 % should be within one half width of their "
+                       "interval, as a normal law with it has.",
+                       {{errors_plot(of)}, 1, ""}});
+  }
+  return write_html_report("Proof on sealed experiments", figures, text, dir);
+}
+
+}  // namespace lilytank
