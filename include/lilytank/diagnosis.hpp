@@ -78,8 +78,12 @@ struct RankedEffect {
 /// How far a group of numbers is off, in mean squares of its deviations, before and after.
 struct GroupFit {
   std::string group;
-  double before = 0, after = 0;  ///< 1: as far as chance
-  double removed() const;        ///< share of what is beyond chance
+  double before = 0, after = 0;
+  /// Mean and deviation of what chance alone gives, by experiments with what was found; deviation
+  /// 0: not known.
+  double chance = 1, deviation = 0;
+  bool clear() const;      ///< there was more to remove than three deviations of chance
+  double removed() const;  ///< share of what is beyond chance
 };
 
 /// One of the five before and after the effects were added.
@@ -107,7 +111,8 @@ struct Diagnosis {
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found
   std::string flow_csv;
-  /// Of all groups' mismatch beyond chance on held-out recordings, the share that is removed.
+  /// Of the mismatch beyond chance on held-out recordings, in all groups where it is clear, the
+  /// share that is removed; NaN where none is.
   double removed() const;
 };
 

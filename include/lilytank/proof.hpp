@@ -52,7 +52,7 @@ struct ProofWorld {
   Verdict verdict = Verdict::complete;
   std::vector<ProofFinding> findings;  ///< strongest first; none of complete
   /// Of those that were modelled: their intervals, and the share of the mismatch that the model
-  /// removes on recordings that had no part in it.
+  /// removes on recordings that had no part in it (Diagnosis::removed).
   std::vector<ProofInterval> intervals;
   double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
   /// What simpler methods make of the same recordings: the effect that a sparse regression of

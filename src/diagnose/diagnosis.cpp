@@ -52,16 +52,21 @@ std::string Detectable::parameter() const {
   return own_name(path);
 }
 
+bool GroupFit::clear() const {
+  return deviation > 0 ? before > chance + 3 * deviation : before > 2 * chance;
+}
+
 double GroupFit::removed() const {
-  return before > 1 ? std::clamp(1 - std::max(0.0, after - 1) / (before - 1), -1.0, 1.0) : 0;
+  if (before <= chance) return 0;
+  return std::clamp(1 - std::max(0.0, after - chance) / (before - chance), -1.0, 1.0);
 }
 
 double Diagnosis::removed() const {
   double before = 0, after = 0;
   for (const GroupFit& g : held_out) {
-    before += std::max(0.0, g.before - 1), after += std::max(0.0, g.after - 1);
+    if (g.clear()) before += g.before - g.chance, after += std::max(0.0, g.after - g.chance);
   }
-  return before > 0 ? 1 - after / before : 0;
+  return before > 0 ? 1 - after / before : std::nan("");
 }
 
 std::string name_of(Verdict verdict) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "analysis/linear.hpp"
@@ -27,6 +28,10 @@ constexpr double kReach = 2.5;  // likewise, that an answer may be off
 constexpr double kWide = 1.5, kEnough = 0.67, kMostSpread = 0.1;
 // Deviations of the first design: of what is refined, on its log scale, and of places.
 constexpr double kRefined = 0.25, kPlaced = 0.06;
+// Deviation of an effect's amplitudes about what its naming said, in their root mean square, that
+// holds before simulations of the joint fit say more: knots that hardly any module visits are told
+// by nothing else.
+constexpr double kNamed = 1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr std::uint64_t kMix = 7;
@@ -103,34 +108,50 @@ class Joint {
   Emulator emulator_;
 };
 
-// The list of what is fitted, and the centre and spread of the first design.
-void begin(const Stages& stages, const std::vector<JointEffect>& effects,
-           const JointStart& baseline, JointFit& fit, Vector& centre, Matrix& width) {
+// Where the first design is and how wide, and to which deviation effects' amplitudes are known
+// about its centre (infinity: not at all).
+struct Beginning {
+  std::vector<double> at, wide, known;
+  void add(double centre, double width, double deviation) {
+    at.push_back(centre), wide.push_back(width), known.push_back(deviation);
+  }
+};
+
+// Also makes the list of what is fitted.
+Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
+                const JointStart& baseline, JointFit& fit) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const CalibrationSetup& setup = stages.setup();
   fit.parameters = setup.parameters, fit.model = setup.model;
-  std::vector<double> at(baseline.point.begin(), baseline.point.end()),
-      wide(baseline.deviation.begin(), baseline.deviation.end());
+  Beginning out;
+  for (Eigen::Index k = 0; k < baseline.point.size(); ++k) {
+    out.add(baseline.point(k), baseline.deviation(k), kUnknown);
+  }
   for (const auto& [effect, amplitudes, shape] : effects) {
     std::vector<double> sizes;
+    const double usual =
+        std::sqrt(amplitudes.squaredNorm() / static_cast<double>(amplitudes.size()));
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {
       const ModelParameter of = model_parameter(effect.paths[c]);
       const double a = amplitudes(static_cast<Eigen::Index>(c)), size = effect.sizes[c];
       const double absent = effect.absent(setup.model, c);
       const double value = std::clamp(absent + a * size, of.low, of.high);
       fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
-      at.push_back(value), wide.push_back(size * std::max(0.15, 0.25 * std::fabs(a)));
+      out.add(value, size * std::max(0.15, 0.25 * std::fabs(a)), kNamed * size * usual);
       sizes.push_back(value);
     }
     fit.model = with_effect(fit.model, effect, sizes);
     for (const FitParameter& p : effect.refine) {
       fit.parameters.push_back(p);
-      at.push_back(p.to_scale(parameter_value(fit.model, p.path)));
-      wide.push_back(p.logarithmic ? kRefined : kPlaced * (p.high - p.low));
+      out.add(p.to_scale(parameter_value(fit.model, p.path)),
+              p.logarithmic ? kRefined : kPlaced * (p.high - p.low), kUnknown);
     }
   }
-  centre = Eigen::Map<const Vector>(at.data(), static_cast<Eigen::Index>(at.size()));
-  width =
-      Eigen::Map<const Vector>(wide.data(), static_cast<Eigen::Index>(wide.size())).asDiagonal();
+  return out;
+}
+
+Vector vector_of(const std::vector<double>& of) {
+  return Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size()));
 }
 
 // Where the amplitudes of each effect begin among the parameters.
@@ -203,11 +224,6 @@ FitBounds bounds_of(const JointFit& fit) {
     bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
   }
   return bounds;
-}
-
-// Deviations to which parameters are known before: never less than the points' own.
-Vector prior_of(const FitBounds& bounds, const Matrix& width) {
-  return (kPrior * (bounds.high - bounds.low)).cwiseMax(width.diagonal());
 }
 
 // More simulations below those that there are.
@@ -295,8 +311,7 @@ class Rounds {
     int most = kMostRounds;
     for (int k = 1; k <= most && !fit_.settled; ++k) {
       const Design design = simulated(k);
-      Prior prior{centre_, prior_of(bounds_, width_)};
-      prior.expected.head(baseline_.expected.size()) = baseline_.expected;
+      const Prior prior = known_before();
       if (drops_one(design, prior)) {
         ++most;
         continue;
@@ -310,11 +325,25 @@ class Rounds {
 
  private:
   void begin_anew() {
-    begin(stages_, effects_, baseline_, fit_, centre_, width_);
+    const Beginning begun = begin(stages_, effects_, baseline_, fit_);
     bounds_ = bounds_of(fit_);
-    centre_ = centre_.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    begun_ = vector_of(begun.at).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    known_ = vector_of(begun.known);
+    centre_ = begun_, width_ = vector_of(begun.wide).asDiagonal();
     joint_.emplace(stages_, maps_, atlas_, numbers_, fit_);
     all_ = {};
+  }
+
+  // Of the baseline what the experiment says, of amplitudes what their naming did; of ranges, times
+  // and places nothing but where the design is. Never surer than the design's points.
+  Prior known_before() const {
+    Prior out{centre_, (kPrior * (bounds_.high - bounds_.low)).cwiseMin(known_)};
+    out.deviation = out.deviation.cwiseMax(width_.diagonal());
+    out.expected.head(baseline_.expected.size()) = baseline_.expected;
+    for (Eigen::Index k = 0; k < known_.size(); ++k) {
+      if (std::isfinite(known_(k))) out.expected(k) = begun_(k);
+    }
+    return out;
   }
 
   // Of all rounds, those that are about the centre.
@@ -356,6 +385,7 @@ class Rounds {
   JointStart baseline_;
   JointRounds rounds_;
   JointFit fit_;
+  Vector begun_, known_;  ///< the first design's centre; see Beginning
   Vector centre_;
   Matrix width_;
   FitBounds bounds_;

@@ -1,5 +1,6 @@
 // Tables of a proof, written and read back: one row a world, one row an interval.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
@@ -115,7 +116,7 @@ void read_worlds(const std::string& dir, Proof& proof) {
         (w.verdict == Verdict::missing || w.verdict == Verdict::measurement)) {
       rows.refuse(kSaid, "such a verdict has findings");
     }
-    w.removed = rows.number(kRemoved);
+    w.removed = rows.text(kRemoved).empty() ? std::nan("") : rows.number(kRemoved);
     w.gain = rows.number(kGain), w.gain_low = rows.number(kGainLow);
     w.regression = rows.text(kRegression);
     w.displacement = rows.number(kMsd);
@@ -150,10 +151,10 @@ std::string proof_csv(const Proof& proof) {
     }
     out += std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +
            shortest(w.expected_z) + "," + name_of(w.verdict) + "," + joined(said, kAnd) + "," +
-           joined(others, kAnd) + "," + joined(z, kAnd) + "," + shortest(w.removed) + "," +
-           shortest(w.gain) + "," + shortest(w.gain_low) + "," + w.regression + "," +
-           shortest(w.displacement) + (w.right() ? ",1" : ",0") +
-           (w.wrong_name() ? ",1\n" : ",0\n");
+           joined(others, kAnd) + "," + joined(z, kAnd) + "," +
+           (std::isnan(w.removed) ? "" : shortest(w.removed)) + "," + shortest(w.gain) + "," +
+           shortest(w.gain_low) + "," + w.regression + "," + shortest(w.displacement) +
+           (w.right() ? ",1" : ",0") + (w.wrong_name() ? ",1\n" : ",0\n");
   }
   return out;
 }

@@ -1,5 +1,6 @@
 // What sealed experiments say of a diagnosis, as text.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "analysis/text_table.hpp"
@@ -70,7 +71,7 @@ std::string models_text(const Proof& proof) {
   for (const ProofWorld& w : proof.worlds) {
     if (w.intervals.empty()) continue;
     worlds += 1, gained += w.gain_low > 0 ? 1 : 0;
-    removed.push_back(w.removed);
+    if (!std::isnan(w.removed)) removed.push_back(w.removed);
     for (const ProofInterval& i : w.intervals) {
       auto& [in, all] = by[i.of_effect(w.effects) ? "the effects' own" : i.path];
       all += 1, intervals += 1;
@@ -86,10 +87,15 @@ std::string models_text(const Proof& proof) {
   for (const auto& [path, n] : by) {
     out += "    " + path + ": " + held_text(n.first, n.second) + "\n";
   }
-  return out + "  share of the mismatch removed on further recordings: median " +
-         fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
-         fixed(100 * removed.front(), 0) + " %\n  one step ahead " + std::to_string(gained) +
-         " of them are surely better\n";
+  if (!removed.empty()) {
+    const auto most =
+        std::count_if(removed.begin(), removed.end(), [](double r) { return r >= 0.7; });
+    out += "  share of the mismatch removed on further recordings, where it is clear: median " +
+           fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
+           fixed(100 * removed.front(), 0) + " %, 70 % and more in " + std::to_string(most) +
+           " of " + std::to_string(removed.size()) + "\n";
+  }
+  return out + "  one step ahead " + std::to_string(gained) + " of them are surely better\n";
 }
 
 // The same worlds by simpler methods. The MSD's threshold is the largest of the nulls themselves,

@@ -49,7 +49,7 @@ void tell_fit(const Diagnosis& d, std::string& out) {
   TextTable table({"numbers", "before", "after", "share removed"});
   for (const GroupFit& g : d.held_out) {
     table.add({g.group, digits(g.before), digits(g.after),
-               g.before > 2 ? digits(100 * g.removed()) + " %" : "-"});
+               g.clear() ? digits(100 * g.removed()) + " %" : "-"});
   }
   out += table.text();
   out += "  Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) + " after, floor " +
@@ -67,7 +67,7 @@ void tell_far(const Diagnosis& d, std::string& out) {
   TextTable table({"bodies", "before", "after", "share removed"});
   for (const GroupFit& g : d.held_out) {
     table.add({g.group, digits(g.before), digits(g.after),
-               g.before > 2 ? digits(100 * g.removed()) + " %" : "-"});
+               g.clear() ? digits(100 * g.removed()) + " %" : "-"});
   }
   out += table.text();
   const DiagnosisFinding& f = d.findings.front();

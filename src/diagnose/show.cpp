@@ -161,10 +161,21 @@ std::vector<GroupFit> group_fits(const CalibrationSetup& setup, const ScorePlan&
   const std::vector<double> observed = numbers(recordings);
   const auto was = misfit_by_group(entries, observed, b, a);
   const auto is = misfit_by_group(entries, observed, a, a);
+  // What chance gives: each experiment against the others.
+  std::map<std::string, Moments> chance;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::vector<std::vector<double>> others = a;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    for (const auto& [group, v] : misfit_by_group(entries, a[i], others, others)) {
+      chance[group].add(v);
+    }
+  }
   std::vector<GroupFit> out;
   for (const auto& [group, value] : was) {
     const auto found = is.find(group);
-    out.push_back({group, value, found == is.end() ? 0 : found->second});
+    const Moments& of = chance[group];
+    out.push_back(
+        {group, value, found == is.end() ? 0 : found->second, of.mean(), std::sqrt(of.variance())});
   }
   return out;
 }
