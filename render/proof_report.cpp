@@ -89,10 +89,12 @@ Plot outcomes_plot(const ProofFigures& of) {
 Curve errors_curve(const std::string& name, const std::vector<double>& sorted) {
   Curve out;
   out.name = name, out.steps = true;
+  out.x.push_back(-kFar), out.y.push_back(0);
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     out.x.push_back(std::clamp(sorted[k], -kFar, kFar));
     out.y.push_back(100 * (static_cast<double>(k) + 0.5) / static_cast<double>(sorted.size()));
   }
+  out.x.push_back(kFar), out.y.push_back(100);
   return out;
 }
 

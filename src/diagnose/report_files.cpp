@@ -53,10 +53,10 @@ std::string ranking_csv(const Diagnosis& d) {
 }
 
 std::string fit_csv(const Diagnosis& d) {
-  std::string out = "numbers,before,after,share_removed\n";
+  std::string out = "numbers,before,after,chance,deviation_of_chance,share_removed\n";
   for (const GroupFit& g : d.held_out) {
-    out +=
-        g.group + "," + number(g.before) + "," + number(g.after) + "," + number(g.removed()) + "\n";
+    out += g.group + "," + number(g.before) + "," + number(g.after) + "," + number(g.chance) + "," +
+           number(g.deviation) + "," + number(g.removed()) + "\n";
   }
   return out;
 }
