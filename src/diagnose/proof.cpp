@@ -16,7 +16,8 @@ namespace {
 constexpr int kBalls = 24;
 constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
                         kExpectedSeed = 1u << 21;
-constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
+constexpr double kOfAWorld = 28;  // experiments, on the average
+constexpr int kExpected = 8;      // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
 Experiment open_tank(const ProofOptions& options) {
@@ -195,9 +196,12 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     };
   }
   Diagnoser diagnoser(open, job);
-  // Most worlds ask for those of what is in them, many for some thirty about what is found, all
-  // together for those of curves.
-  diagnoser.prepare(25.0 * options.worlds + 1000 + options.modelled * diagnoser.model_cost());
+  // Worlds ask for those of what is in them and for some twenty about what is found, all together
+  // for those of curves.
+  const double curves =
+      static_cast<double>(shapes.size()) * kKnots * DiagnosisBudget(job.minutes).experiments;
+  diagnoser.prepare(kOfAWorld * options.worlds + curves +
+                    options.modelled * diagnoser.model_cost());
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
     const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
                                   derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
