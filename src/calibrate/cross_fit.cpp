@@ -14,21 +14,34 @@ constexpr double kReach = 5;  // deviations of the design that an estimate may b
 
 }  // namespace
 
+LocalFit CrossFit::of(const Eigen::VectorXd& numbers) const {
+  FitBounds free;
+  free.reach = kReach;
+  LocalFit out;
+  out.point = Eigen::VectorXd::Zero(estimates.cols());
+  for (const LocalModel& model : models) {
+    const LocalFit fit = model.fit(numbers, free);
+    out.point += fit.point / kFolds, out.misfit += fit.misfit / kFolds;
+  }
+  return out;
+}
+
 CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit misfit,
                    Slopes slopes) {
   FitBounds free;
   free.reach = kReach;
   const Eigen::Index n = design.points.rows(), p = design.points.cols();
-  CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), Eigen::VectorXd::Zero(p)};
+  CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), {}, 0, {}};
   for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel model(without_fold(design, fold, kFolds), misfit, slopes);
+    const LocalModel& model =
+        out.models.emplace_back(without_fold(design, fold, kFolds), misfit, slopes);
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const LocalFit fit = model.fit(design.numbers.row(i).transpose(), free);
       out.estimates.row(i) = fit.point, out.misfits(i) = fit.misfit;
     }
-    const LocalFit fit = model.fit(data, free);
-    out.answer += fit.point / kFolds, out.misfit += fit.misfit / kFolds;
   }
+  LocalFit of_data = out.of(data);
+  out.answer = std::move(of_data.point), out.misfit = of_data.misfit;
   return out;
 }
 

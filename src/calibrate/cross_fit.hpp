@@ -1,6 +1,7 @@
 // What local models say of simulations that they did not know: as it will be with data.
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "lilytank/local_model.hpp"
 
@@ -13,6 +14,9 @@ struct CrossFit {
   Eigen::VectorXd misfits;    ///< [simulation]
   Eigen::VectorXd answer;     ///< of data, the mean over the models
   double misfit = 0;          ///< of data, likewise
+  std::vector<LocalModel> models;
+  /// What all models together say of numbers, as of data: the answer, and the mean misfit.
+  LocalFit of(const Eigen::VectorXd& numbers) const;
 };
 
 /// By eight models, each without every eighth simulation. Throws std::invalid_argument where these

@@ -64,7 +64,7 @@ Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& optio
       stages_(begin(setup_, options)) {}
 
 double Diagnoser::model_cost() const {
-  return 2 * budget_.round + 2 * budget_.comparisons;
+  return 3 * budget_.round + 2 * budget_.comparisons;
 }
 
 void Diagnoser::prepare(double after) {

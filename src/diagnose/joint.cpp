@@ -34,7 +34,8 @@ constexpr double kRefined = 0.25, kPlaced = 0.06;
 constexpr double kNamed = 1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
-constexpr std::uint64_t kMix = 7;
+constexpr int kChecks = 60;       // experiments at the answer
+constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
 // Summary, named scores, and those of the curves that are fitted, the scores by their deviations.
 class Numbers {
@@ -256,11 +257,36 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
 // Answers are drawn to the design's centre by the noise of the local model's slopes. Each
 // simulation is estimated by a model that did not know it: their estimates are a line in the truth,
 // and its inverse at the data's estimate by the same models gives the values.
-Scatter turned_back(const Design& design, const Vector& centre, const Prior& prior,
-                    const Vector& data) {
-  const CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
-  const Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
-  return scatter_of(line, centre, by_others.answer, prior);
+struct TurnedBack {
+  CrossFit by_others;
+  Line line;
+  Scatter answer;
+};
+TurnedBack turned_back(const Design& design, const Vector& centre, const Prior& prior,
+                       const Vector& data) {
+  CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
+  Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
+  Scatter answer = scatter_of(line, centre, by_others.answer, prior);
+  return {std::move(by_others), std::move(line), std::move(answer)};
+}
+
+// The answer by experiments simulated where it is, estimated as the data were. Those of a design
+// scatter more: slopes' errors and laws that are not straight move estimates of what is far from
+// its centre, and the data are not far.
+Scatter checked(const TurnedBack& last, const Vector& at, const Matrix& numbers,
+                const Prior& prior) {
+  Matrix estimates(numbers.rows(), at.size());
+  for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
+    estimates.row(i) = last.by_others.of(numbers.row(i).transpose()).point.transpose();
+  }
+  Line line = line_through(Matrix::Zero(estimates.rows(), at.size()), estimates);
+  // Of few experiments the inverse of a covariance is too large [Hartlap, Simon and Schneider
+  // 2007].
+  const auto n = static_cast<double>(estimates.rows()), p = static_cast<double>(at.size());
+  line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
+  line.freedom = std::max(1.0, n - 1 - p);
+  line.slope = last.line.slope;
+  return scatter_of(line, at, last.by_others.answer, prior);
 }
 
 void tell(const Scatter& answer, JointFit& fit) {
@@ -307,7 +333,7 @@ class Rounds {
   }
 
   JointFit run() {
-    Scatter answer;
+    TurnedBack last;
     int most = kMostRounds;
     for (int k = 1; k <= most && !fit_.settled; ++k) {
       const Design design = simulated(k);
@@ -316,10 +342,10 @@ class Rounds {
         ++most;
         continue;
       }
-      answer = turned_back(design, centre_, prior, data_);
-      fit_.settled = settled(answer, bounds_, centre_, width_);
+      last = turned_back(design, centre_, prior, data_);
+      fit_.settled = settled(last.answer, bounds_, centre_, width_);
     }
-    tell(answer, fit_);
+    tell(check(last), fit_);
     return std::move(fit_);
   }
 
@@ -344,6 +370,14 @@ class Rounds {
       if (std::isfinite(known_(k))) out.expected(k) = begun_(k);
     }
     return out;
+  }
+
+  Scatter check(const TurnedBack& last) {
+    const Vector at = last.answer.estimate.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    const std::uint64_t seed = derived_seed(rounds_.seed, kCheckSeed);
+    const Matrix points = at.transpose().replicate(kChecks, 1);
+    const Design made = joint_->simulate("joint " + rounds_.tag + " check", points, seed);
+    return checked(last, at, made.numbers, known_before());
   }
 
   // Of all rounds, those that are about the centre.
