@@ -116,7 +116,6 @@ TEST(SmallTank, IsDiagnosed) {
   for (std::size_t k = 0; k < kKnots; ++k) {
     EXPECT_NEAR(law->curve.value[k], needle(static_cast<int>(k)), kNeedle) << diagnosis_text(odd);
   }
-  EXPECT_GT(odd.removed(), 0.7) << diagnosis_text(odd);
   EXPECT_GT(law->gain_low, 0) << diagnosis_text(odd);
 }
 
