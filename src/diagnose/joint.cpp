@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
-#include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
+#include "diagnose/joint_parameters.hpp"
 #include "diagnose/slack.hpp"
-#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
@@ -26,12 +24,6 @@ constexpr double kSettled = 1;  // deviations of the design
 constexpr double kReach = 2.5;  // likewise, that an answer may be off
 // Designs, in an answer's errors, of which slopes would else be noise, and in parameters' ranges.
 constexpr double kWide = 1.5, kEnough = 0.67, kMostSpread = 0.1;
-// Deviations of the first design: of what is refined, on its log scale, and of places.
-constexpr double kRefined = 0.25, kPlaced = 0.06;
-// Deviation of an effect's amplitudes about what its naming said, in their root mean square, that
-// holds before simulations of the joint fit say more: knots that hardly any module visits are told
-// by nothing else.
-constexpr double kNamed = 1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kChecks = 60;       // experiments at the answer
@@ -109,122 +101,8 @@ class Joint {
   Emulator emulator_;
 };
 
-// Where the first design is and how wide, and to which deviation effects' amplitudes are known
-// about its centre (infinity: not at all).
-struct Beginning {
-  std::vector<double> at, wide, known;
-  void add(double centre, double width, double deviation) {
-    at.push_back(centre), wide.push_back(width), known.push_back(deviation);
-  }
-};
-
-// Also makes the list of what is fitted.
-Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
-                const JointStart& baseline, JointFit& fit) {
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  const CalibrationSetup& setup = stages.setup();
-  fit.parameters = setup.parameters, fit.model = setup.model;
-  Beginning out;
-  for (Eigen::Index k = 0; k < baseline.point.size(); ++k) {
-    out.add(baseline.point(k), baseline.deviation(k), kUnknown);
-  }
-  for (const auto& [effect, amplitudes, shape] : effects) {
-    std::vector<double> sizes;
-    const double usual =
-        std::sqrt(amplitudes.squaredNorm() / static_cast<double>(amplitudes.size()));
-    for (std::size_t c = 0; c < effect.paths.size(); ++c) {
-      const ModelParameter of = model_parameter(effect.paths[c]);
-      const double a = amplitudes(static_cast<Eigen::Index>(c)), size = effect.sizes[c];
-      const double absent = effect.absent(setup.model, c);
-      const double value = std::clamp(absent + a * size, of.low, of.high);
-      fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
-      out.add(value, size * std::max(0.15, 0.25 * std::fabs(a)), kNamed * size * usual);
-      sizes.push_back(value);
-    }
-    fit.model = with_effect(fit.model, effect, sizes);
-    for (const FitParameter& p : effect.refine) {
-      fit.parameters.push_back(p);
-      out.add(p.to_scale(parameter_value(fit.model, p.path)),
-              p.logarithmic ? kRefined : kPlaced * (p.high - p.low), kUnknown);
-    }
-  }
-  return out;
-}
-
 Vector vector_of(const std::vector<double>& of) {
   return Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size()));
-}
-
-// Where the amplitudes of each effect begin among the parameters.
-std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<JointEffect>& effects) {
-  std::vector<Eigen::Index> out;
-  auto at = static_cast<Eigen::Index>(stages.setup().parameters.size());
-  for (const JointEffect& e : effects) {
-    out.push_back(at);
-    at += static_cast<Eigen::Index>(e.effect.paths.size() + e.effect.refine.size());
-  }
-  return out;
-}
-
-// The effect after the first, strongest one that the data ask for least, by Wald's distance of its
-// amplitudes from nothing; none (the list's size) if all are asked for. `point` then becomes the
-// answer without it.
-std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
-                     const Matrix& covariance, double keep, Vector& point) {
-  const std::vector<Eigen::Index> places = places_of(stages, effects);
-  const auto size = [&](std::size_t e) {
-    return static_cast<Eigen::Index>(effects[e].effect.paths.size());
-  };
-  const auto off = [&](std::size_t e) {
-    Vector out = point.segment(places[e], size(e));
-    for (Eigen::Index c = 0; c < out.size(); ++c) {
-      out(c) -= effects[e].effect.absent(stages.setup().model, static_cast<std::size_t>(c));
-    }
-    return out;
-  };
-  // An effect's own covariance, applied backwards to how far it is from nothing.
-  const auto weighed = [&](std::size_t e) -> Vector {
-    return solve_symmetric(covariance.block(places[e], places[e], size(e), size(e)), off(e));
-  };
-  std::size_t weakest = effects.size();
-  double least = keep * keep;
-  for (std::size_t e = 1; e < effects.size(); ++e) {
-    const double distance = off(e).dot(weighed(e)) / static_cast<double>(size(e));
-    if (distance < least) least = distance, weakest = e;
-  }
-  if (weakest == effects.size()) return weakest;
-  point -= covariance.middleCols(places[weakest], size(weakest)) * weighed(weakest);
-  return weakest;
-}
-
-// What a point says of the effects: their amplitudes by their sizes, and what is refined of them.
-void read_point(const Stages& stages, const Vector& point, std::vector<JointEffect>& effects) {
-  const std::vector<Eigen::Index> places = places_of(stages, effects);
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    Effect& effect = effects[e].effect;
-    Eigen::Index at = places[e];
-    for (std::size_t c = 0; c < effect.paths.size(); ++c, ++at) {
-      effects[e].amplitudes(static_cast<Eigen::Index>(c)) =
-          (point(at) - effect.absent(stages.setup().model, c)) / effect.sizes[c];
-    }
-    for (const FitParameter& p : effect.refine) {
-      for (auto& [path, value] : effect.shape) {
-        if (path == p.path) value = std::clamp(p.from_scale(point(at)), p.low, p.high);
-      }
-      ++at;
-    }
-  }
-}
-
-FitBounds bounds_of(const JointFit& fit) {
-  FitBounds bounds;
-  const auto n = static_cast<Eigen::Index>(fit.parameters.size());
-  bounds.low.resize(n), bounds.high.resize(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const FitParameter& p = fit.parameters[static_cast<std::size_t>(k)];
-    bounds.low(k) = p.to_scale(p.low), bounds.high(k) = p.to_scale(p.high);
-  }
-  return bounds;
 }
 
 // More simulations below those that there are.
