@@ -10,17 +10,17 @@ namespace lilytank {
 namespace {
 
 constexpr int kFolds = 8;
-constexpr double kReach = 5;  // deviations of the design that an estimate may be off its centre
+
+// Anywhere but within reach: deviations of the design that an estimate may be off its centre.
+const FitBounds kFree{{}, {}, 5};
 
 }  // namespace
 
 LocalFit CrossFit::of(const Eigen::VectorXd& numbers) const {
-  FitBounds free;
-  free.reach = kReach;
   LocalFit out;
   out.point = Eigen::VectorXd::Zero(estimates.cols());
   for (const LocalModel& model : models) {
-    const LocalFit fit = model.fit(numbers, free);
+    const LocalFit fit = model.fit(numbers, kFree);
     out.point += fit.point / kFolds, out.misfit += fit.misfit / kFolds;
   }
   return out;
@@ -28,15 +28,13 @@ LocalFit CrossFit::of(const Eigen::VectorXd& numbers) const {
 
 CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit misfit,
                    Slopes slopes) {
-  FitBounds free;
-  free.reach = kReach;
   const Eigen::Index n = design.points.rows(), p = design.points.cols();
   CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), {}, 0, {}};
   for (int fold = 0; fold < kFolds; ++fold) {
     const LocalModel& model =
         out.models.emplace_back(without_fold(design, fold, kFolds), misfit, slopes);
     for (Eigen::Index i = fold; i < n; i += kFolds) {
-      const LocalFit fit = model.fit(design.numbers.row(i).transpose(), free);
+      const LocalFit fit = model.fit(design.numbers.row(i).transpose(), kFree);
       out.estimates.row(i) = fit.point, out.misfits(i) = fit.misfit;
     }
   }

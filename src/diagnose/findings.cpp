@@ -40,11 +40,9 @@ FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) con
     c.variable += shape.curve.along == Along::x ? " x" : " y";
   }
   c.value_unit = shape.curve.toward == Toward::torque ? "N m" : "N", c.z = z;
-  const bool closed = shape.curve.along == Along::heading;
   for (int k = 0; k < kKnots; ++k) {
     const Eigen::Index at = atlas_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
-    const double step = (shape.curve.high - shape.curve.low) / (closed ? kKnots : kKnots - 1);
-    c.at.push_back(shape.curve.low + k * step);
+    c.at.push_back(knot_at(shape.curve, k));
     c.value.push_back(residual(at) * atlas_->deviations()(at) * shape.size);
     c.deviation.push_back(atlas_->deviations()(at) * shape.size);
   }

@@ -110,10 +110,8 @@ void tell_law(const SealedEffect& own, const ForceCurve& found,
     const auto k = static_cast<std::size_t>(knot);
     return own.amplitudes[k] * own.effect.sizes[k];
   };
-  const bool closed = law.along == Along::heading;
-  const double step = (found.high - found.low) / (closed ? kKnots : kKnots - 1);
   for (int k = 0; k < kKnots; ++k) {
-    const KnotShare at = place_on(law, found.low + k * step);
+    const KnotShare at = place_on(law, knot_at(found, k));
     truth[own.effect.paths[static_cast<std::size_t>(k)]] =
         (1 - at.share) * value(at.first) + at.share * value(at.second);
   }

@@ -173,9 +173,11 @@ std::vector<GroupFit> group_fits(const CalibrationSetup& setup, const ScorePlan&
   std::vector<GroupFit> out;
   for (const auto& [group, value] : was) {
     const auto found = is.find(group);
-    const Moments& of = chance[group];
-    out.push_back(
-        {group, value, found == is.end() ? 0 : found->second, of.mean(), std::sqrt(of.variance())});
+    GroupFit fit{group, value, found == is.end() ? 0 : found->second};
+    if (const Moments& of = chance[group]; of.count > 1) {
+      fit.chance = of.mean(), fit.deviation = std::sqrt(of.variance());
+    }
+    out.push_back(fit);
   }
   return out;
 }

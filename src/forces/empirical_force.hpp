@@ -23,6 +23,12 @@ struct ForceCurve {
   double low = 0, high = 1;
 };
 
+/// The variable's value at a knot; over a closed curve knot kKnots would be the first again.
+inline double knot_at(const ForceCurve& curve, int knot) {
+  const int steps = curve.along == Along::heading ? kKnots : kKnots - 1;
+  return curve.low + knot * (curve.high - curve.low) / steps;
+}
+
 /// The two knots that a value lies between, and the share of the second.
 struct KnotShare {
   int first = 0, second = 0;
