@@ -1,8 +1,13 @@
 // A stream that the flow field does not know.
+#include <algorithm>
+
 #include "library.hpp"
+#include "math/bulk_exp.hpp"
 
 namespace lilytank {
 namespace {
+
+constexpr int kBlock = 64;  // bodies at a time
 
 constexpr Parameter kParameters[] = {
     {"speed_x", "m/s", 0, -2, 2, "of the added stream in its middle"},
@@ -25,11 +30,21 @@ class LocalFlow final : public ForceTerm {
   bool stirs() const override { return true; }
   void stir(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
             Stirring& water) const override {
-    for (int i = 0; i < k.size(); ++i) {
-      const double dx = k.x[i] - p[2], dy = k.y[i] - p[3];
-      const double share = exp_portable(-(dx * dx + dy * dy) / (2 * p[4] * p[4]));
-      water.ux[i] += p[0] * share, water.uy[i] += p[1] * share;
-      water.turning[i] += share * (dy * p[0] - dx * p[1]) / (2 * p[4] * p[4]);
+    const double width = 2 * p[4] * p[4];
+    double share[kBlock];
+    for (int from = 0; from < k.size(); from += kBlock) {
+      const int count = std::min(kBlock, k.size() - from);
+      for (int j = 0; j < count; ++j) {
+        const double dx = k.x[from + j] - p[2], dy = k.y[from + j] - p[3];
+        share[j] = -(dx * dx + dy * dy) / width;
+      }
+      bulk_exp(share, count, share);
+      for (int j = 0; j < count; ++j) {
+        const int i = from + j;
+        const double dx = k.x[i] - p[2], dy = k.y[i] - p[3];
+        water.ux[i] += p[0] * share[j], water.uy[i] += p[1] * share[j];
+        water.turning[i] += share[j] * (dy * p[0] - dx * p[1]) / width;
+      }
     }
   }
 };

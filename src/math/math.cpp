@@ -1,27 +1,17 @@
 #include "lilytank/math.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "exp_series.hpp"
+
 namespace lilytank {
 namespace {
 
-// pi/2 and ln 2 in two parts: the first has trailing zero bits, so its product with a small
-// integer is exact and the reduction loses nothing.
+// pi/2 in two parts, as ln 2 is.
 constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiLow = 0x1.0b4611a626331p-34;
-constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
-
-constexpr std::array<double, 15> inverse_factorials() {
-  std::array<double, 15> out{1};
-  double factorial = 1;
-  for (std::size_t n = 1; n < out.size(); ++n)
-    factorial *= static_cast<double>(n), out[n] = 1 / factorial;
-  return out;
-}
-constexpr std::array<double, 15> kInverseFactorial = inverse_factorials();
 
 // Taylor sums, exact to rounding on |x| <= pi/4.
 double sine_near_zero(double x) {
@@ -73,8 +63,8 @@ double angle_of(Rot r) {
 }
 
 double exp_portable(double x) {
-  if (!(x > -745.2)) return x != x ? x : 0;
-  if (x > 709.78) return std::numeric_limits<double>::infinity();
+  if (!(x > kExpLeast)) return x != x ? x : 0;
+  if (x > kExpMost) return std::numeric_limits<double>::infinity();
   const double k = std::floor(x / (kLn2High + kLn2Low) + 0.5);
   const double rest = (x - k * kLn2High) - k * kLn2Low;
   // Taylor's sum, even and odd powers by themselves: neither waits for the other.

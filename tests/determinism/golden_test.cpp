@@ -6,6 +6,7 @@
 
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "math/bulk_exp.hpp"
 #include "support/scenes.hpp"
 
 namespace lilytank {
@@ -44,19 +45,36 @@ TEST(Determinism, GoldenFingerprints) {
 
 // The instruction sets that this machine has, down to the one that every x86-64 has: the best is
 // taken unless it is told that there is none better.
-TEST(Determinism, EveryInstructionSetGivesTheSameBits) {
+template <class Use>
+void with_each_instruction_set(Use&& use) {
   int sets = 0;
   for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
     hwy::SetSupportedTargetsForTest(left & -left);
     hwy::GetChosenTarget().DeInit();
-    for (const Scene& scene : scenes())
-      EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden)
-          << scene.name << ", " << hwy::TargetName(left & -left);
+    use(hwy::TargetName(left & -left));
     ++sets;
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
   EXPECT_GE(sets, 1);
+}
+
+TEST(Determinism, EveryInstructionSetGivesTheSameBits) {
+  with_each_instruction_set([](const char* set) {
+    for (const Scene& scene : scenes())
+      EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden)
+          << scene.name << ", " << set;
+  });
+}
+
+TEST(Determinism, EveryInstructionSetGivesTheSameExponentials) {
+  std::vector<double> x;
+  for (double at = -746; at < 711; at += 0.173) x.push_back(at);
+  with_each_instruction_set([&](const char* set) {
+    std::vector<double> out(x.size());
+    bulk_exp(x.data(), static_cast<int>(x.size()), out.data());
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(out[i], exp_portable(x[i])) << set;
+  });
 }
 
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {

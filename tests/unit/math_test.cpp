@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
+
+#include "math/bulk_exp.hpp"
 
 namespace lilytank {
 namespace {
@@ -37,6 +41,27 @@ TEST(Math, ExponentialAndLogarithmMatchTheCLibrary) {
   EXPECT_TRUE(std::isinf(exp_portable(800)));
   EXPECT_TRUE(std::isnan(log_portable(-1)));
   EXPECT_NEAR(log_portable(5e-324), std::log(5e-324), 1e-12);
+}
+
+TEST(Math, ManyExponentialsHaveTheBitsOfEach) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> x{0, -0.0, -800, 800, infinity, -infinity, -745.2, 709.78, -745.1, 1e-300};
+  for (double at = -750; at < 715; at += 0.0371) x.push_back(at);
+  std::vector<double> out(x.size());
+  bulk_exp(x.data(), static_cast<int>(x.size()), out.data());
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(out[i], exp_portable(x[i])) << x[i];
+  for (int count = 0; count < 20; ++count) {  // in place, and nothing beyond
+    std::vector<double> some(x.begin() + 30, x.begin() + 50);
+    bulk_exp(some.data(), count, some.data());
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const double want = x[30 + i];
+      EXPECT_EQ(some[i], static_cast<int>(i) < count ? exp_portable(want) : want) << i;
+    }
+  }
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  double one = 0;
+  bulk_exp(&nothing, 1, &one);
+  EXPECT_TRUE(std::isnan(one));
 }
 
 TEST(Math, PowerOfDamping) {
