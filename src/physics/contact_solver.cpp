@@ -7,7 +7,10 @@ namespace lilytank {
 namespace {
 
 constexpr int kSweeps = 100;
-constexpr double kConverged = 1e-6;  // m/s, change of velocity in a sweep
+// m/s: done when a sweep changes no velocity by more than this; after some sweeps, by more than the
+// second or a share of what the first one changed.
+constexpr double kExact = 1e-8, kClose = 1e-6, kShare = 1e-3;
+constexpr int kQuick = 8;            // sweeps in which a few contacts become exact
 constexpr double kUnchanged = 1e-6;  // m/s, targets nearer than this need no second solution
 
 double energy(const std::vector<Mover>& movers) {
@@ -38,16 +41,23 @@ void kick(const ContactPoint& c, Mover& a, Mover& b, double n, double t) {
   b.twist.omega += b.inv_inertia * (c.bn * n + c.bt * t);
 }
 
-// Arms and effective masses for the point at which the contact lies.
-void prepare(ContactPoint& c, const Mover& a, const Mover& b) {
-  const double ax = c.x - a.pose.x, ay = c.y - a.pose.y;
-  const double bx = c.x - b.pose.x, by = c.y - b.pose.y;
-  c.an = ax * c.ny - ay * c.nx, c.at = ax * c.nx + ay * c.ny;
-  c.bn = bx * c.ny - by * c.nx, c.bt = bx * c.nx + by * c.ny;
-  const double k = a.inv_mass + b.inv_mass;
-  c.nn = k + a.inv_inertia * c.an * c.an + b.inv_inertia * c.bn * c.bn;
-  c.nt = a.inv_inertia * c.an * c.at + b.inv_inertia * c.bn * c.bt;
-  c.tt = k + a.inv_inertia * c.at * c.at + b.inv_inertia * c.bt * c.bt;
+// The impulses that one contact needs in the end if nothing else changes, by Coulomb's law: none,
+// sticking, or sliding. `v` is the velocity with the impulses so far.
+void resolve(ContactPoint& c, double friction, const Slip& v) {
+  const double bare_n = v.n - c.nn * c.impulse_n - c.nt * c.impulse_t;
+  const double bare_t = v.t - c.nt * c.impulse_n - c.tt * c.impulse_t;
+  const double need = c.target - bare_n;
+  c.impulse_n = c.impulse_t = 0;
+  if (need <= 0) return;
+  const double n = (c.tt * need + c.nt * bare_t) * c.stick;
+  const double t = (-c.nn * bare_t - c.nt * need) * c.stick;
+  if (n > 0 && std::fabs(t) <= friction * n) {
+    c.impulse_n = n, c.impulse_t = t;
+    return;
+  }
+  // Friction at its bound, on the side of what sticking would take.
+  const int side = t > 0 ? 1 : 0;
+  c.impulse_n = need * c.slide[side], c.impulse_t = c.share[side] * c.impulse_n;
 }
 
 // The rigid motion with an island's momenta, which no contact among its members can change; with
@@ -109,50 +119,64 @@ ContactSolver::ContactSolver(const Model& model)
       restitution_(model.contact.restitution),
       threshold_(model.contact.restitution_speed) {
   contacts_.reserve(8 * static_cast<std::size_t>(model.bodies()) + 16);
+  before_.reserve(static_cast<std::size_t>(model.bodies()) + 1);
 }
 
-// The impulses that one contact needs in the end if nothing else changes, by Coulomb's law: none,
-// sticking, or sliding. (vn, vt) is the velocity with the impulses so far.
-void ContactSolver::resolve(ContactPoint& c, double vn, double vt) const {
-  const double bare_n = vn - c.nn * c.impulse_n - c.nt * c.impulse_t;
-  const double bare_t = vt - c.nt * c.impulse_n - c.tt * c.impulse_t;
-  const double need = c.target - bare_n;
-  c.impulse_n = c.impulse_t = 0;
-  if (need <= 0) return;
-  const double determinant = c.nn * c.tt - c.nt * c.nt;
-  const double n = (c.tt * need + c.nt * bare_t) / determinant;
-  const double t = (-c.nn * bare_t - c.nt * need) / determinant;
-  if (n > 0 && std::fabs(t) <= friction_ * n) {
-    c.impulse_n = n, c.impulse_t = t;
-    return;
+// Arms and effective masses for the point at which the contact lies.
+void ContactSolver::prepare(ContactPoint& c, const Mover& a, const Mover& b) const {
+  const double ax = c.x - a.pose.x, ay = c.y - a.pose.y;
+  const double bx = c.x - b.pose.x, by = c.y - b.pose.y;
+  c.an = ax * c.ny - ay * c.nx, c.at = ax * c.nx + ay * c.ny;
+  c.bn = bx * c.ny - by * c.nx, c.bt = bx * c.nx + by * c.ny;
+  const double k = a.inv_mass + b.inv_mass;
+  c.nn = k + a.inv_inertia * c.an * c.an + b.inv_inertia * c.bn * c.bn;
+  c.nt = a.inv_inertia * c.an * c.at + b.inv_inertia * c.bn * c.bt;
+  c.tt = k + a.inv_inertia * c.at * c.at + b.inv_inertia * c.bt * c.bt;
+  c.stick = 1 / (c.nn * c.tt - c.nt * c.nt);
+  for (const int side : {0, 1}) {
+    const double share = side == 1 ? friction_ : -friction_;
+    const double effective = c.nn + share * c.nt;
+    const bool slides = effective > 0.1 * c.nn;  // or it would jam
+    c.slide[side] = 1 / (slides ? effective : c.nn), c.share[side] = slides ? share : 0;
   }
-  // Sliding: friction at its bound, on the side of what sticking would take.
-  const double share = t > 0 ? friction_ : -friction_;
-  const double effective = c.nn + share * c.nt;
-  c.impulse_n = need / (effective > 0.1 * c.nn ? effective : c.nn);
-  c.impulse_t = effective > 0.1 * c.nn ? share * c.impulse_n : 0;
 }
 
-// One pass over all contacts; returns the largest change of velocity (m/s).
-double ContactSolver::sweep(std::vector<Mover>& movers) {
-  double change = 0;
+// One pass over all contacts.
+void ContactSolver::sweep(std::vector<Mover>& movers) {
   for (ContactPoint& c : contacts_) {
     Mover &a = movers[c.a], &b = movers[c.b];
     const Slip v = slip(c, a, b);
     if (c.impulse_n == 0 && v.n >= c.target) continue;
     const double old_n = c.impulse_n, old_t = c.impulse_t;
-    resolve(c, v.n, v.t);
-    const double n = c.impulse_n - old_n, t = c.impulse_t - old_t;
-    kick(c, a, b, n, t);
-    change = std::max(change, std::max(std::fabs(n) * c.nn, std::fabs(t) * c.tt));
+    resolve(c, friction_, v);
+    kick(c, a, b, c.impulse_n - old_n, c.impulse_t - old_t);
   }
-  return change;
 }
 
+// The largest change of a velocity since the last call (m/s, turning at the farthest point).
+double ContactSolver::moved(const std::vector<Mover>& movers) {
+  double most = 0;
+  for (std::size_t k = 1; k < movers.size(); ++k) {
+    const Twist now = movers[k].twist, was = before_[k];
+    before_[k] = now;
+    most = std::max({most, std::fabs(now.vx - was.vx), std::fabs(now.vy - was.vy),
+                     std::fabs(now.omega - was.omega) * movers[k].reach});
+  }
+  return most;
+}
+
+// Until the movers no longer change. Impulses may go on for long: several points of two faces that
+// stick share one force in many ways.
 void ContactSolver::iterate(std::vector<Mover>& movers) {
-  const int sweeps = contacts_.size() == 1 ? 1 : kSweeps;
-  for (int k = 0; k < sweeps; ++k) {
-    if (sweep(movers) < kConverged) return;
+  if (contacts_.size() == 1) return sweep(movers);
+  before_.clear();
+  for (const Mover& m : movers) before_.push_back(m.twist);
+  double close = 0;
+  for (int k = 0; k < kSweeps; ++k) {
+    sweep(movers);
+    const double change = moved(movers);
+    if (k == 0) close = std::max(kClose, kShare * change);
+    if (change < (k < kQuick ? kExact : close)) return;
   }
 }
 

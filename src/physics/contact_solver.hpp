@@ -13,6 +13,8 @@ struct ContactPoint {
   double x = 0, y = 0, gap = 0;           ///< m
   double an = 0, at = 0, bn = 0, bt = 0;  ///< m, arms of the normal and tangential impulses
   double nn = 0, nt = 0, tt = 0;          ///< 1/kg, velocity gained by a unit of impulse
+  double stick = 0;                       ///< kg^2, inverse of their determinant
+  double slide[2] = {}, share[2] = {};    ///< sliding towards -t, t: kg; tangential by normal
   double impulse_n = 0, impulse_t = 0;    ///< kg m/s
   double approach = 0;                    ///< m/s, normal velocity before; negative: nearing
   double target = 0;                      ///< m/s, least normal velocity after
@@ -35,14 +37,16 @@ class ContactSolver {
   void rebound(Island& island, double h);
 
  private:
-  void resolve(ContactPoint& contact, double vn, double vt) const;
+  void prepare(ContactPoint& contact, const Mover& a, const Mover& b) const;
   bool retarget(const std::vector<Mover>& movers);
   void iterate(std::vector<Mover>& movers);
-  double sweep(std::vector<Mover>& movers);
+  void sweep(std::vector<Mover>& movers);
+  double moved(const std::vector<Mover>& movers);
 
   double friction_, restitution_, threshold_;
   double energy_ = 0;  // J, of the island before its contacts were solved
   std::vector<ContactPoint> contacts_;
+  std::vector<Twist> before_;  // of the movers, before the last sweep
 };
 
 }  // namespace lilytank
