@@ -98,6 +98,7 @@ class Diagnoser {
   static void disown(const Explanation& e, Diagnosis& out);
   void warn_of_rest(const Explanation& e, Diagnosis& out) const;
   void blame_camera(const Explanation& e, Diagnosis& out) const;
+  void tell_camera(const std::vector<double>& values, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                        Diagnosis& out) const;
   void show(const JointFit& fit, const std::vector<double>& before,

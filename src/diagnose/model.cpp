@@ -37,11 +37,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
                               deviation_(k), before[i], before[i], before[i]});
   }
-  for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
-    out.checks.push_back(setup_.parameters[i].path + " = " + significant(before[i], 3) + " " +
-                         setup_.parameters[i].unit + ", fitted along");
+  if (out.verdict != Verdict::missing) {
+    tell_camera(before, out);
+    return;
   }
-  if (out.verdict != Verdict::missing) return;
   std::vector<JointEffect> found;
   // Where the effects left the baseline, less how far they had moved it.
   Vector moved = Vector::Zero(baseline.point.size());
@@ -60,8 +59,16 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
   keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
+  tell_camera(fit.value, out);
   tell_parameters(fit, found, out);
   show(fit, before, held_out, out);
+}
+
+void Diagnoser::tell_camera(const std::vector<double>& values, Diagnosis& out) const {
+  for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
+    out.checks.push_back(setup_.parameters[i].path + " = " + significant(values[i], 3) + " " +
+                         setup_.parameters[i].unit + ", fitted along");
+  }
 }
 
 void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
