@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrate/design.hpp"
+#include "diagnose/nuisances.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
@@ -90,7 +91,9 @@ void Diagnoser::prepare(double after) {
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
-  naming_ = std::make_unique<Naming>(atlas_->null_residuals(), atlas_->plan().effects,
+  naming_ = std::make_unique<Naming>(atlas_->null_residuals(),
+                                     score_correlations(atlas_->plan(), setup_.training),
+                                     atlas_->plan().effects,
                                      atlas_->fingerprints(), atlas_->plan().shapes.size(),
                                      options_.false_alarms);
 }
@@ -121,7 +124,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "17 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "18 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -169,6 +172,7 @@ ScorePlan Diagnoser::plan(const Vector& centre) const {
     modules = std::max(modules, static_cast<int>(r.tracks.size()));
   }
   p.shapes = shape_catalogue(p.model, longest);
+  p.nuisances_known = nuisances_known(p.model, *maps_, derived_seed(options_.seed, 32));
   p.rate = setup_.training.front().rate, p.modules = std::max(modules, setup_.shapes[0].bodies);
   return p;
 }

@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kProbe = 0.02;  // m/s, and share of the gain: steps of the drag's derivatives
 constexpr double kTurned = 0.5;  // rad/s, likewise
+constexpr double kGusty = 0.1;   // share of the gusts, likewise
 
 }  // namespace
 
@@ -22,7 +23,9 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
     if (force.term->name() == "face_drag") drag_only_.push_back(force);
   }
   drag_sum_ = std::make_unique<ForceSum>(model_, drag_only_);
-  for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_}) of->resize(n);
+  for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_, &by_gusts_}) {
+    of->resize(n);
+  }
   for (auto* of : {&ux_, &uy_, &turning_, &probe_, &turned_, &none_}) of->resize(n);
   std::fill(probe_.begin(), probe_.end(), kProbe);
   std::fill(turned_.begin(), turned_.end(), kTurned);
@@ -69,14 +72,13 @@ void Features::add(const Effect& effect, std::size_t component) {
   features_.push_back(std::move(feature));
 }
 
-// The drag's change by water that moves along x, along y, that turns, and by the gain of the whole
-// flow.
 void Features::derive(const Kinematics& k, const Moment& now) {
   const auto probe = [&](const std::vector<double>& ux, const std::vector<double>& uy,
-                         const std::vector<double>& turning, double gain, double step,
+                         const std::vector<double>& turning, double gain, double gusts, double step,
                          std::vector<Wrench>& out) {
     Moment other = now;
-    other.ux = ux, other.uy = uy, other.turning = turning, other.gain = gain;
+    other.ux = ux, other.uy = uy, other.turning = turning;
+    other.gain = gain, other.gust_gain = gusts;
     (*drag_sum_)(k, other, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].fx = (out[i].fx - drag_[i].fx) / step;
@@ -84,9 +86,11 @@ void Features::derive(const Kinematics& k, const Moment& now) {
       out[i].torque = (out[i].torque - drag_[i].torque) / step;
     }
   };
-  probe(probe_, none_, none_, 1, kProbe, by_x_), probe(none_, probe_, none_, 1, kProbe, by_y_);
-  probe(none_, none_, turned_, 1, kTurned, by_turning_);
-  probe(none_, none_, none_, 1 + kProbe, kProbe, by_gain_);
+  probe(probe_, none_, none_, 1, 1, kProbe, by_x_);
+  probe(none_, probe_, none_, 1, 1, kProbe, by_y_);
+  probe(none_, none_, turned_, 1, 1, kTurned, by_turning_);
+  probe(none_, none_, none_, 1 + kProbe, 1, kProbe, by_gain_);
+  probe(none_, none_, none_, 1, 1 + kGusty, kGusty, by_gusts_);
 }
 
 void Features::stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,

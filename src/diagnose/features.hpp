@@ -20,6 +20,14 @@ class Features {
   const Wrench& at(std::size_t feature, std::size_t i) const { return wrenches_[feature][i]; }
   const Wrench& drag(std::size_t i) const { return drag_[i]; }
   const Wrench& baseline(std::size_t i) const { return baseline_[i]; }
+  /// The drag's change by water that moves along x or y (a m/s) or turns (a rad/s), by a factor on
+  /// the flow, and by one on its gusts alone.
+  const Wrench& by_x(std::size_t i) const { return by_x_[i]; }
+  const Wrench& by_y(std::size_t i) const { return by_y_[i]; }
+  const Wrench& by_turning(std::size_t i) const { return by_turning_[i]; }
+  const Wrench& by_gain(std::size_t i) const { return by_gain_[i]; }
+  const Wrench& by_gusts(std::size_t i) const { return by_gusts_[i]; }
+  const Model& model() const { return model_; }
 
  private:
   struct Feature {
@@ -36,7 +44,7 @@ class Features {
   std::vector<Feature> features_;
   std::vector<ActiveForce> drag_only_;
   std::unique_ptr<ForceSum> base_, drag_sum_;
-  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_turning_, by_gain_;
+  std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_turning_, by_gain_, by_gusts_;
   std::vector<double> ux_, uy_, turning_, probe_, turned_, none_;
   std::vector<std::vector<Wrench>> wrenches_;
 };

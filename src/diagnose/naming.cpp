@@ -17,6 +17,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kFolds = 5;
 constexpr double kLeastShrinkage = 0.02;
+constexpr double kUnalike = 0.01;  // variance that scores have by themselves at least
 constexpr Eigen::Index kLeastScatter = 4;
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 constexpr double kEulerGamma = 0.57721566490153286;
@@ -24,20 +25,13 @@ constexpr double kEulerGamma = 0.57721566490153286;
 constexpr double kLeastTried = 0.1, kTriedStep = 1.03;
 
 // Shrunk correlations of columns, times deviations.
-Matrix covariance_of(const Matrix& off, const Vector& deviation) {
+Matrix shrunk_covariance(const Matrix& off, const Vector& deviation) {
   const Vector own = (off.colwise().squaredNorm() / static_cast<double>(off.rows()))
                          .cwiseSqrt()
                          .cwiseMax(1e-9)
                          .transpose();
   const Matrix z = off * own.cwiseInverse().asDiagonal();
   return deviation.asDiagonal() * shrunk_correlations(z, kLeastShrinkage) * deviation.asDiagonal();
-}
-
-Matrix covariance_of(const Matrix& rows) {
-  const Matrix off = rows.rowwise() - rows.colwise().mean();
-  const double n = static_cast<double>(rows.rows());
-  return covariance_of(off,
-                       (off.colwise().squaredNorm() / n).cwiseSqrt().cwiseMax(1e-9).transpose());
 }
 
 Matrix inverse_root(const Matrix& covariance) {
@@ -50,7 +44,7 @@ Matrix loosened(const Matrix& own, const Matrix& off) {
   const double chance = 1 + kByChance * std::sqrt(2 / n);
   const Vector square = off.colwise().squaredNorm().transpose() / n;
   const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
-  return own + covariance_of(off, excess * std::sqrt(1 + 1 / n));
+  return own + shrunk_covariance(off, excess * std::sqrt(1 + 1 / n));
 }
 
 // The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
@@ -66,10 +60,14 @@ double extreme(const std::vector<double>& values, double probability) {
 
 }  // namespace
 
-Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
+Naming::Naming(const Matrix& nulls, const Matrix& alike, const std::vector<Effect>& effects,
                const std::vector<Fingerprint>& fingerprints, std::size_t curves,
                double false_alarms)
     : named_(nulls.cols() - static_cast<Eigen::Index>(curves) * kKnots) {
+  alike_ = Matrix::Identity(named_, named_);
+  Matrix expected = alike;
+  expected.diagonal().array() += kUnalike;
+  if (alike.size() > 0) alike_.topLeftCorner(alike.rows(), alike.rows()) = lower_root(expected);
   centre_ = nulls.colwise().mean().transpose();
   covariance_ = covariance_of(nulls.leftCols(named_));
   whitener_ = inverse_root(covariance_);
@@ -89,6 +87,18 @@ Naming::Naming(const Matrix& nulls, const std::vector<Effect>& effects,
     known_.push_back(known(fingerprints[e], static_cast<int>(e), -1));
   }
   calibrate(nulls, false_alarms);
+}
+
+// Correlations of few experiments are drawn towards the expected ones: to none once these are taken
+// out.
+Matrix Naming::covariance_of(const Matrix& rows) const {
+  const Matrix off = rows.rowwise() - rows.colwise().mean();
+  const Matrix plain = off * lower_inverse(alike_).transpose();
+  const Vector deviation = (plain.colwise().squaredNorm() / static_cast<double>(rows.rows()))
+                               .cwiseSqrt()
+                               .cwiseMax(1e-9)
+                               .transpose();
+  return alike_ * shrunk_covariance(plain, deviation) * alike_.transpose();
 }
 
 Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shape) const {

@@ -34,10 +34,12 @@ struct Explanation {
 class Naming {
  public:
   /// `nulls`: residuals of experiments in which nothing is missing, a row each, those of `curves`
-  /// times kKnots knots at the end; `fingerprints`: the effects'; `false_alarms`: share of
+  /// times kKnots knots at the end; `alike`: correlations that the first of them should have
+  /// (score_correlations), or nothing; `fingerprints`: the effects'; `false_alarms`: share of
   /// experiments with nothing missing that may be called otherwise.
-  Naming(const Eigen::MatrixXd& nulls, const std::vector<Effect>& effects,
-         const std::vector<Fingerprint>& fingerprints, std::size_t curves, double false_alarms);
+  Naming(const Eigen::MatrixXd& nulls, const Eigen::MatrixXd& alike,
+         const std::vector<Effect>& effects, const std::vector<Fingerprint>& fingerprints,
+         std::size_t curves, double false_alarms);
 
   /// Every effect alone, strongest first.
   std::vector<EffectFit> effects(const Eigen::VectorXd& residual) const;
@@ -142,6 +144,7 @@ class Naming {
   void exchange(const Eigen::VectorXd& all, Together& set) const;
   double cost(const Together& set) const;
   double noise_of(const Together& set) const;
+  Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& rows) const;
   Eigen::MatrixXd whitener_by(const Eigen::MatrixXd& scatter) const;
   static double doubt(double left, const Eigen::MatrixXd& whitener, Eigen::Index amplitudes);
   std::vector<std::pair<std::size_t, std::size_t>> leading_pairs(const Eigen::VectorXd& all) const;
@@ -155,6 +158,7 @@ class Naming {
 
   Eigen::Index named_;                  ///< numbers before the shapes' knots
   std::vector<std::string> terms_;      ///< of each effect: the path of its first amplitude
+  Eigen::MatrixXd alike_;               ///< root of the expected correlations
   Eigen::VectorXd centre_;              ///< mean of the nulls' residuals
   Eigen::MatrixXd covariance_;          ///< of the named numbers of nulls
   std::vector<Eigen::MatrixXd> knots_;  ///< of each shape's

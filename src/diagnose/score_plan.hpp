@@ -1,5 +1,6 @@
 // What is measured of an experiment: the list of effects, curves and numbers that scores are of.
 #pragma once
+#include <Eigen/Core>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ struct ScorePlan {
   std::vector<Shape> shapes;
   double rate = 30;
   int modules = 15;  ///< identities in all recordings
+  /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.
+  Eigen::MatrixXd nuisances_known;
 
   std::vector<ScoreEntry> entries() const;
   /// Where the scores of the components of effect `index` begin, if it is scored; of one past the

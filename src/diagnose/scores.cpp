@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/features.hpp"
+#include "diagnose/nuisances.hpp"
 #include "diagnose/scatter.hpp"
 #include "diagnose/sensitivity.hpp"
 #include "forces/pairs.hpp"
@@ -17,6 +18,7 @@ constexpr double kContact = 0.03;                 // m/s: a prediction that was 
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
 constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
+constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
 
@@ -50,14 +52,16 @@ void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, doubl
 
 class Scorer {
  public:
-  explicit Scorer(const ScorePlan& plan)
+  explicit Scorer(const ScorePlan& plan, bool all_partners = false)
       : plan_(plan),
         modules_(static_cast<std::size_t>(plan.modules)),
         parts_(parts_of(plan)),
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
-        sensitivities_(total_, modules_),
-        pushes_(modules_, Pushes(total_)),
+        nuisances_(static_cast<std::size_t>(plan.nuisances_known.rows())),
+        sensitivities_(total_ + nuisances_, modules_,
+                       all_partners ? total_ + nuisances_ : nuisances_),
+        pushes_(modules_, Pushes(total_ + nuisances_)),
         last_(modules_, -9) {}
 
   void add(const PredictedFrame& frame) {
@@ -78,18 +82,22 @@ class Scorer {
 
   std::vector<ScoredAmplitude> amplitudes() const {
     std::vector<ScoredAmplitude> out;
-    for (std::size_t f = 0; f < scored_; ++f) {
-      out.push_back({sensitivities_.estimate(f), sensitivities_.gain(f)});
-    }
+    for (const auto& one : sensitivities_.amplitudes(plan_.nuisances_known)) out.push_back({one.estimate, one.gain()});
     return out;
+  }
+
+  Eigen::MatrixXd correlations() const {
+    return sensitivities_.correlations(plan_.nuisances_known);
   }
 
   std::vector<double> tell(ScoreDetails* details) const {
     std::vector<double> values;
-    for (std::size_t f = 0; f < scored_; ++f) values.push_back(sensitivities_.estimate(f));
+    const auto told = sensitivities_.amplitudes(plan_.nuisances_known);
+    for (std::size_t f = 0; f < scored_; ++f) values.push_back(told[f].estimate);
     for (const auto& part : parts_) part->tell(values, details);
     for (std::size_t f = scored_; f < total_; ++f) {
-      values.push_back(sensitivities_.estimate(f, kKnotKnown));
+      const auto& knot = told[f];
+      values.push_back(knot.estimate * knot.information / (knot.information + kKnotKnown));
     }
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
@@ -124,6 +132,7 @@ class Scorer {
                  unit[static_cast<std::size_t>(curve.toward)],
                  value[static_cast<std::size_t>(curve.along)], 1, to);
     }
+    if (nuisances_ > 0) push_nuisances(*features_, frame.now, i, total_, to);
   }
 
   void push_pairs(const PredictedFrame& frame) {
@@ -148,20 +157,23 @@ class Scorer {
     }
   }
 
-  // Modules that touch another, or may before the next frame: what contacts do to them depends on
-  // more than forces. Known from the past, so leaving them out favours no kind of meeting.
+  // Modules that touch another, or may before the next frame, as fast as what is nearest closes up:
+  // what contacts do to them depends on more than forces. Known from the past, so leaving them out
+  // favours no kind of meeting.
   void find_touching(const PredictedFrame& frame) {
     const Kinematics& k = frame.now;
     touching_.assign(static_cast<std::size_t>(k.size()), 0);
     const double side = model_->module.side;
     for_near_pairs(k, 1.6 * side, [&](const NearPair& pair) {
       const SquareGap at = square_gap(k, pair, side);
+      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      const double jx = at.px - pair.dx, jy = at.py - pair.dy;
       const double closing =
-          (k.vx[pair.i] - k.vx[pair.j]) * at.nx + (k.vy[pair.i] - k.vy[pair.j]) * at.ny;
-      const double turning = 0.7 * side * (std::fabs(k.omega[pair.i]) + std::fabs(k.omega[pair.j]));
-      const double way = 1.5 * frame.interval * (std::max(0.0, closing) + turning);
+          (k.vx[i] - k.omega[i] * at.py - k.vx[j] + k.omega[j] * jy) * at.nx +
+          (k.vy[i] + k.omega[i] * at.px - k.vy[j] - k.omega[j] * jx) * at.ny;
+      const double way = kHaste * frame.interval * std::max(0.0, closing);
       if (at.gap > kTouch + way) return;
-      touching_[static_cast<std::size_t>(pair.i)] = touching_[static_cast<std::size_t>(pair.j)] = 1;
+      touching_[i] = touching_[j] = 1;
     });
   }
 
@@ -191,7 +203,8 @@ class Scorer {
   const ScorePlan& plan_;
   std::size_t modules_;
   std::vector<std::unique_ptr<ScatterPart>> parts_;
-  std::size_t scored_, total_;
+  std::size_t scored_, total_;  // features that are told
+  std::size_t nuisances_;
   Sensitivities sensitivities_;
   std::vector<Pushes> pushes_;
   std::vector<int> last_;
@@ -244,6 +257,14 @@ std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
   predict(plan.model, recordings, plan.predictor,
           [&](const PredictedFrame& frame) { scorer.add(frame); });
   return scorer.amplitudes();
+}
+
+Eigen::MatrixXd score_correlations(ScorePlan plan, const std::vector<Recording>& recordings) {
+  plan.shapes.clear();
+  Scorer scorer(plan, true);
+  predict(plan.model, recordings, plan.predictor,
+          [&](const PredictedFrame& frame) { scorer.add(frame); });
+  return scorer.correlations();
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,

@@ -1,5 +1,6 @@
 // How innovations answer to accelerations that the model lacks, carried along with the filter.
 #pragma once
+#include <Eigen/Core>
 #include <vector>
 
 #include "lilytank/predictor.hpp"
@@ -15,10 +16,13 @@ struct Pushes {
   }
 };
 
-/// For a number of features, each an acceleration of every module: sums of score and information.
+/// For a number of features, each an acceleration of every module: sums of score and information,
+/// and of their products with the last ones, of which some are nuisances: what may be at fault for
+/// another's score.
 class Sensitivities {
  public:
-  Sensitivities(std::size_t features, std::size_t modules);
+  /// `partners`: features at the end with which products are summed.
+  Sensitivities(std::size_t features, std::size_t modules, std::size_t partners);
 
   /// A module whose prediction cannot be used at this frame: forgets what it was pushed by.
   void forget(std::size_t module);
@@ -28,16 +32,34 @@ class Sensitivities {
   void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
             double loss, bool told);
 
-  /// The estimate of a feature's amplitude; 0 where nothing was pushed. `known`: information before
-  /// any data that it is 0, to which that draws what was hardly seen.
-  double estimate(std::size_t feature, double known = 0) const;
-  /// By how much the feature at its estimate raises twice the log-likelihood of what was seen.
-  double gain(std::size_t feature) const { return estimate(feature) * score_[feature]; }
+  /// An amplitude that is cleared of nuisances: the most likely one beside them.
+  struct Amplitude {
+    double estimate = 0, information = 0;
+    /// By how much it raises twice the log-likelihood.
+    double gain() const { return estimate * estimate * information; }
+  };
+  /// Of every feature but the nuisances, the last ones; 0 where nothing was pushed. `known`:
+  /// precision of the nuisances' amplitudes before any data, [nuisance, nuisance].
+  std::vector<Amplitude> amplitudes(const Eigen::MatrixXd& known) const;
+  /// Correlations that such estimates have where the filter is right, if all features are partners;
+  /// of one without information none.
+  Eigen::MatrixXd correlations(const Eigen::MatrixXd& known) const;
 
  private:
-  std::size_t features_;
+  struct Axis;
+  void pass_axis(const Axis& axis, const float* push, float* x, float* v);
+  void take_up(const Axis& axis);
+  void flush();
+  /// Products of every feature with the last `count`.
+  Eigen::MatrixXd products(Eigen::Index count) const;
+
+  std::size_t features_, partners_;
   std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [module * features + feature]
   std::vector<double> score_, information_;
+  std::vector<float> at_;      // of the axis that is passed, before it is corrected
+  std::vector<float> recent_;  // products, [partner * features + feature]
+  std::vector<double> shared_;
+  std::size_t passed_ = 0, taken_ = 0;  // axes
 };
 
 }  // namespace lilytank

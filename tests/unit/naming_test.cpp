@@ -64,7 +64,7 @@ class NamingTest : public testing::Test {
       e.name = name, e.paths = {std::string("forces.") + name + ".strength"}, e.sizes = {1};
       effects.push_back(e), fingerprints.push_back(fingerprint(vector));
     }
-    naming_ = std::make_unique<Naming>(nulls, effects, fingerprints, kCurves, kFalseAlarms);
+    naming_ = std::make_unique<Naming>(nulls, Matrix(), effects, fingerprints, kCurves, kFalseAlarms);
   }
 
   std::vector<int> said(const Vector& residual) const {
