@@ -126,6 +126,7 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   parameters_ = std::make_unique<LocalModel>(summaries);
   scores_ = std::make_unique<LocalModel>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
+  alike_ = correlations_of(score_informations(plan_, setup.training));
   null_residuals_ = held_out_residuals(summaries, numbers);
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
@@ -350,7 +351,7 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   const auto n = static_cast<double>(off.rows());
   out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
                 std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
-  out.experiments = static_cast<int>(off.rows());
+  out.experiments = static_cast<int>(off.rows()), out.exact = 0;
   local_[name].push_back({point, out, experiments});
   return out;
 }

@@ -35,6 +35,8 @@ struct Fingerprint : Answer {
   /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
   Eigen::MatrixXd scatter;
   int experiments = 0;  ///< that it rests on, for each amplitude
+  /// The first numbers are known without noise (alignment.hpp).
+  Eigen::Index exact = 0;
   /// Power of the amplitude by which residuals grow, from 1 to 2.5: what makes motion more
   /// irregular is hardly seen while it is small.
   double growth = 1;
@@ -81,6 +83,8 @@ class Atlas {
   const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
   int experiments() const { return options_.experiments; }
   Eigen::Index named_numbers() const { return named_; }  ///< those before the shapes
+  /// Correlations that the scores of effects should have, the first of the named numbers.
+  const Eigen::MatrixXd& alike() const { return alike_; }
   const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
   /// The fingerprint of an effect that is not in the plan's list.
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
@@ -127,7 +131,7 @@ class Atlas {
   Eigen::MatrixXd spread_;
   std::unique_ptr<LocalModel> parameters_, scores_;
   Eigen::VectorXd deviation_;
-  Eigen::MatrixXd null_residuals_;
+  Eigen::MatrixXd null_residuals_, alike_;
   Eigen::Index named_ = 0;
   std::vector<Fingerprint> fingerprints_;
   std::map<std::string, std::vector<Local>> local_;  ///< by name

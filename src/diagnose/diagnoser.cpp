@@ -92,7 +92,7 @@ void Diagnoser::prepare(double after) {
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
   naming_ = std::make_unique<Naming>(atlas_->null_residuals(),
-                                     score_correlations(atlas_->plan(), setup_.training),
+                                     atlas_->alike(),
                                      atlas_->plan().effects,
                                      atlas_->fingerprints(), atlas_->plan().shapes.size(),
                                      options_.false_alarms);
@@ -101,6 +101,7 @@ void Diagnoser::prepare(double after) {
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
   Judged measured;
   measured.observed = atlas_->vectors(recordings, &measured.details);
+  measured.recordings = &recordings;
   return judge(std::move(measured), out);
 }
 
@@ -108,7 +109,15 @@ Judged Diagnoser::judge(Judged j, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
   j.tag = hex(fnv_of(j.observed.scores));
   Naming naming = *naming_;
-  j.explanation = sharpened(naming, explained(naming, residual), j, residual);
+  Alignment alignment(*atlas_, *j.recordings);
+  const std::vector<Effect>& effects = atlas_->plan().effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    EffectFit of;
+    of.effect = static_cast<int>(e);
+    naming.sharpen(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
+  }
+  j.explanation =
+      sharpened(naming, alignment, explained(naming, alignment, residual), j, residual);
   tell_ranking(naming, residual, j.explanation, out);
   tell_detectable(naming, out);
   tell_findings(naming, residual, j.explanation, out);

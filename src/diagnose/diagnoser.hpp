@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/alignment.hpp"
 #include "diagnose/joint.hpp"
 #include "diagnose/naming.hpp"
 #include "lilytank/diagnosis.hpp"
@@ -25,6 +26,7 @@ struct Judged {
   ScoreDetails details;
   Explanation explanation;
   std::string tag;  ///< for the names of what is kept of these recordings
+  const std::vector<Recording>* recordings = nullptr;
 };
 
 class Diagnoser {
@@ -61,9 +63,9 @@ class Diagnoser {
   };
   Centre centre_of(const Centre& before, int round, const FlowMaps& maps, const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
-  Explanation explained(Naming& naming, const Eigen::VectorXd& residual);
+  Explanation explained(Naming& naming, Alignment& alignment, const Eigen::VectorXd& residual);
   bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;
-  Explanation sharpened(Naming& naming, Explanation e, Judged& judged,
+  Explanation sharpened(Naming& naming, Alignment& alignment, Explanation e, Judged& judged,
                         const Eigen::VectorXd& residual);
   class Sharpening;
   const Effect& effect(const EffectFit& fit) const;

@@ -117,7 +117,7 @@ void add_modules(std::vector<Effect>& all) {
   all.push_back(torque);
   all.push_back(two("mass_offset", "forward", "left", 1e-3, "m", "heading"));
   Effect heavy = one("heterogeneous_module", "extra", 0.4, "1", "module");
-  heavy.scored = false, heavy.growth = 2;
+  heavy.scored = heavy.mean_force = false, heavy.growth = 2;
   all.push_back(heavy);
 }
 
@@ -125,7 +125,7 @@ void add_modules(std::vector<Effect>& all) {
 void add_noise(std::vector<Effect>& all) {
   Effect pumps = one("flow_pulsation", "share", 0.15, "1", "time");
   pumps.shape = {{force("flow_pulsation", "frequency"), 0.9}};
-  pumps.scored = false, pumps.growth = 2;
+  pumps.scored = pumps.mean_force = false, pumps.growth = 2;
   all.push_back(pumps);
   for (const double time : {0.25, 1.0}) {
     for (const double length : {0.03, 0.08}) {
@@ -134,7 +134,7 @@ void add_noise(std::vector<Effect>& all) {
                       {force("correlated_gusts", "length"), length}};
       eddies.refine = {{force("correlated_gusts", "time"), "s", 0.08, 3, true, false},
                        {force("correlated_gusts", "length"), "m", 0.01, 0.25, true, false}};
-      eddies.scored = false;
+      eddies.scored = eddies.mean_force = false;
       all.push_back(eddies);
     }
   }
@@ -142,18 +142,18 @@ void add_noise(std::vector<Effect>& all) {
     Effect vortices = one("vortex_shedding", "coefficient", 0.8, "1", "lag");
     vortices.shape = {{force("vortex_shedding", "frequency"), frequency}};
     vortices.refine = {{force("vortex_shedding", "frequency"), "Hz", 0.1, 3, true, false}};
-    vortices.scored = false, vortices.growth = 2;
+    vortices.scored = vortices.mean_force = false, vortices.growth = 2;
     all.push_back(vortices);
   }
   for (const char* by : {"by_radius", "by_slip"}) {
     const bool radius = by[3] == 'r';
     Effect e = one("state_dependent_noise", by, radius ? 0.012 : 0.06, radius ? "N" : "N s/m",
                    radius ? "radius" : "slip");
-    e.scored = false, e.growth = 2;
+    e.scored = e.mean_force = false, e.growth = 2;
     all.push_back(e);
   }
   Effect kicks = one("heavy_tailed_kicks", "impulse", 1.5e-3, "N s", "lag");
-  kicks.scored = false, kicks.growth = 2;
+  kicks.scored = kicks.mean_force = false, kicks.growth = 2;
   all.push_back(kicks);
 }
 
@@ -161,7 +161,7 @@ void add_noise(std::vector<Effect>& all) {
 void add_camera(std::vector<Effect>& all) {
   Effect lens;
   lens.name = "lens_distortion", lens.paths = {kLens}, lens.sizes = {0.15};
-  lens.units = {"1/m^2"}, lens.two_sided = true, lens.scored = false;
+  lens.units = {"1/m^2"}, lens.two_sided = true, lens.scored = lens.mean_force = false;
   lens.variable = "radius", lens.split = kGrid;
   all.push_back(lens);
   Effect tilt = lens;
@@ -238,7 +238,7 @@ std::vector<Effect> effect_catalogue(const Model& model) {
   Effect contact;
   contact.name = "contact_law", contact.paths = {"contact.friction", "contact.restitution"};
   contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
-  contact.two_sided = true, contact.variable = "pair", contact.scored = false;
+  contact.two_sided = true, contact.variable = "pair", contact.scored = contact.mean_force = false;
   contact.split = kLogLatches;
   all.push_back(contact);
   return all;

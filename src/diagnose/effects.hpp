@@ -27,6 +27,8 @@ struct Effect {
   /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
   std::string split;
   bool scored = true;  ///< the term gives a force to be compared with innovations
+  /// It pushes modules on the average, not only now this way and now that way.
+  bool mean_force = true;
   /// Power of its amplitude with which it begins to show: 2 if it is a variance's, or if a
   /// calibration takes up what is in proportion.
   double growth = 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
@@ -29,7 +30,9 @@ constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kChecks = 60;       // experiments at the answer
 constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
-// Summary, named scores, and those of the curves that are fitted, the scores by their deviations.
+// Summary, named scores, and those of the curves that are fitted, the scores by their deviations;
+// those of effects without the correlations that they should have, so that few simulations need not
+// tell these.
 class Numbers {
  public:
   Numbers(const Atlas& atlas, const std::vector<JointEffect>& effects) : atlas_(atlas) {
@@ -39,15 +42,21 @@ class Numbers {
         scores_.push_back(atlas.named_numbers() + e.shape * kKnots + k);
       }
     }
+    Matrix alike = atlas.alike();
+    alike.diagonal().array() += kUnalike;
+    alike_ = lower_root(alike);
   }
   Vector operator()(const Vectors& v) const {
     Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()));
     out << v.summary, v.scores(scores_).cwiseQuotient(atlas_.deviations()(scores_));
+    auto own = out.segment(v.summary.size(), alike_.rows());
+    own = solve_lower(alike_, own);
     return out;
   }
 
  private:
   const Atlas& atlas_;
+  Matrix alike_;
   std::vector<Eigen::Index> scores_;
 };
 

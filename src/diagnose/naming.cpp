@@ -15,9 +15,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kFolds = 5;
+constexpr int kFolds = 20;
 constexpr double kLeastShrinkage = 0.02;
-constexpr double kUnalike = 0.01;  // variance that scores have by themselves at least
 constexpr Eigen::Index kLeastScatter = 4;
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 constexpr double kEulerGamma = 0.57721566490153286;
@@ -39,7 +38,7 @@ Matrix inverse_root(const Matrix& covariance) {
 }
 
 // A covariance with the scatter of few experiments as far as it is more than these show of nothing.
-Matrix loosened(const Matrix& own, const Matrix& off) {
+Matrix loosened_by(const Matrix& own, const Matrix& off) {
   const auto n = static_cast<double>(off.rows());
   const double chance = 1 + kByChance * std::sqrt(2 / n);
   const Vector square = off.colwise().squaredNorm().transpose() / n;
@@ -108,7 +107,9 @@ Naming::Known Naming::known(const Fingerprint& fingerprint, int effect, int shap
   // well, and their base is a mean.
   const auto n = static_cast<double>(std::max(1, fingerprint.experiments));
   const auto kept = [&](const Matrix& of, double e) {
-    return Matrix(of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; }));
+    Matrix clear = of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; });
+    clear.topRows(fingerprint.exact) = of.topRows(fingerprint.exact);
+    return clear;
   };
   const double error = fingerprint.local() ? 0 : 1 / std::sqrt(kLearnedSquare * n);
   out.learned = kept(fingerprint.first, error);
@@ -249,7 +250,9 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
 
 Matrix Naming::whitener_by(const Matrix& scatter) const {
   if (scatter.rows() < kLeastScatter) return inverse_root(covariance_);
-  return inverse_root(loosened(covariance_, scatter.leftCols(named_)));
+  const Matrix plain = lower_inverse(alike_);
+  const Matrix own = plain * covariance_ * plain.transpose();
+  return inverse_root(loosened_by(own, scatter.leftCols(named_) * plain.transpose())) * plain;
 }
 
 void Naming::loosen(const Matrix& scatter) {
@@ -257,7 +260,7 @@ void Naming::loosen(const Matrix& scatter) {
   whitener_ = whitener_by(scatter);
   for (std::size_t s = 0; s < root_.size(); ++s) {
     const Eigen::Index first = named_ + static_cast<Eigen::Index>(s) * kKnots;
-    root_[s] = inverse_root(loosened(knots_[s], scatter.middleCols(first, kKnots)));
+    root_[s] = inverse_root(loosened_by(knots_[s], scatter.middleCols(first, kKnots)));
   }
   for (Known& k : known_) renew(k, Fingerprint(k.source));
 }

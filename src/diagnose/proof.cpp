@@ -77,14 +77,17 @@ Judged judged_of(const std::vector<double>& row) {
 
 // What the diagnosis and the simpler methods say of a row; nothing of a world that diverged.
 std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double>& row,
-                                  Diagnosis& d, ProofWorld& world) {
+                                  const std::vector<Recording>& recordings, Diagnosis& d,
+                                  ProofWorld& world) {
   world.verdict = Verdict::undecided;
   if (row.empty()) return std::nullopt;
   const int kept = static_cast<int>(row[0]);
   if (kept >= 0) {
     world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
   }
-  Judged judged = diagnoser.judge(judged_of(row), d);
+  Judged measured = judged_of(row);
+  measured.recordings = &recordings;
+  Judged judged = diagnoser.judge(std::move(measured), d);
   world.verdict = d.verdict;
   world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
   for (const DiagnosisFinding& f : d.findings) {
@@ -200,9 +203,12 @@ std::optional<Proof> prove(const ProofOptions& options) try {
       static_cast<double>(shapes.size()) * kKnots * DiagnosisBudget(job.minutes).experiments;
   diagnoser.prepare(kOfAWorld * options.worlds + curves +
                     options.modelled * diagnoser.model_cost());
+  const auto film = [&](int w) {
+    return film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
+                       derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
+  };
   const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
-    const auto made = film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
-                                  derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
+    const auto made = film(w);
     if (!made) return std::vector<double>{};
     Judged j;
     j.observed = diagnoser.atlas().vectors(*made, &j.details);
@@ -216,7 +222,9 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     world.expected_z =
         expected_z(diagnoser, tank, sealed[w], w, derived_seed(seed, kExpectedSeed + w));
     Diagnosis d;
-    const std::optional<Judged> judged = judge_world(diagnoser, rows[w], d, world);
+    std::vector<Recording> recordings;
+    if (!rows[w].empty()) recordings = film(static_cast<int>(w)).value_or(recordings);
+    const std::optional<Judged> judged = judge_world(diagnoser, rows[w], recordings, d, world);
     const bool found = judged && world.right() && d.verdict == Verdict::missing;
     if (found && modelled < options.modelled) {
       modelled += 1;

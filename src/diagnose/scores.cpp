@@ -64,30 +64,22 @@ class Scorer {
         pushes_(modules_, Pushes(total_ + nuisances_)),
         last_(modules_, -9) {}
 
-  void add(const PredictedFrame& frame) {
-    const auto n = static_cast<std::size_t>(frame.now.size());
-    if (frame.model != model_) {
-      model_ = frame.model;
-      features_ = std::make_unique<Features>(plan_, *model_);
-    }
-    const Moment now{.time = frame.time, .gusts = false, .expected = true};
-    features_->find(frame.now, now);
-    for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
-    push_pairs(frame);
-    seen_.resize(n);
-    find_touching(frame);
-    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, now, i);
-    for (const auto& part : parts_) part->add(frame, seen_);
+  void run(const std::vector<Recording>& recordings) {
+    predict(plan_.model, recordings, plan_.predictor,
+            [this](const PredictedFrame& frame) { add(frame); });
+    sensitivities_.finish();
   }
 
   std::vector<ScoredAmplitude> amplitudes() const {
     std::vector<ScoredAmplitude> out;
-    for (const auto& one : sensitivities_.amplitudes(plan_.nuisances_known)) out.push_back({one.estimate, one.gain()});
+    for (const auto& one : sensitivities_.amplitudes(plan_.nuisances_known)) {
+      out.push_back({one.estimate, one.gain()});
+    }
     return out;
   }
 
-  Eigen::MatrixXd correlations() const {
-    return sensitivities_.correlations(plan_.nuisances_known);
+  Eigen::MatrixXd informations() const {
+    return sensitivities_.informations(plan_.nuisances_known);
   }
 
   std::vector<double> tell(ScoreDetails* details) const {
@@ -106,6 +98,22 @@ class Scorer {
   }
 
  private:
+  void add(const PredictedFrame& frame) {
+    const auto n = static_cast<std::size_t>(frame.now.size());
+    if (frame.model != model_) {
+      model_ = frame.model;
+      features_ = std::make_unique<Features>(plan_, *model_);
+    }
+    const Moment now{.time = frame.time, .gusts = false, .expected = true};
+    features_->find(frame.now, now);
+    for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
+    push_pairs(frame);
+    seen_.resize(n);
+    find_touching(frame);
+    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, now, i);
+    for (const auto& part : parts_) part->add(frame, seen_);
+  }
+
   void push(const PredictedFrame& frame, const Moment& now, std::size_t i) {
     Pushes& to = pushes_[i];
     to.clear();
@@ -254,24 +262,33 @@ std::size_t ScorePlan::first_of_shape(std::size_t index) const {
 std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
                                                const std::vector<Recording>& recordings) {
   Scorer scorer(plan);
-  predict(plan.model, recordings, plan.predictor,
-          [&](const PredictedFrame& frame) { scorer.add(frame); });
+  scorer.run(recordings);
   return scorer.amplitudes();
 }
 
-Eigen::MatrixXd score_correlations(ScorePlan plan, const std::vector<Recording>& recordings) {
+Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
+                                   const std::vector<Effect>& further) {
   plan.shapes.clear();
+  for (const Effect& effect : further) {
+    plan.effects.push_back(effect);
+    plan.effects.back().scored = true;
+  }
   Scorer scorer(plan, true);
-  predict(plan.model, recordings, plan.predictor,
-          [&](const PredictedFrame& frame) { scorer.add(frame); });
-  return scorer.correlations();
+  scorer.run(recordings);
+  return scorer.informations();
+}
+
+Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations) {
+  const Eigen::VectorXd size = informations.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd out = size.asDiagonal() * informations * size.asDiagonal();
+  out.diagonal().setOnes();
+  return out;
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
                           ScoreDetails* details) {
   Scorer scorer(plan);
-  predict(plan.model, recordings, plan.predictor,
-          [&](const PredictedFrame& frame) { scorer.add(frame); });
+  scorer.run(recordings);
   return scorer.tell(details);
 }
 

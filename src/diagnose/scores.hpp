@@ -18,9 +18,15 @@ namespace lilytank {
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
                           ScoreDetails* details = nullptr);
 
-/// Correlations of the scores of the plan's effects, [component, component], by how alike what they
-/// would have done to recordings is: what simulated experiments tell only roughly.
-Eigen::MatrixXd score_correlations(ScorePlan plan, const std::vector<Recording>& recordings);
+/// Information of every two of the scores of the plan's effects and, after them, of further ones,
+/// by what they would have done to recordings, [component, component]: what simulated experiments
+/// tell only roughly. 0 where there is none.
+Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
+                                   const std::vector<Effect>& further = {});
+/// Correlations that scores with such information have among experiments.
+Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
+/// Variance of a score that no other has, where correlations are divided out.
+inline constexpr double kUnalike = 0.01;
 
 /// Every scored component of the plan's effects alone: its amplitude, in sizes, and by how much it
 /// raises twice the log-likelihood.

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "diagnose/sensitivity_kernel.hpp"
 #include "lilytank/predictor.hpp"
 
 namespace lilytank {
@@ -10,7 +11,12 @@ namespace lilytank {
 /// Accelerations of one module, one value a feature: m/s^2, m/s^2, rad/s^2.
 struct Pushes {
   std::vector<float> x, y, turn;
-  explicit Pushes(std::size_t features) : x(features), y(features), turn(features) {}
+  explicit Pushes(std::size_t features)
+      : x(in_lanes(features)), y(in_lanes(features)), turn(in_lanes(features)) {}
+  /// Features and empty ones, for vectors of any length.
+  static std::size_t in_lanes(std::size_t features) {
+    return (features + kFeatureLanes - 1) / kFeatureLanes * kFeatureLanes;
+  }
   void clear() {
     for (auto* of : {&x, &y, &turn}) std::fill(of->begin(), of->end(), 0.0f);
   }
@@ -32,6 +38,8 @@ class Sensitivities {
   void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
             double loss, bool told);
 
+  /// To be called once all is passed, before anything is asked.
+  void finish();
   /// An amplitude that is cleared of nuisances: the most likely one beside them.
   struct Amplitude {
     double estimate = 0, information = 0;
@@ -41,24 +49,24 @@ class Sensitivities {
   /// Of every feature but the nuisances, the last ones; 0 where nothing was pushed. `known`:
   /// precision of the nuisances' amplitudes before any data, [nuisance, nuisance].
   std::vector<Amplitude> amplitudes(const Eigen::MatrixXd& known) const;
-  /// Correlations that such estimates have where the filter is right, if all features are partners;
-  /// of one without information none.
-  Eigen::MatrixXd correlations(const Eigen::MatrixXd& known) const;
+  /// Information of every two features that nuisances leave, if all features are partners: an
+  /// amplitude of the second moves the estimate of the first by it over the first's own.
+  Eigen::MatrixXd informations(const Eigen::MatrixXd& known) const;
 
  private:
-  struct Axis;
-  void pass_axis(const Axis& axis, const float* push, float* x, float* v);
-  void take_up(const Axis& axis);
+  void pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x, float* v);
+  void add_rows();
   void flush();
   /// Products of every feature with the last `count`.
   Eigen::MatrixXd products(Eigen::Index count) const;
 
-  std::size_t features_, partners_;
-  std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [module * features + feature]
+  std::size_t features_, partners_, wide_;      // wide: features and empty ones
+  std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [module * wide + feature]
   std::vector<double> score_, information_;
-  std::vector<float> at_;      // of the axis that is passed, before it is corrected
-  std::vector<float> recent_;  // products, [partner * features + feature]
-  std::vector<double> shared_;
+  std::vector<double> shared_;  // products, [partner * wide + feature]
+  // Sums of the last passings, in single precision, and rows that are not summed yet.
+  std::vector<float> recent_score_, recent_information_, recent_shared_, rows_, now_;
+  std::size_t kept_ = 0;                // rows
   std::size_t passed_ = 0, taken_ = 0;  // axes
 };
 

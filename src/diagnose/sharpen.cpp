@@ -24,7 +24,7 @@ double far_apart(const std::vector<std::pair<std::string, double>>& a,
 }  // namespace
 
 // Named effects first; a shape competes with them where they leave something.
-Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
+Explanation Diagnoser::explained(Naming& naming, Alignment& alignment, const Vector& residual) {
   Explanation e = naming.explain(residual);
   const std::vector<EffectFit> shapes = naming.shapes(residual);
   std::vector<int> asked;
@@ -46,7 +46,10 @@ Explanation Diagnoser::explained(Naming& naming, const Vector& residual) {
       asked.push_back(same->shape);
     }
   }
-  for (const int s : asked) naming.add_shape(s, shape_fingerprint(s));
+  for (const int s : asked) {
+    const Effect curve = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
+    naming.add_shape(s, alignment.aligned(shape_fingerprint(s), curve));
+  }
   return asked.empty() ? e : naming.explain(residual);
 }
 
@@ -63,10 +66,11 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
   });
 }
 
-Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, Naming& naming, Judged& judged,
-                                  const Vector& residual)
+Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, Naming& naming, Alignment& alignment,
+                                  Judged& judged, const Vector& residual)
     : of_(diagnoser),
       naming_(naming),
+      alignment_(alignment),
       judged_(judged),
       residual_(residual),
       nothing_(diagnoser.naming_->misfit_of_nothing(residual)) {
@@ -111,7 +115,9 @@ Fingerprint Diagnoser::Sharpening::fingerprint(const EffectFit& f) {
 void Diagnoser::Sharpening::sharpen(EffectFit f, int experiments) {
   if (known_.count(name_of(f)) == 0) f = begun(f);
   const Fingerprint from = fingerprint(f);
-  const Fingerprint to = of_.fingerprint_near(f, from, judged_, experiments);
+  const Fingerprint to =
+      alignment_.aligned(of_.fingerprint_near(f, from, judged_, experiments),
+                         of_.found_effect(f, judged_.details));
   known_[name_of(f)] = to;
   naming_.sharpen(f, to);
   alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
@@ -170,10 +176,10 @@ std::optional<EffectFit> Diagnoser::Sharpening::next_after(const Explanation& e)
   return std::nullopt;
 }
 
-Explanation Diagnoser::sharpened(Naming& naming, Explanation e, Judged& judged,
-                                 const Vector& residual) {
+Explanation Diagnoser::sharpened(Naming& naming, Alignment& alignment, Explanation e,
+                                 Judged& judged, const Vector& residual) {
   if (e.found.empty() || plain(naming, e, residual)) return e;
-  return Sharpening(*this, naming, judged, residual).run();
+  return Sharpening(*this, naming, alignment, judged, residual).run();
 }
 
 }  // namespace lilytank

@@ -15,7 +15,8 @@ namespace lilytank {
 // experiments of its own strength.
 class Diagnoser::Sharpening {
  public:
-  Sharpening(Diagnoser& diagnoser, Naming& naming, Judged& judged, const Eigen::VectorXd& residual);
+  Sharpening(Diagnoser& diagnoser, Naming& naming, Alignment& alignment, Judged& judged,
+             const Eigen::VectorXd& residual);
 
   // First those that might be it, then whatever leads, what is found and its rivals beside the
   // others.
@@ -82,6 +83,7 @@ class Diagnoser::Sharpening {
 
   Diagnoser& of_;
   Naming& naming_;
+  Alignment& alignment_;
   Judged& judged_;
   const Eigen::VectorXd& residual_;
   double nothing_;                     // squared distance of nothing, by the scatter of nulls

@@ -8,7 +8,7 @@
 namespace lilytank {
 namespace {
 
-constexpr double kMean = 0.03, kGusts = 0.04;
+constexpr double kMean = 0.015, kGusts = 0.02;
 constexpr int kWaves = 12;
 
 // A smooth random function of variance one: waves of half to twice the tank's diameter.
