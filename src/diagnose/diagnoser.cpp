@@ -101,15 +101,14 @@ void Diagnoser::prepare(double after) {
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
   Judged measured;
   measured.observed = atlas_->vectors(recordings, &measured.details);
-  measured.recordings = &recordings;
-  return judge(std::move(measured), out);
+  return judge(std::move(measured), recordings, out);
 }
 
-Judged Diagnoser::judge(Judged j, Diagnosis& out) {
+Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
   j.tag = hex(fnv_of(j.observed.scores));
   Naming naming = *naming_;
-  Alignment alignment(*atlas_, *j.recordings);
+  Alignment alignment(*atlas_, recordings);
   const std::vector<Effect>& effects = atlas_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     EffectFit of;

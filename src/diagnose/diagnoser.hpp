@@ -26,7 +26,6 @@ struct Judged {
   ScoreDetails details;
   Explanation explanation;
   std::string tag;  ///< for the names of what is kept of these recordings
-  const std::vector<Recording>* recordings = nullptr;
 };
 
 class Diagnoser {
@@ -41,8 +40,8 @@ class Diagnoser {
   /// Which effects recordings of the same kind as the experiment's ask for: verdict, findings,
   /// maps, ranking, smallest sizes.
   Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);
-  /// The same of a vector that is known already.
-  Judged judge(Judged measured, Diagnosis& out);
+  /// The same where the recordings' vector is known already.
+  Judged judge(Judged measured, const std::vector<Recording>& recordings, Diagnosis& out);
   /// Fits what was found and shows it on recordings that had no part in it.
   void model_and_show(const Judged& judged, const std::vector<Recording>& held_out, Diagnosis& out);
   /// All of it.

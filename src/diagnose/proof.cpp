@@ -85,9 +85,7 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
   if (kept >= 0) {
     world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
   }
-  Judged measured = judged_of(row);
-  measured.recordings = &recordings;
-  Judged judged = diagnoser.judge(std::move(measured), d);
+  Judged judged = diagnoser.judge(judged_of(row), recordings, d);
   world.verdict = d.verdict;
   world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
   for (const DiagnosisFinding& f : d.findings) {

@@ -167,7 +167,7 @@ TEST_F(NamingTest, anEffectThatShowsInCurvesOnlyIsFound) {
   e.name = "turning", e.paths = {"forces.turning.strength"}, e.sizes = {1};
   Matrix nulls(kNulls, first_.size());
   for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
-  const Naming naming(nulls, {e}, {fingerprint(torque)}, kCurves, kFalseAlarms);
+  const Naming naming(nulls, Matrix(), {e}, {fingerprint(torque)}, kCurves, kFalseAlarms);
   const Explanation said = naming.explain(noise(12, 0) + torque);
   ASSERT_EQ(said.found.size(), 1u);
   EXPECT_EQ(said.found[0].effect, 0);
@@ -233,7 +233,7 @@ TEST_F(NamingTest, halfOfAllExperimentsShowTheSmallestSize) {
   Effect effect;
   effect.name = "one", effect.paths = {"forces.one.strength"}, effect.sizes = {1};
   const auto naming = [&](const Fingerprint& f) {
-    return Naming(nulls, {effect}, {f}, kCurves, kFalseAlarms);
+    return Naming(nulls, Matrix(), {effect}, {f}, kCurves, kFalseAlarms);
   };
   const auto shown = [&](const Naming& of, double size) {
     int count = 0;

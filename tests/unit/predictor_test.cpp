@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "diagnose/nuisances.hpp"
 #include "diagnose/scan.hpp"
 #include "diagnose/scores.hpp"
 #include "diagnose/slack.hpp"
@@ -137,6 +138,58 @@ TEST(Scores, SeeAPlantedPush) {
   const double nothing = score(plan, without)[at], pushed = score(plan, with)[at];
   EXPECT_LT(std::fabs(nothing), 1.0);
   EXPECT_NEAR(pushed - nothing, 4.0 / 1.5, 1.2);
+}
+
+// Every score moves by a planted force as far as the information that both share says: to five
+// deviations of both recordings' noise, and a fifth of it, as the filter shows less than there is.
+TEST(Scores, MoveByAForceAsInformationsSay) {
+  const Model model = drifting(8);
+  const auto without = filmed(model, 60, 5);
+  const auto with = filmed(
+      with_parameters(model, std::vector<std::string>{"forces.self_propulsion.force_x"},
+                      std::vector<double>{6e-3}),
+      60, 6);
+  ScorePlan plan = plan_for(model, without);
+  plan.shapes.clear();
+  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  const std::vector<double> before = score(plan, without), after = score(plan, with);
+  const Eigen::MatrixXd shared = score_informations(plan, with);
+  const auto own = static_cast<Eigen::Index>(entry_named(plan, "self_propulsion force_x"));
+  const double amplitude = after[static_cast<std::size_t>(own)];
+  EXPECT_NEAR(amplitude, 6, 1.5);  // in sizes of 1 mN
+  int moved = 0;
+  for (Eigen::Index k = 0; k < shared.rows(); ++k) {
+    if (!(shared(k, k) > 0) || k == own) continue;
+    const auto i = static_cast<std::size_t>(k);
+    const double expected = amplitude * shared(k, own) / shared(k, k);
+    const double noise = 5 * std::sqrt(2 / shared(k, k));
+    moved += std::fabs(expected) > 2 * noise ? 1 : 0;
+    EXPECT_NEAR(after[i] - before[i], expected, noise + 0.2 * std::fabs(expected))
+        << plan.entries()[i].name;
+  }
+  EXPECT_GT(moved, 0);
+}
+
+// Drag that is a third stronger than the predictor's, or water that is a tenth faster, looks like many
+// a force to scores that are not cleared of either.
+TEST(Scores, AreClearedOfWhatACalibrationAbsorbs) {
+  const Model model = drifting(8);
+  const auto right = filmed(model, 60, 5);
+  ScorePlan plain = plan_for(model, right);
+  ScorePlan cleared = plain;
+  cleared.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  for (const auto& [path, value] : {std::pair<std::string, double>{"forces.face_drag.K_F", 0.6},
+                                    {"flow.K_v", 1.5}}) {
+    const auto wrong =
+        filmed(with_parameters(model, std::vector{path}, std::vector{value}), 60, 5);
+    for (const char* name : {"viscous_drag", "coriolis", "wake_shielding", "flow_drift"}) {
+      const std::size_t at = entry_named(plain, name);
+      const double moved = score(plain, wrong)[at] - score(plain, right)[at];
+      const double left = score(cleared, wrong)[at] - score(cleared, right)[at];
+      EXPECT_GT(std::fabs(moved), 0.5) << path << ", " << name;
+      EXPECT_LT(std::fabs(left), 0.5 * std::fabs(moved)) << path << ", " << name;
+    }
+  }
 }
 
 // A stream is found where it is, at its strength; the grid of places is 5 cm wide.
