@@ -26,10 +26,10 @@ std::string key_of(const Effect& effect) {
 }  // namespace
 
 Alignment::Alignment(const Atlas& atlas, const std::vector<Recording>& recordings)
-    : atlas_(atlas), recordings_(recordings), scores_(atlas.alike().rows()) {
+    : atlas_(atlas), recordings_(recordings), scores_(atlas.informations().rows()) {
   const ScorePlan& plan = atlas.plan();
   own_ = score_informations(plan, recordings);
-  Matrix alike = atlas.alike();
+  Matrix alike = correlations_of(atlas.informations());
   alike.diagonal().array() += kUnalike;
   root_ = lower_root(alike), plain_ = lower_inverse(root_);
   for (std::size_t e = 0; e < plan.effects.size(); ++e) {
@@ -45,9 +45,19 @@ Matrix Alignment::from_informations(const Matrix& informations, Eigen::Index fir
                                     Eigen::Index count) const {
   Matrix out = informations.block(0, first, scores_, count);
   for (Eigen::Index k = 0; k < scores_; ++k) {
-    const double own = informations(k, k);
-    out.row(k) *= own > 0 ? 1 / (own * atlas_.deviations()(k)) : 0;
+    out.row(k) /= (informations(k, k) + kScoreKnown) * atlas_.deviations()(k);
   }
+  return out;
+}
+
+Vector Alignment::further_variance() const {
+  const auto variance = [](const Matrix& informations) {
+    const Eigen::ArrayXd own = informations.diagonal().array();
+    return (own / (own + kScoreKnown).square()).eval();
+  };
+  const Eigen::ArrayXd more = variance(own_) - variance(atlas_.informations());
+  Vector out = Vector::Zero(atlas_.named_numbers());
+  out.head(scores_) = more.cwiseMax(0) / atlas_.deviations().head(scores_).array().square();
   return out;
 }
 

@@ -23,6 +23,10 @@ class Alignment {
   /// The fingerprint with its scores as the filter has them, times the factor that its simulations
   /// ask for, and beside that only what they clearly say.
   Fingerprint aligned(Fingerprint of, const Effect& effect);
+  const std::vector<Recording>& recordings() const { return recordings_; }
+  /// Variance that the named numbers' residuals have beyond that of nulls, where modules of these
+  /// recordings felt less of an effect.
+  Eigen::VectorXd further_variance() const;
 
  private:
   const Eigen::MatrixXd& response(const Effect& effect);

@@ -24,6 +24,8 @@ using Vector = Eigen::VectorXd;
 constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
 constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
+// Of the design, about what was found: parameters are known better than what nulls are spread over.
+constexpr double kNarrow = 0.4;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;         // one over the square of a second order that is expected
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
@@ -36,18 +38,22 @@ constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25, kSlopesFi
 // logarithms.
 constexpr double kClearly = 0.5, kLeastSpread = 0.03, kMostGrowth = 2.5;
 
+FitBounds within() {
+  FitBounds out;
+  out.reach = kReach;
+  return out;
+}
+
 // Scores less their mean at the parameters that the summary asks for, of every experiment by local
 // models that did not know it: as it will be with data.
-Matrix held_out_residuals(const Design& summaries, const Design& numbers) {
+Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
   Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
-  FitBounds free;
-  free.reach = kReach;
   for (int fold = 0; fold < kFolds; ++fold) {
     const LocalModel parameters(without_fold(summaries, fold, kFolds));
     const LocalModel scores(without_fold(numbers, fold, kFolds));
     for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
-      const LocalFit fit = parameters.fit(summaries.numbers.row(i).transpose(), free);
-      out.row(i) = numbers.numbers.row(i) - scores.mean(fit.point).transpose();
+      const Vector at = parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
+      out.row(i) = numbers.numbers.row(i) - scores.mean(at).transpose();
     }
   }
   return out;
@@ -117,7 +123,7 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   const CalibrationSetup& setup = stages.setup();
   const Design all =
       simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
-               Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
+               spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
   const auto p = centre.size();
   const Design summaries{all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
   const Design numbers{summaries.points,
@@ -126,8 +132,8 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   parameters_ = std::make_unique<LocalModel>(summaries);
   scores_ = std::make_unique<LocalModel>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
-  alike_ = correlations_of(score_informations(plan_, setup.training));
-  null_residuals_ = held_out_residuals(summaries, numbers);
+  informations_ = score_informations(plan_, setup.training);
+  null_residuals_ = held_out_residuals(summaries, numbers, prior());
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
   // Numbers that hardly ever vary would make a wonder of whatever varies them.
@@ -167,9 +173,10 @@ Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* d
 }
 
 Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Vector& about,
-                       const Matrix& amplitudes, const Effect* effect, std::uint64_t seed) {
+                       const Matrix& spread, const Matrix& amplitudes, const Effect* effect,
+                       std::uint64_t seed) {
   const Matrix points =
-      scattered(about, spread_, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
+      scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
     std::vector<double> values = stages_.from_scale(points.row(i));
     for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
@@ -193,14 +200,20 @@ Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const
   return design_of(where, rows);
 }
 
-LocalFit Atlas::calibrated(const Vector& summary) const {
-  FitBounds free;
-  free.reach = kReach;
-  return parameters_->fit(summary, free);
+Prior Atlas::prior() const {
+  return {centre_, spread_.diagonal()};
+}
+
+LocalFit Atlas::nearest(const Vector& summary) const {
+  return parameters_->fit(summary, within());
+}
+
+Vector Atlas::calibrated(const Vector& summary) const {
+  return parameters_->fit(summary, within(), prior()).fit.point;
 }
 
 Vector Atlas::residual(const Vectors& vectors) const {
-  return residual_at(vectors.scores, calibrated(vectors.summary).point);
+  return residual_at(vectors.scores, calibrated(vectors.summary));
 }
 
 // What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
@@ -250,7 +263,7 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
 }
 
 Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
-                              const Matrix& amplitudes, std::uint64_t seed) {
+                              const Matrix& spread, const Matrix& amplitudes, std::uint64_t seed) {
   const CalibrationSetup& setup = stages_.setup();
   std::vector<double> absent;
   for (std::size_t c = 0; c < effect.paths.size(); ++c) {
@@ -260,16 +273,16 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  const Design made = simulate(stage, emulator, about, amplitudes, &effect, seed);
+  const Design made = simulate(stage, emulator, about, spread, amplitudes, &effect, seed);
   const Eigen::Index n = made.points.rows();
   Answers out{made.points.rightCols(amplitudes.cols()), Matrix(n, deviation_.size()),
               Matrix(n, about.size())};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vectors v{made.numbers.row(i).head(summary_numbers()),
                     made.numbers.row(i).tail(deviation_.size())};
-    const LocalFit fit = calibrated(v.summary);
-    out.residuals.row(i) = residual_at(v.scores, fit.point).transpose();
-    out.moved.row(i) = fit.point.transpose() - made.points.row(i).head(about.size());
+    const Vector at = calibrated(v.summary);
+    out.residuals.row(i) = residual_at(v.scores, at).transpose();
+    out.moved.row(i) = at.transpose() - made.points.row(i).head(about.size());
   }
   return out;
 }
@@ -280,7 +293,7 @@ double Atlas::displacement_misfit(const Vector& summary) const {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].group == "displacement") of.push_back(static_cast<Eigen::Index>(i));
   }
-  const Vector off = (summary - parameters_->mean(calibrated(summary).point))(of);
+  const Vector off = (summary - parameters_->mean(nearest(summary).point))(of);
   const Matrix covariance = parameters_->covariance()(of, of);
   return off.dot(solve_symmetric(covariance, off));
 }
@@ -288,7 +301,7 @@ double Atlas::displacement_misfit(const Vector& summary) const {
 Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   const int count = options_.experiments * static_cast<int>(m);
-  const Answers made = answers(effect, stage, centre_, amplitudes_of(effect, count, seed), seed);
+  const Answers made = answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
   Matrix x(made.amplitudes.rows(), 2 * m);
   x << made.amplitudes, made.amplitudes.array().square().matrix();
   // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
@@ -311,7 +324,7 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
 Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, const Vector& point,
                             int experiments, const std::string& stage, std::uint64_t seed) {
   const Matrix at = amplitudes.transpose().replicate(experiments, 1);
-  return answers(effect, stage, point, at, seed).residuals.colwise().mean().transpose();
+  return answers(effect, stage, point, kNarrow * spread_, at, seed).residuals.colwise().mean().transpose();
 }
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
@@ -332,7 +345,8 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
   const Answers made =
-      answers(effect, stage, point, about(amplitudes, experiments, effect.two_sided, seed), seed);
+      answers(effect, stage, point, kNarrow * spread_,
+              about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =

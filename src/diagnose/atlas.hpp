@@ -69,7 +69,10 @@ class Atlas {
   const ScorePlan& plan() const { return plan_; }
   Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
   /// Parameters (fitted scale) that explain a summary best.
-  LocalFit calibrated(const Eigen::VectorXd& summary) const;
+  LocalFit nearest(const Eigen::VectorXd& summary) const;
+  /// Those that a summary asks for as far as a baseline explains it: where it does not, they stay
+  /// where experiments are simulated, and do not imitate what is missing.
+  Eigen::VectorXd calibrated(const Eigen::VectorXd& summary) const;
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
@@ -83,8 +86,8 @@ class Atlas {
   const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
   int experiments() const { return options_.experiments; }
   Eigen::Index named_numbers() const { return named_; }  ///< those before the shapes
-  /// Correlations that the scores of effects should have, the first of the named numbers.
-  const Eigen::MatrixXd& alike() const { return alike_; }
+  /// Of the scores of effects, the first of the named numbers, in the calibrated recordings.
+  const Eigen::MatrixXd& informations() const { return informations_; }
   const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
   /// The fingerprint of an effect that is not in the plan's list.
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
@@ -106,13 +109,15 @@ class Atlas {
  private:
   /// Experiments about a point: parameters and amplitudes, summaries and scores, a row each.
   Design simulate(const std::string& stage, const Emulator& emulator, const Eigen::VectorXd& about,
-                  const Eigen::MatrixXd& amplitudes, const Effect* effect, std::uint64_t seed);
+                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                  const Effect* effect, std::uint64_t seed);
   /// Experiments with an effect, calibrated without it.
   struct Answers {
     Eigen::MatrixXd amplitudes, residuals, moved;  ///< a row each
   };
   Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
-                  const Eigen::MatrixXd& amplitudes, std::uint64_t seed);
+                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                  std::uint64_t seed);
   /// A fingerprint about amplitudes, and the parameters it was learned at.
   struct Local {
     Eigen::VectorXd point;
@@ -121,6 +126,7 @@ class Atlas {
   };
   const Local* learned_near(const std::string& name, const Eigen::VectorXd& amplitudes,
                             const Eigen::VectorXd& point, int experiments) const;
+  Prior prior() const;
   Eigen::Index summary_numbers() const;
   Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
   Stages& stages_;
@@ -131,7 +137,7 @@ class Atlas {
   Eigen::MatrixXd spread_;
   std::unique_ptr<LocalModel> parameters_, scores_;
   Eigen::VectorXd deviation_;
-  Eigen::MatrixXd null_residuals_, alike_;
+  Eigen::MatrixXd null_residuals_, informations_;
   Eigen::Index named_ = 0;
   std::vector<Fingerprint> fingerprints_;
   std::map<std::string, std::vector<Local>> local_;  ///< by name

@@ -23,7 +23,7 @@ constexpr double kStays = 1.5;  // deviations of the points
 // Deviations of designs: shares of the parameters' ranges, and standard errors. Points closer than
 // the errors would tell next to nothing of slopes, and errors from such slopes would be too small.
 constexpr double kFirstSpread = 0.05, kLeastSpread = 0.015, kMostSpread = 0.08;
-constexpr double kWide = 2, kEnough = 1.5, kNullsWide = 3;
+constexpr double kWide = 2, kEnough = 1.5, kNullsWide = 2;
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
                                   const DiagnosisBudget& budget) {
@@ -54,7 +54,7 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
   flow_draws = scaled(12, 12), centre = 70;
-  nulls = scaled(160, 140), experiments = scaled(5, 5), round = scaled(80, 80);
+  nulls = scaled(240, 160), experiments = scaled(5, 5), round = scaled(80, 80);
   comparisons = scaled(16, 12);
 }
 
@@ -92,7 +92,7 @@ void Diagnoser::prepare(double after) {
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
   naming_ = std::make_unique<Naming>(atlas_->null_residuals(),
-                                     atlas_->alike(),
+                                     correlations_of(atlas_->informations()),
                                      atlas_->plan().effects,
                                      atlas_->fingerprints(), atlas_->plan().shapes.size(),
                                      options_.false_alarms);
@@ -109,6 +109,7 @@ Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diag
   j.tag = hex(fnv_of(j.observed.scores));
   Naming naming = *naming_;
   Alignment alignment(*atlas_, recordings);
+  naming.widen(alignment.further_variance());
   const std::vector<Effect>& effects = atlas_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     EffectFit of;
@@ -132,7 +133,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "18 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "19 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

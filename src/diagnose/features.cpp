@@ -15,6 +15,9 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
   for (const Effect& effect : plan.effects) {
     for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) add(effect, c);
   }
+  for (const Effect& effect : plan.beside) {
+    for (std::size_t c = 0; c < effect.paths.size(); ++c) add(effect, c);
+  }
   // The list has its place now.
   for (Feature& one : features_) one.sum = std::make_unique<ForceSum>(model_, one.forces);
   const auto n = static_cast<std::size_t>(model.module.count);

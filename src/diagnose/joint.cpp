@@ -42,7 +42,7 @@ class Numbers {
         scores_.push_back(atlas.named_numbers() + e.shape * kKnots + k);
       }
     }
-    Matrix alike = atlas.alike();
+    Matrix alike = correlations_of(atlas.informations());
     alike.diagonal().array() += kUnalike;
     alike_ = lower_root(alike);
   }

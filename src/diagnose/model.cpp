@@ -30,8 +30,8 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
                                Diagnosis& out) {
   const Explanation& e = judged.explanation;
   const Vectors& observed = judged.observed;
-  const LocalFit baseline = atlas_->calibrated(observed.summary);
-  const std::vector<double> before = stages_.from_scale(baseline.point);
+  const Vector baseline = atlas_->calibrated(observed.summary);
+  const std::vector<double> before = stages_.from_scale(atlas_->nearest(observed.summary).point);
   for (std::size_t i = 0; i < setup_.told(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
@@ -43,14 +43,14 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   }
   std::vector<JointEffect> found;
   // Where the effects left the baseline, less how far they had moved it.
-  Vector moved = Vector::Zero(baseline.point.size());
+  Vector moved = Vector::Zero(baseline.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
     found.push_back({found_effect(f, judged.details), f.amplitudes, f.shape});
   }
   const FitBounds bounds = stages_.bounds();
   const JointStart start{stages_.to_scale(setup_.start),
-                         (baseline.point - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
+                         (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
   const JointFit fit = fit_jointly(
       stages_, *maps_, *atlas_, found, observed, start,

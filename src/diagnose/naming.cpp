@@ -18,6 +18,7 @@ using Vector = Eigen::VectorXd;
 constexpr int kFolds = 20;
 constexpr double kLeastShrinkage = 0.02;
 constexpr Eigen::Index kLeastScatter = 4;
+constexpr double kAside = 0.1;   // of an excess, that is not along what few experiments show
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 constexpr double kEulerGamma = 0.57721566490153286;
 // Of an effect's sizes: what is claimed of less than a tenth of what was learned would be a guess.
@@ -43,7 +44,12 @@ Matrix loosened_by(const Matrix& own, const Matrix& off) {
   const double chance = 1 + kByChance * std::sqrt(2 / n);
   const Vector square = off.colwise().squaredNorm().transpose() / n;
   const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
-  return own + shrunk_covariance(off, excess * std::sqrt(1 + 1 / n));
+  // Most of it is along the few directions of parameters, which the experiments themselves show.
+  const Vector share = excess.cwiseQuotient(square.cwiseSqrt().cwiseMax(1e-9));
+  const Matrix along = off * share.asDiagonal();
+  const Vector aside = std::sqrt(kAside) * excess;
+  return own + (1 + 1 / n) / n * (along.transpose() * along) +
+         Matrix(aside.cwiseAbs2().asDiagonal());
 }
 
 // The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
@@ -253,6 +259,12 @@ Matrix Naming::whitener_by(const Matrix& scatter) const {
   const Matrix plain = lower_inverse(alike_);
   const Matrix own = plain * covariance_ * plain.transpose();
   return inverse_root(loosened_by(own, scatter.leftCols(named_) * plain.transpose())) * plain;
+}
+
+void Naming::widen(const Vector& variance) {
+  covariance_.diagonal() += variance;
+  whitener_ = inverse_root(covariance_);
+  for (Known& k : known_) renew(k, Fingerprint(k.source));
 }
 
 void Naming::loosen(const Matrix& scatter) {

@@ -55,6 +55,8 @@ class Naming {
                                 std::size_t count) const;
   /// Replaces a fingerprint by one about the amplitudes that were found.
   void sharpen(const EffectFit& fit, const Fingerprint& fingerprint);
+  /// Judges as if the named numbers' residuals had so much more variance.
+  void widen(const Eigen::VectorXd& variance);
   /// Judges by the scatter of experiments with an effect, a row each about their mean, where it is
   /// more than that of nulls: modules that stick scatter otherwise than modules that drift.
   void loosen(const Eigen::MatrixXd& scatter);

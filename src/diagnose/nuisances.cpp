@@ -17,24 +17,35 @@ using Vector = Eigen::VectorXd;
 // Sizes: of factors on drag, flow and gusts; of dampings, 1/s; of the flow's polynomials, m/s.
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3, kStream = 5e-3;
 constexpr std::size_t kFactors = 6;
-constexpr int kDegree = 4;
+constexpr std::size_t kDegree = 8;
 constexpr std::size_t kTerms = (kDegree + 1) * (kDegree + 2) / 2;
-constexpr int kDraws = 240;
+constexpr int kDraws = 600;
 constexpr double kVisited = 0.9;  // of the radius: polynomials fit draws within
 
-// x^a y^b with a + b up to the degree, and their derivatives, of places in the tank's radii.
+// Chebyshev's polynomials of one coordinate, and their derivatives.
+struct Chebyshev {
+  std::array<double, kDegree + 1> value{1}, slope{0};
+  explicit Chebyshev(double x) {
+    value[1] = x, slope[1] = 1;
+    for (std::size_t d = 2; d <= kDegree; ++d) {
+      value[d] = 2 * x * value[d - 1] - value[d - 2];
+      slope[d] = 2 * value[d - 1] + 2 * x * slope[d - 1] - slope[d - 2];
+    }
+  }
+};
+
+// Products of those of x and of y up to the degree, of places in the tank's radii, and what they
+// change by.
 struct Polynomials {
   std::array<double, kTerms> value{}, by_x{}, by_y{};
   Polynomials(double x, double y) {
-    std::array<double, kDegree + 1> px{1}, py{1};
-    for (std::size_t d = 1; d <= kDegree; ++d) px[d] = px[d - 1] * x, py[d] = py[d - 1] * y;
+    const Chebyshev along(x), across(y);
     std::size_t at = 0;
     for (std::size_t d = 0; d <= kDegree; ++d) {
       for (std::size_t b = 0; b <= d; ++b, ++at) {
-        const std::size_t a = d - b;
-        value[at] = px[a] * py[b];
-        by_x[at] = a > 0 ? static_cast<double>(a) * px[a - 1] * py[b] : 0;
-        by_y[at] = b > 0 ? static_cast<double>(b) * px[a] * py[b - 1] : 0;
+        value[at] = along.value[d - b] * across.value[b];
+        by_x[at] = along.slope[d - b] * across.value[b];
+        by_y[at] = along.value[d - b] * across.slope[b];
       }
     }
   }

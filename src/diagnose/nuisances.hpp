@@ -11,7 +11,8 @@
 namespace lilytank {
 
 /// How many there are: factors on drag and on the flow, both dampings, the gusts' strength, alone
-/// and growing with the radius, and polynomials of the place for the flow along x and along y.
+/// and growing with the radius, and polynomials of the place, down to a
+/// tenth of the tank, for the flow along x and along y.
 std::size_t nuisance_count();
 
 /// The acceleration of module `i` by every one at its size, from `first` on.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "diagnose/scan.hpp"
 #include "diagnose/sharpening.hpp"
 
 namespace lilytank {
@@ -11,6 +12,9 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kMostMeetings = 3;
+constexpr double kStrong = 12;        // z of an effect beside which others are looked for anew
+constexpr double kElsewhere = 0.02;   // m, by which a stream is another one
+constexpr double kOtherRange = 1.4;   // likewise of a force between modules, a factor
 constexpr double kFurther = 1.5;  // from one range to the next that is tried
 constexpr int kMostTries = 5;
 constexpr double kClose = 60;     // of a doubt
@@ -18,6 +22,42 @@ constexpr int kMany = 30;         // experiments that decide a close call
 constexpr double kLeastFall = 4;  // of a doubt, that makes a range the better one
 
 }  // namespace
+
+bool Diagnoser::Sharpening::rescan(const Explanation& e) {
+  const auto among = [](const Effect& effect, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), effect.name) != names.end();
+  };
+  const auto beside = [&](std::initializer_list<std::string_view> scanned) {
+    ScorePlan plan = of_.atlas_->plan();
+    for (const EffectFit& f : e.found) {
+      const Effect effect = of_.found_effect(f, judged_.details);
+      if (f.z > kStrong && effect.mean_force && !among(effect, scanned)) {
+        plan.beside.push_back(effect);
+      }
+    }
+    return plan;
+  };
+  bool moved = false;
+  if (const ScorePlan plan = beside({"local_flow"}); !plan.beside.empty()) {
+    StreamPlace& was = judged_.details.stream;
+    const StreamPlace now = find_stream(plan, alignment_.recordings());
+    if (std::hypot(now.x - was.x, now.y - was.y) > kElsewhere) {
+      was = now, moved = true;
+      find_homes(), forget("local_flow");
+    }
+  }
+  if (const ScorePlan plan = beside({"pair_attraction", "pair_repulsion"}); !plan.beside.empty()) {
+    PairRange& was = judged_.details.pair;
+    const PairRange now = find_pair_range(plan, alignment_.recordings());
+    const bool same = now.strength * was.strength > 0 && now.range < kOtherRange * was.range &&
+                      was.range < kOtherRange * now.range;
+    if (now.strength != 0 && !same) {
+      was = now, moved = true;
+      find_homes(), forget("pair_attraction"), forget("pair_repulsion");
+    }
+  }
+  return moved;
+}
 
 bool Diagnoser::Sharpening::refine(const Explanation& e) {
   const std::optional<EffectFit> name = likeliest(true);
@@ -119,7 +159,7 @@ Fingerprint Diagnoser::Sharpening::simulated(const std::vector<EffectFit>& found
   const Fingerprint sum = together(each, at);
   Fingerprint out =
       of_.atlas_->fingerprint_about(sum.about, sum, together(effects),
-                                    of_.atlas_->calibrated(judged_.observed.summary).point, name);
+                                    of_.atlas_->calibrated(judged_.observed.summary), name);
   out.base = out.at(sum.about), out.about = sum.about;
   return out;
 }

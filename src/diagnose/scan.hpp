@@ -1,5 +1,5 @@
 // Numbers of effects that recordings tell directly: where in the tank a stream would explain most,
-// over which range a force between modules would.
+// over which range a force between modules would, beside the effects of plan.beside.
 #pragma once
 #include <vector>
 

@@ -24,6 +24,8 @@ struct ScorePlan {
   std::vector<Shape> shapes;
   double rate = 30;
   int modules = 15;  ///< identities in all recordings
+  /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
+  std::vector<Effect> beside;
   /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.
   Eigen::MatrixXd nuisances_known;
 

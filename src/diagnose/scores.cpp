@@ -15,6 +15,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kContact = 0.03;                 // m/s: a prediction that was pushed by a contact
+constexpr double kHardlyKnown = 1e-4;             // information of an amplitude, in sizes
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
 constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
@@ -50,6 +51,21 @@ void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, doubl
   add(at.first, 1 - at.share), add(at.second, at.share);
 }
 
+std::size_t components_of(const std::vector<Effect>& effects) {
+  std::size_t count = 0;
+  for (const Effect& effect : effects) count += effect.paths.size();
+  return count;
+}
+
+// Of so many amplitudes nothing is known before, then of nuisances.
+Eigen::MatrixXd known_beside(std::size_t unknown, const Eigen::MatrixXd& nuisances) {
+  const auto first = static_cast<Eigen::Index>(unknown);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(first + nuisances.rows(), first + nuisances.rows());
+  out.topLeftCorner(first, first).diagonal().setConstant(kHardlyKnown);
+  out.bottomRightCorner(nuisances.rows(), nuisances.rows()) = nuisances;
+  return out;
+}
+
 class Scorer {
  public:
   explicit Scorer(const ScorePlan& plan, bool all_partners = false)
@@ -58,10 +74,12 @@ class Scorer {
         parts_(parts_of(plan)),
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
-        nuisances_(static_cast<std::size_t>(plan.nuisances_known.rows())),
-        sensitivities_(total_ + nuisances_, modules_,
-                       all_partners ? total_ + nuisances_ : nuisances_),
-        pushes_(modules_, Pushes(total_ + nuisances_)),
+        beside_(components_of(plan.beside)),
+        known_(known_beside(beside_, plan.nuisances_known)),
+        features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
+        sensitivities_(features_in_all_, modules_,
+                       all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
+        pushes_(modules_, Pushes(features_in_all_)),
         last_(modules_, -9) {}
 
   void run(const std::vector<Recording>& recordings) {
@@ -72,25 +90,26 @@ class Scorer {
 
   std::vector<ScoredAmplitude> amplitudes() const {
     std::vector<ScoredAmplitude> out;
-    for (const auto& one : sensitivities_.amplitudes(plan_.nuisances_known)) {
+    for (const auto& one : sensitivities_.amplitudes(known_)) {
       out.push_back({one.estimate, one.gain()});
     }
     return out;
   }
 
   Eigen::MatrixXd informations() const {
-    return sensitivities_.informations(plan_.nuisances_known);
+    return sensitivities_.informations(known_);
   }
 
   std::vector<double> tell(ScoreDetails* details) const {
     std::vector<double> values;
-    const auto told = sensitivities_.amplitudes(plan_.nuisances_known);
-    for (std::size_t f = 0; f < scored_; ++f) values.push_back(told[f].estimate);
+    const auto told = sensitivities_.amplitudes(known_);
+    const auto drawn = [&](std::size_t f, double known) {
+      const double own = told[f].information;
+      values.push_back(own > 0 ? told[f].estimate * own / (own + known) : 0);
+    };
+    for (std::size_t f = 0; f < scored_; ++f) drawn(f, kScoreKnown);
     for (const auto& part : parts_) part->tell(values, details);
-    for (std::size_t f = scored_; f < total_; ++f) {
-      const auto& knot = told[f];
-      values.push_back(knot.estimate * knot.information / (knot.information + kKnotKnown));
-    }
+    for (std::size_t f = scored_; f < total_; ++f) drawn(f, kKnotKnown);
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
     }
@@ -120,8 +139,9 @@ class Scorer {
     const Model& model = *model_;
     for (std::size_t f = 0; f < features_->size(); ++f) {
       const Wrench w = accelerating(features_->at(f, i), model);
-      to.x[f] = static_cast<float>(w.fx), to.y[f] = static_cast<float>(w.fy);
-      to.turn[f] = static_cast<float>(w.torque);
+      const std::size_t at = f < scored_ ? f : total_ + f - scored_;
+      to.x[at] = static_cast<float>(w.fx), to.y[at] = static_cast<float>(w.fy);
+      to.turn[at] = static_cast<float>(w.torque);
     }
     const int body = static_cast<int>(i);
     std::array<double, kAlongs> value{};
@@ -140,7 +160,9 @@ class Scorer {
                  unit[static_cast<std::size_t>(curve.toward)],
                  value[static_cast<std::size_t>(curve.along)], 1, to);
     }
-    if (nuisances_ > 0) push_nuisances(*features_, frame.now, i, total_, to);
+    if (plan_.nuisances_known.size() > 0) {
+      push_nuisances(*features_, frame.now, i, total_ + beside_, to);
+    }
   }
 
   void push_pairs(const PredictedFrame& frame) {
@@ -212,7 +234,10 @@ class Scorer {
   std::size_t modules_;
   std::vector<std::unique_ptr<ScatterPart>> parts_;
   std::size_t scored_, total_;  // features that are told
-  std::size_t nuisances_;
+  // Components of effects beside them, and what is known of these and of nuisances.
+  std::size_t beside_;
+  Eigen::MatrixXd known_;
+  std::size_t features_in_all_;
   Sensitivities sensitivities_;
   std::vector<Pushes> pushes_;
   std::vector<int> last_;

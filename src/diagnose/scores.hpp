@@ -23,6 +23,9 @@ std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& r
 /// tell only roughly. 0 where there is none.
 Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
                                    const std::vector<Effect>& further = {});
+/// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules hardly
+/// ever felt would else be told as anything. A score is its estimate times own / (own + this).
+inline constexpr double kScoreKnown = 1;
 /// Correlations that scores with such information have among experiments.
 Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
 /// Variance of a score that no other has, where correlations are divided out.

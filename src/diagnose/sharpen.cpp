@@ -74,11 +74,15 @@ Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, Naming& naming, Alignmen
       judged_(judged),
       residual_(residual),
       nothing_(diagnoser.naming_->misfit_of_nothing(residual)) {
-  // What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
+  find_homes();
+}
+
+// What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
+void Diagnoser::Sharpening::find_homes() {
   std::map<std::string, double> least;
   const std::vector<Effect>& effects = of_.atlas_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    const auto told = of_.scanned(effects[e], judged.details);
+    const auto told = of_.scanned(effects[e], judged_.details);
     if (!told) continue;
     const double off = far_apart(effects[e].shape, told->shape);
     const auto [at, first] = least.emplace(effects[e].name, off);
@@ -94,6 +98,7 @@ Explanation Diagnoser::Sharpening::run() {
   }
   Explanation e = explained();
   e = settled(std::move(e));
+  if (rescan(e)) e = settled(explained());
   if (refine(e)) e = settled(explained());
   if (close_call()) e = settled(explained());
   return met(std::move(e));
@@ -108,8 +113,28 @@ Diagnoser::Sharpening::Name Diagnoser::Sharpening::name_of(const EffectFit& f) c
 Fingerprint Diagnoser::Sharpening::fingerprint(const EffectFit& f) {
   const auto sharp = known_.find(name_of(f));
   if (sharp != known_.end()) return sharp->second;
-  return f.effect >= 0 ? of_.atlas_->fingerprints()[static_cast<std::size_t>(f.effect)]
-                       : of_.shape_fingerprint(f.shape);
+  if (f.effect < 0) {
+    return alignment_.aligned(of_.shape_fingerprint(f.shape),
+                              of_.found_effect(f, judged_.details));
+  }
+  const auto e = static_cast<std::size_t>(f.effect);
+  return alignment_.aligned(of_.atlas_->fingerprints()[e], of_.atlas_->plan().effects[e]);
+}
+
+void Diagnoser::Sharpening::forget(const std::string& effect) {
+  for (auto known = known_.begin(); known != known_.end();) {
+    const auto [name, shape] = known->first;
+    const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+    if (name < 0 || effects[static_cast<std::size_t>(name)].name != effect) {
+      ++known;
+      continue;
+    }
+    alone_.erase(known->first), centred_.erase(known->first);
+    EffectFit f;
+    f.effect = name;
+    known = known_.erase(known);
+    naming_.sharpen(f, fingerprint(f));
+  }
 }
 
 void Diagnoser::Sharpening::sharpen(EffectFit f, int experiments) {

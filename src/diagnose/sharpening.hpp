@@ -31,6 +31,8 @@ class Diagnoser::Sharpening {
   // Fingerprints (sharpen.cpp).
 
   Name name_of(const EffectFit& f) const;
+  // Forgets the experiments with an effect: it is another one now.
+  void forget(const std::string& effect);
   // The sharpest that there is.
   Fingerprint fingerprint(const EffectFit& f);
   // Learns one about the strength that was found.
@@ -67,6 +69,9 @@ class Diagnoser::Sharpening {
 
   // Further experiments (refine.cpp).
 
+  // Beside a strong effect, the place of a stream and the range of a force between modules are not
+  // where they seem to be without it. True if one of them is elsewhere.
+  bool rescan(const Explanation& e);
   // Where the likeliest name leaves something, its law may have another range, time or length than
   // the experiments with it had. Each is sought up and down until it fits no better.
   bool refine(const Explanation& e);
@@ -87,6 +92,8 @@ class Diagnoser::Sharpening {
   Judged& judged_;
   const Eigen::VectorXd& residual_;
   double nothing_;                     // squared distance of nothing, by the scatter of nulls
+  void find_homes();
+
   std::map<std::string, int> home_;    // the effect that stands for all of a name
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;

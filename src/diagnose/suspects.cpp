@@ -84,7 +84,7 @@ const Fingerprint& Diagnoser::shape_fingerprint(int s) {
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
                                         const Judged& judged, int experiments) {
   return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
-                                   atlas_->calibrated(judged.observed.summary).point,
+                                   atlas_->calibrated(judged.observed.summary),
                                    stage_name(f, judged.details), experiments);
 }
 
