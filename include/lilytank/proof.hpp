@@ -14,6 +14,7 @@ struct Proof;
 
 struct ProofOptions {
   int worlds = 100;
+  std::string only;            ///< null, named, two or unnamed: leaves out those of another kind
   double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
   bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
   int modelled = 10;           ///< rightly told worlds whose model is fitted as well, at most

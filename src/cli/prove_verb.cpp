@@ -1,4 +1,5 @@
 // lilytank prove: is a diagnosis to be trusted?
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -61,6 +62,7 @@ int prove_verb(const Arguments& arguments) {
       "as a report.");
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
+      "only", "null, named, two or unnamed: leave out those of another kind", text(), "KIND")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
       "modelled", "worlds whose effect is also fitted and shown (10)", text(), "N")(
@@ -72,13 +74,18 @@ int prove_verb(const Arguments& arguments) {
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     for (const char* other :
-         {"worlds", "minutes", "known-flow", "modelled", "budget", "seed", "threads"}) {
+         {"worlds", "only", "minutes", "known-flow", "modelled", "budget", "seed", "threads"}) {
       if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
     }
     return tell_together(options.positional(), options.text("out", ""), options.has("force"));
   }
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
+  job.only = options.text("only", "");
+  const std::vector<std::string> kinds{"null", "named", "two", "unnamed"};
+  if (options.has("only") && std::find(kinds.begin(), kinds.end(), job.only) == kinds.end()) {
+    options.refuse("--only " + job.only + ": null, named, two or unnamed");
+  }
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
   job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));
   job.known_flow = options.has("known-flow");

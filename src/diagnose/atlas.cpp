@@ -8,7 +8,6 @@
 #include "analysis/median.hpp"
 #include "analysis/summary_parts.hpp"
 #include "calibrate/design.hpp"
-#include "diagnose/scan.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
@@ -25,7 +24,7 @@ constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kField
 constexpr int kFolds = 8;
 constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
 // Of the design, about what was found: parameters are known better than what nulls are spread over.
-constexpr double kNarrow = 0.4;
+constexpr double kNarrow = 0.6;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;         // one over the square of a second order that is expected
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
@@ -52,7 +51,8 @@ Matrix held_out_residuals(const Design& summaries, const Design& numbers, const 
     const LocalModel parameters(without_fold(summaries, fold, kFolds));
     const LocalModel scores(without_fold(numbers, fold, kFolds));
     for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
-      const Vector at = parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
+      const Vector at =
+          parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
       out.row(i) = numbers.numbers.row(i) - scores.mean(at).transpose();
     }
   }
@@ -104,6 +104,16 @@ double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
   const double spread = xx.mean() - x.mean() * x.mean();
   if (!(spread > kLeastSpread)) return 1;
   return std::clamp((xy.mean() - x.mean() * y.mean()) / spread, 1.0, kMostGrowth);
+}
+
+// By the variance of what calibration is off, beside that of the parameters themselves: all of
+// theirs where it tells nothing of them.
+Vector told_by(const Matrix& points, const Matrix& off) {
+  const auto variance = [](const Matrix& of) {
+    return Vector((of.rowwise() - of.colwise().mean()).colwise().squaredNorm().transpose());
+  };
+  const Vector share = variance(off).cwiseQuotient(variance(points).cwiseMax(kNeverVaries));
+  return (1 - share.array()).cwiseMax(0).matrix();
 }
 
 }  // namespace
@@ -164,10 +174,6 @@ Eigen::Index Atlas::summary_numbers() const {
 }
 
 Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
-  if (details != nullptr) {
-    details->stream = find_stream(plan_, recordings);
-    details->pair = find_pair_range(plan_, recordings);
-  }
   return {to_vector(stages_.setup().numbers(recordings)),
           to_vector(score(plan_, recordings, details))};
 }
@@ -248,6 +254,7 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
   out.first.resize(one.base.size(), m), out.second = Matrix::Zero(one.base.size(), m);
   out.moved_first = Matrix::Zero(one.moved_base.size(), m);
   out.moved_base = Vector::Zero(one.moved_base.size());
+  out.told = one.told;
   out.experiments = one.experiments;
   for (std::size_t i = 0; i < fingerprints.size(); ++i) {
     const Fingerprint& f = fingerprints[i];
@@ -256,6 +263,7 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
     out.first.middleCols(at, a.size()) = f.slope(a);
     out.two_sided = out.two_sided || f.two_sided;
     out.base += f.at(a), out.moved_base += f.moved(a);
+    out.told = out.told.cwiseMin(f.told);
     out.experiments = std::min(out.experiments, f.experiments);
     at += a.size();
   }
@@ -275,14 +283,14 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
                           {.moment_matched = false});
   const Design made = simulate(stage, emulator, about, spread, amplitudes, &effect, seed);
   const Eigen::Index n = made.points.rows();
-  Answers out{made.points.rightCols(amplitudes.cols()), Matrix(n, deviation_.size()),
-              Matrix(n, about.size())};
+  Answers out{made.points.rightCols(amplitudes.cols()), made.points.leftCols(about.size()),
+              Matrix(n, deviation_.size()), Matrix(n, about.size())};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vectors v{made.numbers.row(i).head(summary_numbers()),
                     made.numbers.row(i).tail(deviation_.size())};
     const Vector at = calibrated(v.summary);
     out.residuals.row(i) = residual_at(v.scores, at).transpose();
-    out.moved.row(i) = at.transpose() - made.points.row(i).head(about.size());
+    out.moved.row(i) = at.transpose() - out.points.row(i);
   }
   return out;
 }
@@ -301,7 +309,8 @@ double Atlas::displacement_misfit(const Vector& summary) const {
 Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   const int count = options_.experiments * static_cast<int>(m);
-  const Answers made = answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
+  const Answers made =
+      answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
   Matrix x(made.amplitudes.rows(), 2 * m);
   x << made.amplitudes, made.amplitudes.array().square().matrix();
   // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
@@ -316,6 +325,7 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
+  out.told = told_by(made.points, made.moved - made.amplitudes * moved);
   out.experiments = options_.experiments, out.two_sided = effect.two_sided;
   out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
   return out;
@@ -324,7 +334,10 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
 Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, const Vector& point,
                             int experiments, const std::string& stage, std::uint64_t seed) {
   const Matrix at = amplitudes.transpose().replicate(experiments, 1);
-  return answers(effect, stage, point, kNarrow * spread_, at, seed).residuals.colwise().mean().transpose();
+  return answers(effect, stage, point, kNarrow * spread_, at, seed)
+      .residuals.colwise()
+      .mean()
+      .transpose();
 }
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
@@ -332,8 +345,9 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
                                      const std::string& name, int experiments) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
-  const Vector point =
-      (calibrated - from.moved(amplitudes)).cwiseMax(bounds.low).cwiseMin(bounds.high);
+  // What a calibration no longer tells beside the effect stays where it is expected.
+  const Vector away = from.told.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
+  const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
   if (const Local* known = learned_near(name, amplitudes, point, experiments)) {
     return known->fingerprint;
   }
@@ -344,9 +358,8 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
-  const Answers made =
-      answers(effect, stage, point, kNarrow * spread_,
-              about(amplitudes, experiments, effect.two_sided, seed), seed);
+  const Answers made = answers(effect, stage, point, kNarrow * spread_,
+                               about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
@@ -362,6 +375,7 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.first = secant + solved.bottomRows(m).transpose();
   out.second = Matrix::Zero(out.first.rows(), m);
   out.moved_base = made.moved.colwise().mean().transpose();
+  out.told = told_by(made.points, made.moved);
   const auto n = static_cast<double>(off.rows());
   out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
                 std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));

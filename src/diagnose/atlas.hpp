@@ -32,6 +32,9 @@ struct Fingerprint : Answer {
   /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
   Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
   Eigen::VectorXd moved_base;   ///< [parameter]
+  /// Shares of the parameters' distances from their expected values that calibration still tells
+  /// beside the effect, by its experiments.
+  Eigen::VectorXd told;  ///< [parameter]
   /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
   Eigen::MatrixXd scatter;
   int experiments = 0;  ///< that it rests on, for each amplitude
@@ -113,7 +116,7 @@ class Atlas {
                   const Effect* effect, std::uint64_t seed);
   /// Experiments with an effect, calibrated without it.
   struct Answers {
-    Eigen::MatrixXd amplitudes, residuals, moved;  ///< a row each
+    Eigen::MatrixXd amplitudes, points, residuals, moved;  ///< a row each
   };
   Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                   const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,

@@ -91,11 +91,9 @@ void Diagnoser::prepare(double after) {
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
-  naming_ = std::make_unique<Naming>(atlas_->null_residuals(),
-                                     correlations_of(atlas_->informations()),
-                                     atlas_->plan().effects,
-                                     atlas_->fingerprints(), atlas_->plan().shapes.size(),
-                                     options_.false_alarms);
+  naming_ = std::make_unique<Naming>(
+      atlas_->null_residuals(), correlations_of(atlas_->informations()), atlas_->plan().effects,
+      atlas_->fingerprints(), atlas_->plan().shapes.size(), options_.false_alarms);
 }
 
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
@@ -116,8 +114,7 @@ Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diag
     of.effect = static_cast<int>(e);
     naming.sharpen(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
   }
-  j.explanation =
-      sharpened(naming, alignment, explained(naming, alignment, residual), j, residual);
+  j.explanation = sharpened(naming, alignment, explained(naming, alignment, residual), j, residual);
   tell_ranking(naming, residual, j.explanation, out);
   tell_detectable(naming, out);
   tell_findings(naming, residual, j.explanation, out);
@@ -133,7 +130,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "19 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "20 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

@@ -81,11 +81,6 @@ class Diagnoser {
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   /// Learned when it is asked for first.
   const Fingerprint& shape_fingerprint(int shape);
-  /// Amplitudes by the effect's own scores, if they are beyond those that fingerprints were learned
-  /// at and clear.
-  std::optional<Eigen::VectorXd> strong_by_own_scores(int effect, const Judged& judged) const;
-  Eigen::VectorXd knots_of(int shape, const Fingerprint& fingerprint,
-                           const Eigen::VectorXd& residual) const;
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
                                const Judged& judged, int experiments = Atlas::kAbout);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,

@@ -17,7 +17,7 @@ constexpr std::size_t kTried = 8;  // candidates that are fitted together with t
 constexpr int kMostPasses = 4;
 // Share of what was found that a remainder may be: fingerprints are known to some per cent only,
 // those about found amplitudes better; of a curve six straight pieces are off by more.
-constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
+constexpr double kInexact = 0.2, kInexactAbout = 0.15, kRough = 0.25;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 // Share of a curve's gain that does not count: it may bend to what names leave, the less the better
 // both are known.
@@ -274,7 +274,10 @@ Naming::Together Naming::larger(const Vector& all, const Together& set) const {
     }
   }
   if (best.of.size() == set.of.size()) return set;
-  if (best.of.size() > 1) exchange(all, best);
+  if (best.of.size() > 1) {
+    exchange(all, best);
+    if (!set.of.empty() && !each_speaks(best)) return set;
+  }
   const double least = std::max(effect_threshold_, floor_beside(set.fits));
   return cost(best) < cost(set) - least * least || set.of.empty() ? best : set;
 }

@@ -16,7 +16,8 @@ constexpr double kLeastOwn = 1;     // z of an effect by the scatter of experime
 
 }  // namespace
 
-std::optional<EffectFit> Diagnoser::Sharpening::likeliest(bool effects_only) const {
+std::optional<EffectFit> Diagnoser::Sharpening::likeliest(bool effects_only,
+                                                          const std::string& variable) const {
   const auto doubt = [](const auto& one) {
     return one.second.doubt + (one.first.first < 0 ? kNamesFirst : 0);
   };
@@ -25,6 +26,11 @@ std::optional<EffectFit> Diagnoser::Sharpening::likeliest(bool effects_only) con
   if (effects_only) {
     std::erase_if(those, [](const auto& one) { return one.first.first < 0; });
   }
+  std::erase_if(those, [&](const auto& one) {
+    const int name = one.first.first;
+    if (variable.empty() || name < 0) return false;
+    return of_.atlas_->plan().effects[static_cast<std::size_t>(name)].variable != variable;
+  });
   const auto likely = std::min_element(those.begin(), those.end(), least);
   if (likely == those.end()) return std::nullopt;
   EffectFit out;
@@ -39,7 +45,7 @@ Explanation Diagnoser::Sharpening::explained() {
     for (const bool effects_only : {false, true}) {
       const std::optional<EffectFit> likely = likeliest(effects_only);
       if (!likely || !off_centre(*likely, kBeside)) continue;
-      sharpen(*likely), moved = true;
+      sharpen(*likely, known_.at(name_of(*likely)).experiments), moved = true;
     }
     if (!moved) break;
   }

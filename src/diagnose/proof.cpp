@@ -43,21 +43,11 @@ Experiment open_tank(const ProofOptions& options) {
 }
 
 // A world's vector as a row, with what a regression says of it before.
-constexpr Eigen::Index kRowBegins = 12;
+constexpr Eigen::Index kRowBegins = 5;
 std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
-  const StreamPlace& s = j.details.stream;
   std::vector<double> row{static_cast<double>(kept.effect),
-                          static_cast<double>(j.observed.summary.size()),
-                          j.details.pulsation,
-                          j.details.swinging,
-                          static_cast<double>(j.details.heaviest),
-                          s.x,
-                          s.y,
-                          s.width,
-                          s.speed_x,
-                          s.speed_y,
-                          j.details.pair.range,
-                          j.details.pair.strength};
+                          static_cast<double>(j.observed.summary.size()), j.details.pulsation,
+                          j.details.swinging, static_cast<double>(j.details.heaviest)};
   row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
   row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
   return row;
@@ -67,8 +57,6 @@ Judged judged_of(const std::vector<double>& row) {
   const auto summary = static_cast<Eigen::Index>(row[1]);
   j.details.pulsation = row[2], j.details.swinging = row[3];
   j.details.heaviest = static_cast<int>(row[4]);
-  j.details.stream = {row[5], row[6], row[7], row[8], row[9]};
-  j.details.pair = {row[10], row[11]};
   const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
                                               static_cast<Eigen::Index>(row.size()) - kRowBegins);
   j.observed = {all.head(summary), all.tail(all.size() - summary)};
@@ -180,9 +168,16 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
   Proof out;
   std::vector<Sealed> sealed;
+  std::vector<int> number;  // of each in the sequence of all
   for (int w = 0; w < options.worlds; ++w) {
-    sealed.push_back(seal(tank, effects, shapes, seed, w));
-    out.key += std::to_string(w) + " " + key_text(sealed.back());
+    Sealed one = seal(tank, effects, shapes, seed, w);
+    if (!options.only.empty() && one.kind != options.only) continue;
+    out.key += std::to_string(w) + " " + key_text(one);
+    sealed.push_back(std::move(one)), number.push_back(w);
+  }
+  if (sealed.empty()) {
+    throw InputError("none of the first " + std::to_string(options.worlds) +
+                     " sealed experiments is \"" + options.only + "\"");
   }
   out.hash = sha256(out.key), out.sealed = sealed.size();
   if (options.sealed) options.sealed(out.hash);
@@ -199,14 +194,16 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   // for those of curves.
   const double curves =
       static_cast<double>(shapes.size()) * kKnots * DiagnosisBudget(job.minutes).experiments;
-  diagnoser.prepare(kOfAWorld * options.worlds + curves +
+  const double of_all = options.only == "null" ? 1 : kOfAWorld;
+  diagnoser.prepare(of_all * static_cast<double>(sealed.size()) + curves +
                     options.modelled * diagnoser.model_cost());
-  const auto film = [&](int w) {
-    return film_sealed(tank, sealed[static_cast<std::size_t>(w)], seconds,
-                       derived_seed(seed, kWorldSeed + static_cast<std::uint64_t>(w)));
+  const auto of = [&](std::size_t i) { return static_cast<std::uint64_t>(number[i]); };
+  const auto film = [&](std::size_t i) {
+    return film_sealed(tank, sealed[i], seconds, derived_seed(seed, kWorldSeed + of(i)));
   };
-  const auto rows = diagnoser.stages().rows("sealed", options.worlds, [&](int w) {
-    const auto made = film(w);
+  const std::string stage = options.only.empty() ? "sealed" : "sealed " + options.only;
+  const auto rows = diagnoser.stages().rows(stage, static_cast<int>(sealed.size()), [&](int i) {
+    const auto made = film(static_cast<std::size_t>(i));
     if (!made) return std::vector<double>{};
     Judged j;
     j.observed = diagnoser.atlas().vectors(*made, &j.details);
@@ -218,16 +215,16 @@ std::optional<Proof> prove(const ProofOptions& options) try {
     world_told = "world " + std::to_string(w + 1) + " of " + std::to_string(rows.size()) + ": ";
     world.kind = sealed[w].kind, world.effects = sealed[w].names;
     world.expected_z =
-        expected_z(diagnoser, tank, sealed[w], w, derived_seed(seed, kExpectedSeed + w));
+        expected_z(diagnoser, tank, sealed[w], of(w), derived_seed(seed, kExpectedSeed + of(w)));
     Diagnosis d;
     std::vector<Recording> recordings;
-    if (!rows[w].empty()) recordings = film(static_cast<int>(w)).value_or(recordings);
+    if (!rows[w].empty()) recordings = film(w).value_or(recordings);
     const std::optional<Judged> judged = judge_world(diagnoser, rows[w], recordings, d, world);
     const bool found = judged && world.right() && d.verdict == Verdict::missing;
     if (found && modelled < options.modelled) {
       modelled += 1;
       model_world(diagnoser, *judged, tank, sealed[w], seconds,
-                  derived_seed(seed, kFurtherSeed + w), d, world);
+                  derived_seed(seed, kFurtherSeed + of(w)), d, world);
     }
     out.worlds.push_back(std::move(world));
     if (options.judged) options.judged(out);

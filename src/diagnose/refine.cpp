@@ -12,69 +12,96 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kMostMeetings = 3;
-constexpr double kStrong = 12;        // z of an effect beside which others are looked for anew
-constexpr double kElsewhere = 0.02;   // m, by which a stream is another one
-constexpr double kOtherRange = 1.4;   // likewise of a force between modules, a factor
-constexpr double kFurther = 1.5;  // from one range to the next that is tried
-constexpr int kMostTries = 5;
+constexpr double kStrong = 12;       // z of an effect beside which others are looked for anew
+constexpr double kElsewhere = 0.02;  // m, by which a stream is another one
+constexpr double kOtherRange = 1.4;  // likewise of a force between modules, a factor
+constexpr double kFurther = 1.5;     // from one range to the next that is tried
+constexpr int kMostTries = 7;
 constexpr double kClose = 60;     // of a doubt
 constexpr int kMany = 30;         // experiments that decide a close call
 constexpr double kLeastFall = 4;  // of a doubt, that makes a range the better one
 
 }  // namespace
 
+ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const std::vector<std::string>& names,
+                                        const std::string& variable) const {
+  ScorePlan plan = of_.atlas_->plan();
+  for (const EffectFit& f : e.found) {
+    const Effect effect = of_.found_effect(f, judged_.details);
+    const bool own = f.effect < 0
+                         ? effect.variable == variable
+                         : std::find(names.begin(), names.end(), effect.name) != names.end();
+    if (f.z > kStrong && effect.mean_force && !own) plan.beside.push_back(effect);
+  }
+  return plan;
+}
+
 bool Diagnoser::Sharpening::rescan(const Explanation& e) {
-  const auto among = [](const Effect& effect, std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), effect.name) != names.end();
-  };
-  const auto beside = [&](std::initializer_list<std::string_view> scanned) {
-    ScorePlan plan = of_.atlas_->plan();
-    for (const EffectFit& f : e.found) {
-      const Effect effect = of_.found_effect(f, judged_.details);
-      if (f.z > kStrong && effect.mean_force && !among(effect, scanned)) {
-        plan.beside.push_back(effect);
-      }
-    }
-    return plan;
-  };
   bool moved = false;
-  if (const ScorePlan plan = beside({"local_flow"}); !plan.beside.empty()) {
-    StreamPlace& was = judged_.details.stream;
+  if (const ScorePlan plan = beside(e, {"local_flow"}, "position"); !plan.beside.empty()) {
+    StreamPlace& was = judged_.details.scans.stream;
     const StreamPlace now = find_stream(plan, alignment_.recordings());
     if (std::hypot(now.x - was.x, now.y - was.y) > kElsewhere) {
       was = now, moved = true;
       find_homes(), forget("local_flow");
     }
   }
-  if (const ScorePlan plan = beside({"pair_attraction", "pair_repulsion"}); !plan.beside.empty()) {
-    PairRange& was = judged_.details.pair;
-    const PairRange now = find_pair_range(plan, alignment_.recordings());
-    const bool same = now.strength * was.strength > 0 && now.range < kOtherRange * was.range &&
-                      was.range < kOtherRange * now.range;
-    if (now.strength != 0 && !same) {
-      was = now, moved = true;
-      find_homes(), forget("pair_attraction"), forget("pair_repulsion");
-    }
+  moved = rescan(e, {"pair_attraction", "pair_repulsion"}, "pair") || moved;
+  moved = rescan(e, {"wall_force"}, "radius") || moved;
+  return rescan(e, {"wall_layer"}, "radius") || moved;
+}
+
+bool Diagnoser::Sharpening::rescan(const Explanation& e, const std::vector<std::string>& names,
+                                   const std::string& variable) {
+  const ScorePlan plan = beside(e, names, variable);
+  if (plan.beside.empty()) return false;
+  const auto all = find_values(plan, alignment_.recordings());
+  const auto now = all.find(names.front());
+  if (now == all.end()) return false;
+  ScannedValue& was = judged_.details.scans.values[now->first];
+  const double further = now->second.value / std::max(was.value, 1e-9);
+  if (now->second.amplitude * was.amplitude > 0 && further < kOtherRange &&
+      further > 1 / kOtherRange) {
+    return false;
   }
-  return moved;
+  was = now->second;
+  find_homes();
+  for (const std::string& name : names) forget(name);
+  return true;
+}
+
+std::vector<EffectFit> Diagnoser::Sharpening::refinable(const Explanation& e) const {
+  std::vector<EffectFit> out;
+  if (const auto name = likeliest(true)) out.push_back(*name);
+  for (const EffectFit& f : e.found) {
+    if (f.shape < 0) continue;
+    const auto shape = static_cast<std::size_t>(f.shape);
+    const auto same = likeliest(true, of_.atlas_->plan().shapes[shape].variable);
+    if (same && name_of(*same) != name_of(out.front())) out.push_back(*same);
+  }
+  return out;
 }
 
 bool Diagnoser::Sharpening::refine(const Explanation& e) {
-  const std::optional<EffectFit> name = likeliest(true);
   const bool curve =
       std::any_of(e.found.begin(), e.found.end(), [](const EffectFit& f) { return f.effect < 0; });
-  if (!name || !(curve || naming_.leaves_something(e))) return false;
+  if (!(curve || naming_.leaves_something(e))) return false;
   bool better = false;
-  for (const FitParameter& p : of_.effect(*name).refine) {
-    if (!p.logarithmic) continue;
-    for (const double factor : {kFurther, 1 / kFurther}) {
-      bool further = false;
-      while (tries_ < kMostTries && fits_better(*name, p, factor)) further = true;
-      better = better || further;
-      if (further) break;
+  for (const EffectFit& name : refinable(e)) {
+    for (const FitParameter& p : of_.effect(name).refine) {
+      if (p.logarithmic && refined(name, p)) better = true;
     }
   }
   return better;
+}
+
+bool Diagnoser::Sharpening::refined(const EffectFit& name, const FitParameter& p) {
+  for (const double factor : {kFurther, 1 / kFurther}) {
+    bool further = false;
+    while (tries_ < kMostTries && fits_better(name, p, factor)) further = true;
+    if (further) return true;
+  }
+  return false;
 }
 
 bool Diagnoser::Sharpening::close_call() {
@@ -94,6 +121,14 @@ bool Diagnoser::Sharpening::close_call() {
   return true;
 }
 
+bool Diagnoser::Sharpening::made_sure(const Explanation& e) {
+  const std::optional<EffectFit> likely = likeliest();
+  const bool left = e.found.size() > 1 || naming_.leaves_something(e);
+  if (!likely || !left || known_.at(name_of(*likely)).experiments >= kMany) return false;
+  sharpen(*likely, kMany);
+  return true;
+}
+
 bool Diagnoser::Sharpening::fits_better(const EffectFit& name, const FitParameter& p,
                                         double factor) {
   tries_ += 1;
@@ -106,14 +141,14 @@ bool Diagnoser::Sharpening::fits_better(const EffectFit& name, const FitParamete
   const double next = std::clamp(now * factor, p.low, p.high);
   if (next == now) return false;
   const double doubt = alone_.at(name_of(f)).doubt;
-  const auto before = std::tuple(known_, alone_, home_, naming_, judged_.details.refined);
+  const auto before = std::tuple(known_, alone_, home_, step_, naming_, judged_.details.refined);
   judged_.details.refined[p.path] = next;
   home_[of_.effect(f).name] = name_of(f).first;
   sharpen(f);
   f.amplitudes = alone_.at(name_of(f)).amplitudes;
   if (off_centre(f, kBeside)) sharpen(f);
   if (alone_.at(name_of(f)).doubt < doubt - kLeastFall) return true;
-  std::tie(known_, alone_, home_, naming_, judged_.details.refined) = before;
+  std::tie(known_, alone_, home_, step_, naming_, judged_.details.refined) = before;
   return false;
 }
 
@@ -157,9 +192,8 @@ Fingerprint Diagnoser::Sharpening::simulated(const std::vector<EffectFit>& found
         at.push_back(f.amplitudes);
   }
   const Fingerprint sum = together(each, at);
-  Fingerprint out =
-      of_.atlas_->fingerprint_about(sum.about, sum, together(effects),
-                                    of_.atlas_->calibrated(judged_.observed.summary), name);
+  Fingerprint out = of_.atlas_->fingerprint_about(
+      sum.about, sum, together(effects), of_.atlas_->calibrated(judged_.observed.summary), name);
   out.base = out.at(sum.about), out.about = sum.about;
   return out;
 }

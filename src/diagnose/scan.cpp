@@ -8,9 +8,16 @@
 namespace lilytank {
 namespace {
 
-constexpr double kSpacing = 0.16, kFarthest = 0.8;                    // of the tank's radius
-constexpr double kWidths[] = {0.04, 0.06, 0.09};                      // m
-constexpr double kShortest = 0.002, kLongest = 0.08, kLonger = 1.25;  // m, m, from one to the next
+constexpr double kSpacing = 0.16, kFarthest = 0.8;  // of the tank's radius
+constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
+// What has a range, from where to where it is tried, m, and a factor from one to the next.
+struct Ranged {
+  const char* effect;
+  double shortest, longest;
+};
+constexpr Ranged kRanged[] = {
+    {"pair_attraction", 0.002, 0.08}, {"wall_force", 0.002, 0.05}, {"wall_layer", 0.005, 0.08}};
+constexpr double kLonger = 1.25;
 constexpr double kClear = 30;  // twice a log-likelihood: a rise that is no chance
 
 }  // namespace
@@ -43,24 +50,33 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
   return best;
 }
 
-PairRange find_pair_range(const ScorePlan& plan, const std::vector<Recording>& recordings) {
+std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
+                                                const std::vector<Recording>& recordings) {
   ScorePlan scan = plan;
   scan.effects.clear(), scan.shapes.clear();
-  const auto attraction = std::find_if(plan.effects.begin(), plan.effects.end(),
-                                       [](const Effect& e) { return e.name == "pair_attraction"; });
-  std::vector<double> ranges;
-  for (double range = kShortest; range < kLongest; range *= kLonger) {
-    ranges.push_back(range);
-    scan.effects.push_back(*attraction);
-    scan.effects.back().shape = {{attraction->shape[0].first, range}};
+  for (const Ranged& of : kRanged) {
+    const auto effect = std::find_if(plan.effects.begin(), plan.effects.end(),
+                                     [&](const Effect& e) { return e.name == of.effect; });
+    for (double range = of.shortest; range < of.longest; range *= kLonger) {
+      scan.effects.push_back(*effect);
+      scan.effects.back().shape = {{effect->shape[0].first, range}};
+    }
   }
   const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
-  const auto best = std::max_element(
-      told.begin(), told.end(),
-      [](const ScoredAmplitude& a, const ScoredAmplitude& b) { return a.gain < b.gain; });
-  if (!(best->gain > kClear)) return {};
-  return {ranges[static_cast<std::size_t>(best - told.begin())],
-          best->estimate * attraction->sizes[0]};
+  std::map<std::string, ScannedValue> out;
+  std::map<std::string, double> most;
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    const Effect& effect = scan.effects[k];
+    const bool possible = effect.two_sided || effect.name == "pair_attraction";
+    double& best = most.emplace(effect.name, kClear).first->second;
+    if (!(told[k].gain > best) || (!possible && told[k].estimate < 0)) continue;
+    best = told[k].gain, out[effect.name] = {effect.shape[0].second, told[k].estimate};
+  }
+  return out;
+}
+
+Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings) {
+  return {find_stream(plan, recordings), find_values(plan, recordings)};
 }
 
 }  // namespace lilytank

@@ -11,8 +11,12 @@ namespace lilytank {
 /// one-step likelihood of recordings most, each component by itself.
 StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings);
 
-/// The exponential attraction or repulsion, of ranges from 2 to 80 mm, that does, if twice the
-/// log-likelihood rises by 30 or more. Modules that touch do not count.
-PairRange find_pair_range(const ScorePlan& plan, const std::vector<Recording>& recordings);
+/// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
+/// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.
+std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
+                                                const std::vector<Recording>& recordings);
+
+/// Both.
+Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings);
 
 }  // namespace lilytank

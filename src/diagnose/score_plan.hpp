@@ -43,10 +43,16 @@ struct StreamPlace {
   double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
 };
 
-/// A force between modules that falls off exponentially: its range and its strength, positive if it
-/// attracts. Nothing if none is clear.
-struct PairRange {
-  double range = 0, strength = 0;  ///< m, N
+/// The range or thickness of an effect, and its amplitude in sizes.
+struct ScannedValue {
+  double value = 0, amplitude = 0;
+};
+
+/// What recordings tell directly of effects that have a place or a range.
+struct Scans {
+  StreamPlace stream;  ///< that raises the likelihood most
+  /// By the effect's name, of those that are clear; a repulsion is a negative attraction.
+  std::map<std::string, ScannedValue> values;
 };
 
 /// Beside the vector, what a verdict needs of one experiment.
@@ -54,8 +60,7 @@ struct ScoreDetails {
   double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
   double swinging = 0;   ///< Hz, the clearest line across the slip; 0: none is clear
   int heaviest = 0;      ///< module that answers least
-  StreamPlace stream;    ///< that raises the likelihood most
-  PairRange pair;        ///< likewise
+  Scans scans;           ///< left to whoever asks for them
   /// Ranges, times and lengths by path, where experiments with others than those of the catalogue
   /// and of scans fit better.
   std::map<std::string, double> refined;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/linear.hpp"
 #include "diagnose/features.hpp"
 #include "diagnose/nuisances.hpp"
 #include "diagnose/scatter.hpp"
@@ -14,8 +15,9 @@
 namespace lilytank {
 namespace {
 
-constexpr double kContact = 0.03;                 // m/s: a prediction that was pushed by a contact
-constexpr double kHardlyKnown = 1e-4;             // information of an amplitude, in sizes
+constexpr double kContact = 0.03;  // m/s: a prediction that was pushed by a contact
+// Information of amplitudes, in sizes, that they are 0: of what is beside, of several together.
+constexpr double kHardlyKnown = 1e-4, kJointKnown = 0.1;
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
 constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
@@ -96,9 +98,30 @@ class Scorer {
     return out;
   }
 
-  Eigen::MatrixXd informations() const {
-    return sensitivities_.informations(known_);
+  // Of each effect of the plan, its components together and nothing else.
+  std::vector<JointAmplitudes> jointly() const {
+    const auto each = sensitivities_.amplitudes(known_);
+    const Eigen::MatrixXd normal = sensitivities_.informations(known_);
+    std::vector<JointAmplitudes> out;
+    std::size_t first = 0;
+    for (const Effect& effect : plan_.effects) {
+      const auto size = static_cast<Eigen::Index>(effect.paths.size());
+      Eigen::VectorXd score(size);
+      for (Eigen::Index k = 0; k < size; ++k) {
+        const auto& one = each[first + static_cast<std::size_t>(k)];
+        score(k) = one.estimate * one.information;
+      }
+      const auto at = static_cast<Eigen::Index>(first);
+      Eigen::MatrixXd own = normal.block(at, at, size, size);
+      own.diagonal().array() += kJointKnown;
+      JointAmplitudes told{solve_symmetric(own, score)};
+      told.gain = score.dot(told.estimate);
+      out.push_back(std::move(told)), first += effect.paths.size();
+    }
+    return out;
   }
+
+  Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
 
   std::vector<double> tell(ScoreDetails* details) const {
     std::vector<double> values;
@@ -187,9 +210,9 @@ class Scorer {
     }
   }
 
-  // Modules that touch another, or may before the next frame, as fast as what is nearest closes up:
-  // what contacts do to them depends on more than forces. Known from the past, so leaving them out
-  // favours no kind of meeting.
+  // Modules that touch another or the wall, or may before the next frame, as fast as what is
+  // nearest closes up: what contacts do to them depends on more than forces. Known from the past,
+  // so leaving them out favours no kind of meeting.
   void find_touching(const PredictedFrame& frame) {
     const Kinematics& k = frame.now;
     touching_.assign(static_cast<std::size_t>(k.size()), 0);
@@ -198,13 +221,28 @@ class Scorer {
       const SquareGap at = square_gap(k, pair, side);
       const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
       const double jx = at.px - pair.dx, jy = at.py - pair.dy;
-      const double closing =
-          (k.vx[i] - k.omega[i] * at.py - k.vx[j] + k.omega[j] * jy) * at.nx +
-          (k.vy[i] + k.omega[i] * at.px - k.vy[j] - k.omega[j] * jx) * at.ny;
+      const double closing = (k.vx[i] - k.omega[i] * at.py - k.vx[j] + k.omega[j] * jy) * at.nx +
+                             (k.vy[i] + k.omega[i] * at.px - k.vy[j] - k.omega[j] * jx) * at.ny;
       const double way = kHaste * frame.interval * std::max(0.0, closing);
       if (at.gap > kTouch + way) return;
       touching_[i] = touching_[j] = 1;
     });
+    for (std::size_t i = 0; i < touching_.size(); ++i) {
+      if (at_wall(k, i, frame.interval)) touching_[i] = 1;
+    }
+  }
+
+  // By the outermost corner.
+  bool at_wall(const Kinematics& k, std::size_t i, double interval) const {
+    const double half = 0.5 * model_->module.side;
+    const double u = std::copysign(half, k.c[i] * k.x[i] + k.s[i] * k.y[i]);
+    const double v = std::copysign(half, k.c[i] * k.y[i] - k.s[i] * k.x[i]);
+    const double px = k.c[i] * u - k.s[i] * v, py = k.s[i] * u + k.c[i] * v;
+    const double x = k.x[i] + px, y = k.y[i] + py, radius = std::hypot(x, y);
+    const double closing =
+        ((k.vx[i] - k.omega[i] * py) * x + (k.vy[i] + k.omega[i] * px) * y) / radius;
+    const double way = kHaste * interval * std::max(0.0, closing);
+    return model_->tank.radius - radius <= kTouch + way;
   }
 
   Seen pass(const PredictedFrame& frame, const Moment& now, std::size_t i) {
@@ -308,6 +346,16 @@ Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations) {
   Eigen::MatrixXd out = size.asDiagonal() * informations * size.asDiagonal();
   out.diagonal().setOnes();
   return out;
+}
+
+std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
+                                              const std::vector<Recording>& recordings,
+                                              const std::vector<Effect>& effects) {
+  plan.shapes.clear(), plan.effects = effects;
+  for (Effect& effect : plan.effects) effect.scored = true;
+  Scorer scorer(plan, true);
+  scorer.run(recordings);
+  return scorer.jointly();
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,

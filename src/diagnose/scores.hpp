@@ -3,10 +3,11 @@
 //
 // A force that the model lacks shows in the next innovations by way of the filter: its sensitivity
 // is carried along like the state itself, from past frames only, so a score is a sum of products of
-// which the second factor cannot know the first. Scores are cleared of what errors of parameters and
-// of the flow could have done (nuisances.hpp) and divided by the information that is left, so each is
-// an estimate of the effect's amplitude, in units of the size at which it is tried; that estimate is
-// biased by all that the filter leaves out, as is its expectation by simulation (atlas.hpp).
+// which the second factor cannot know the first. Scores are cleared of what errors of parameters
+// and of the flow could have done (nuisances.hpp) and divided by the information that is left, so
+// each is an estimate of the effect's amplitude, in units of the size at which it is tried; that
+// estimate is biased by all that the filter leaves out, as is its expectation by simulation
+// (atlas.hpp).
 #pragma once
 #include <vector>
 
@@ -23,8 +24,9 @@ std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& r
 /// tell only roughly. 0 where there is none.
 Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
                                    const std::vector<Effect>& further = {});
-/// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules hardly
-/// ever felt would else be told as anything. A score is its estimate times own / (own + this).
+/// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules
+/// hardly ever felt would else be told as anything. A score is its estimate times own / (own +
+/// this).
 inline constexpr double kScoreKnown = 1;
 /// Correlations that scores with such information have among experiments.
 Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
@@ -38,5 +40,16 @@ struct ScoredAmplitude {
 };
 std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
                                                const std::vector<Recording>& recordings);
+
+/// The amplitudes of all components of one effect together, in sizes, and by how much they raise
+/// twice the log-likelihood.
+struct JointAmplitudes {
+  Eigen::VectorXd estimate;
+  double gain = 0;
+};
+/// Those of every effect, each by itself; effects that have no mean force tell nothing.
+std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
+                                              const std::vector<Recording>& recordings,
+                                              const std::vector<Effect>& effects);
 
 }  // namespace lilytank

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/scan.hpp"
+#include "diagnose/scores.hpp"
 #include "diagnose/sharpening.hpp"
 
 namespace lilytank {
@@ -13,6 +15,12 @@ using Vector = Eigen::VectorXd;
 constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
 constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr int kRivals = 3, kMostSharpened = 6;
+constexpr int kMostMoved = 3;   // times that one fingerprint follows the amplitudes it finds
+constexpr double kClear = 100;  // twice a log-likelihood: amplitudes that the filter tells well
+
+bool tells(const Effect& effect, const JointAmplitudes& own) {
+  return own.gain > kClear && (effect.two_sided || own.estimate.minCoeff() > 0);
+}
 
 // A distance between places, ranges by their logarithms.
 double far_apart(const std::vector<std::pair<std::string, double>>& a,
@@ -96,11 +104,14 @@ Explanation Diagnoser::Sharpening::run() {
   for (const EffectFit& f : leading) {
     if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
   }
+  for (const EffectFit& f : clearest()) {
+    if (blunt(f)) sharpen(f);
+  }
   Explanation e = explained();
   e = settled(std::move(e));
   if (rescan(e)) e = settled(explained());
   if (refine(e)) e = settled(explained());
-  if (close_call()) e = settled(explained());
+  if (close_call() || made_sure(e)) e = settled(explained());
   return met(std::move(e));
 }
 
@@ -114,8 +125,7 @@ Fingerprint Diagnoser::Sharpening::fingerprint(const EffectFit& f) {
   const auto sharp = known_.find(name_of(f));
   if (sharp != known_.end()) return sharp->second;
   if (f.effect < 0) {
-    return alignment_.aligned(of_.shape_fingerprint(f.shape),
-                              of_.found_effect(f, judged_.details));
+    return alignment_.aligned(of_.shape_fingerprint(f.shape), of_.found_effect(f, judged_.details));
   }
   const auto e = static_cast<std::size_t>(f.effect);
   return alignment_.aligned(of_.atlas_->fingerprints()[e], of_.atlas_->plan().effects[e]);
@@ -130,6 +140,7 @@ void Diagnoser::Sharpening::forget(const std::string& effect) {
       continue;
     }
     alone_.erase(known->first), centred_.erase(known->first);
+    moved_.erase(known->first), step_.erase(known->first);
     EffectFit f;
     f.effect = name;
     known = known_.erase(known);
@@ -140,18 +151,29 @@ void Diagnoser::Sharpening::forget(const std::string& effect) {
 void Diagnoser::Sharpening::sharpen(EffectFit f, int experiments) {
   if (known_.count(name_of(f)) == 0) f = begun(f);
   const Fingerprint from = fingerprint(f);
-  const Fingerprint to =
-      alignment_.aligned(of_.fingerprint_near(f, from, judged_, experiments),
-                         of_.found_effect(f, judged_.details));
+  f.amplitudes = halfway(f, from);
+  const Fingerprint to = alignment_.aligned(of_.fingerprint_near(f, from, judged_, experiments),
+                                            of_.found_effect(f, judged_.details));
   known_[name_of(f)] = to;
   naming_.sharpen(f, to);
   alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
+}
+
+// Two places may each point to the other: a step back is half as long.
+Vector Diagnoser::Sharpening::halfway(const EffectFit& f, const Fingerprint& from) {
+  if (known_.count(name_of(f)) == 0) return f.amplitudes;
+  Vector step = f.amplitudes - from.about;
+  const auto last = step_.find(name_of(f));
+  if (last != step_.end() && step.dot(last->second) < 0) step *= 0.5;
+  step_[name_of(f)] = step;
+  return from.about + step;
 }
 
 Explanation Diagnoser::Sharpening::settled(Explanation e) {
   for (int more = 0; more < kMostSharpened; ++more) {
     const std::optional<EffectFit> next = next_after(e);
     if (!next) break;
+    moved_[name_of(*next)] += 1;
     sharpen(*next);
     e = explained();
   }
@@ -160,25 +182,53 @@ Explanation Diagnoser::Sharpening::settled(Explanation e) {
 
 EffectFit Diagnoser::Sharpening::begun(EffectFit f) {
   f.effect = name_of(f).first;
-  if (f.shape >= 0) {
-    f.amplitudes = of_.knots_of(f.shape, fingerprint(f), residual_);
-  } else if (const auto told = of_.scanned(of_.effect(f), judged_.details);
-             told && told->amplitudes) {
-    f.amplitudes = *told->amplitudes;
-  } else if (const auto own = of_.strong_by_own_scores(f.effect, judged_)) {
-    f.amplitudes = *own;
-  }
+  const Effect effect = of_.found_effect(f, judged_.details);
+  if (!effect.mean_force) return f;
+  const JointAmplitudes own =
+      joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect}).front();
+  if (tells(effect, own)) f.amplitudes = own.estimate;
   return f;
 }
 
+// Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
+std::vector<EffectFit> Diagnoser::Sharpening::clearest() {
+  std::map<Name, Effect> of;
+  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (!effects[e].mean_force) continue;
+    EffectFit f;
+    f.effect = static_cast<int>(e), f.effect = name_of(f).first;
+    of.emplace(name_of(f), of_.found_effect(f, judged_.details));
+  }
+  std::vector<Effect> tried;
+  for (const auto& [name, effect] : of) tried.push_back(effect);
+  const auto told = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), tried);
+  std::vector<EffectFit> out;
+  for (const auto& [name, effect] : of) {
+    const JointAmplitudes& own = told[out.size()];
+    EffectFit f;
+    f.effect = name.first, f.amplitudes = own.estimate;
+    f.gain = tells(effect, own) ? own.gain : 0;
+    out.push_back(std::move(f));
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
+  if (out.size() > kRivals) out.resize(kRivals);
+  const double least = std::max(kClear, kRival * out.front().gain);
+  std::erase_if(out, [&](const EffectFit& f) { return f.gain < least; });
+  return out;
+}
+
 bool Diagnoser::Sharpening::blunt(const EffectFit& f) const {
-  const bool told = known_.count(name_of(f)) > 0;
-  return f.amplitudes.norm() > kLeastAmplitude && (!told || f.at_reach);
+  if (!(f.amplitudes.norm() > kLeastAmplitude)) return false;
+  if (known_.count(name_of(f)) == 0) return true;
+  const auto times = moved_.find(name_of(f));
+  return f.at_reach && off_centre(f) && (times == moved_.end() || times->second < kMostMoved);
 }
 
 bool Diagnoser::Sharpening::off_centre(const EffectFit& f, double far) const {
   const auto sharp = known_.find(name_of(f));
-  if (sharp == known_.end() || f.shape >= 0) return false;
+  if (sharp == known_.end()) return false;
   const Vector& about = sharp->second.about;
   return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
 }
@@ -203,7 +253,9 @@ std::optional<EffectFit> Diagnoser::Sharpening::next_after(const Explanation& e)
 
 Explanation Diagnoser::sharpened(Naming& naming, Alignment& alignment, Explanation e,
                                  Judged& judged, const Vector& residual) {
-  if (e.found.empty() || plain(naming, e, residual)) return e;
+  if (e.found.empty()) return e;
+  judged.details.scans = scans_of(atlas_->plan(), alignment.recordings());
+  if (plain(naming, e, residual)) return e;
   return Sharpening(*this, naming, alignment, judged, residual).run();
 }
 

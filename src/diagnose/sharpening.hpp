@@ -30,6 +30,7 @@ class Diagnoser::Sharpening {
 
   // Fingerprints (sharpen.cpp).
 
+  void find_homes();
   Name name_of(const EffectFit& f) const;
   // Forgets the experiments with an effect: it is another one now.
   void forget(const std::string& effect);
@@ -37,10 +38,14 @@ class Diagnoser::Sharpening {
   Fingerprint fingerprint(const EffectFit& f);
   // Learns one about the strength that was found.
   void sharpen(EffectFit f, int experiments = Atlas::kAbout);
+  // Where further experiments with an effect are to be.
+  Eigen::VectorXd halfway(const EffectFit& f, const Fingerprint& from);
   // Learns those that the explanation asks for, until it asks for none.
   Explanation settled(Explanation e);
   // Where its first experiments are to be.
   EffectFit begun(EffectFit f);
+  // The effects that the filter says most clearly, by their amplitudes in the very recordings.
+  std::vector<EffectFit> clearest();
   // Whether its fingerprint is not one of its strength.
   bool blunt(const EffectFit& f) const;
   // What is found should be where its experiments were, not beside them. `far`: in their spread.
@@ -52,7 +57,8 @@ class Diagnoser::Sharpening {
 
   // What alone, by its own scatter, is most likely there. The scatter of ten experiments leaves a
   // doubt uncertain, and a curve has more ways to be near: names come first.
-  std::optional<EffectFit> likeliest(bool effects_only = false) const;
+  std::optional<EffectFit> likeliest(bool effects_only = false,
+                                     const std::string& variable = "") const;
   // Judged by the scatter of the experiments with what is likeliest. These are to be where it is,
   // and so are those of the likeliest name: off it, a curve would seem to fit better.
   Explanation explained();
@@ -69,15 +75,27 @@ class Diagnoser::Sharpening {
 
   // Further experiments (refine.cpp).
 
-  // Beside a strong effect, the place of a stream and the range of a force between modules are not
-  // where they seem to be without it. True if one of them is elsewhere.
+  // Beside a strong effect, the place of a stream and the ranges of forces are not where they seem
+  // to be without it. True if one of them is elsewhere.
   bool rescan(const Explanation& e);
+  // The range of the first of these.
+  bool rescan(const Explanation& e, const std::vector<std::string>& names,
+              const std::string& variable);
+  // Scores beside all strong ones but those of these names, and curves that may stand for them.
+  ScorePlan beside(const Explanation& e, const std::vector<std::string>& names,
+                   const std::string& variable) const;
   // Where the likeliest name leaves something, its law may have another range, time or length than
-  // the experiments with it had. Each is sought up and down until it fits no better.
+  // the experiments with it had; so may that of a name of the same variable as a curve. Each is
+  // sought up and down until it fits no better.
   bool refine(const Explanation& e);
+  std::vector<EffectFit> refinable(const Explanation& e) const;
+  bool refined(const EffectFit& name, const FitParameter& p);
   // Where the likeliest name and the likeliest curve are about as likely, more experiments with
   // each are to tell: by ten a doubt is known to some ten only.
   bool close_call();
+  // Where something is left beside what is likeliest, more experiments with that are to tell: by
+  // ten its scatter is known along ten directions only. True if they were made.
+  bool made_sure(const Explanation& e);
   // Whether the law fits better with this parameter times a factor; if not, all is as before.
   bool fits_better(const EffectFit& name, const FitParameter& p, double factor);
   // Several effects need not add up: modules that one holds together another cannot move apart.
@@ -92,12 +110,12 @@ class Diagnoser::Sharpening {
   Judged& judged_;
   const Eigen::VectorXd& residual_;
   double nothing_;                     // squared distance of nothing, by the scatter of nulls
-  void find_homes();
-
   std::map<std::string, int> home_;    // the effect that stands for all of a name
   std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
+  std::map<Name, int> moved_;             // how often experiments of its own were made anew
+  std::map<Name, Eigen::VectorXd> step_;  // by which they moved last
   int tries_ = 0;
 };
 

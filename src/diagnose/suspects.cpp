@@ -13,9 +13,6 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kInexact = 0.1, kUsual = 3;  // share of scores, and sizes, that a knot may have
-constexpr double kClear = 10;                 // deviations of own scores
-
 }  // namespace
 
 const Effect& Diagnoser::effect(const EffectFit& f) const {
@@ -25,18 +22,19 @@ const Effect& Diagnoser::effect(const EffectFit& f) const {
 std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
                                                      const ScoreDetails& details) const {
   if (effect.name == "local_flow") {
-    const StreamPlace& s = details.stream;
+    const StreamPlace& s = details.scans.stream;
     return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
                    Eigen::Vector2d(s.speed_x, s.speed_y)};
   }
   if (effect.name == "vortex_shedding" && details.swinging > 0) {
     return Scanned{{{effect.shape[0].first, details.swinging}}, std::nullopt};
   }
-  const bool attracts = effect.name == "pair_attraction";
-  const double strength = attracts ? details.pair.strength : -details.pair.strength;
-  if (!(attracts || effect.name == "pair_repulsion") || !(strength > 0)) return std::nullopt;
-  return Scanned{{{effect.shape[0].first, details.pair.range}},
-                 Vector::Constant(1, strength / effect.sizes[0])};
+  const bool repels = effect.name == "pair_repulsion";
+  const auto told = details.scans.values.find(repels ? "pair_attraction" : effect.name);
+  if (told == details.scans.values.end()) return std::nullopt;
+  const double amplitude = repels ? -told->second.amplitude : told->second.amplitude;
+  if (!effect.two_sided && !(amplitude > 0)) return std::nullopt;
+  return Scanned{{{effect.shape[0].first, told->second.value}}, Vector::Constant(1, amplitude)};
 }
 
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
@@ -86,32 +84,6 @@ Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& b
   return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
                                    atlas_->calibrated(judged.observed.summary),
                                    stage_name(f, judged.details), experiments);
-}
-
-// A curve's values by its own scores: far beyond the sizes that a fingerprint was learned at, other
-// numbers would lead astray. Knots that bodies hardly visit stay near nothing.
-Vector Diagnoser::knots_of(int shape, const Fingerprint& fingerprint,
-                           const Vector& residual) const {
-  const Eigen::Index first = atlas_->named_numbers() + shape * kKnots;
-  const Eigen::MatrixXd own = fingerprint.first.middleRows(first, kKnots);
-  const Vector scores = residual.segment(first, kKnots);
-  const double error = 1 + kInexact * kInexact * scores.squaredNorm() / kKnots;
-  Eigen::MatrixXd normal = own.transpose() * own;
-  normal.diagonal().array() += error / (kUsual * kUsual);
-  return solve_symmetric(normal, Vector(own.transpose() * scores));
-}
-
-std::optional<Vector> Diagnoser::strong_by_own_scores(int effect, const Judged& judged) const {
-  const auto e = static_cast<std::size_t>(effect);
-  const Effect& of = atlas_->plan().effects[e];
-  if (!of.scored) return std::nullopt;
-  const auto first = static_cast<Eigen::Index>(atlas_->plan().first_of_effect(e));
-  const auto m = static_cast<Eigen::Index>(of.paths.size());
-  const Vector own = atlas_->uncalibrated(judged.observed.scores).segment(first, m);
-  const Vector z = own.cwiseQuotient(atlas_->deviations().segment(first, m));
-  const bool strong = own.cwiseAbs().maxCoeff() > kLearnedSize && z.norm() > kClear;
-  if (!strong || (!of.two_sided && own.minCoeff() < 0)) return std::nullopt;
-  return own;
 }
 
 }  // namespace lilytank

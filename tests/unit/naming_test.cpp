@@ -64,7 +64,8 @@ class NamingTest : public testing::Test {
       e.name = name, e.paths = {std::string("forces.") + name + ".strength"}, e.sizes = {1};
       effects.push_back(e), fingerprints.push_back(fingerprint(vector));
     }
-    naming_ = std::make_unique<Naming>(nulls, Matrix(), effects, fingerprints, kCurves, kFalseAlarms);
+    naming_ =
+        std::make_unique<Naming>(nulls, Matrix(), effects, fingerprints, kCurves, kFalseAlarms);
   }
 
   std::vector<int> said(const Vector& residual) const {
@@ -131,7 +132,7 @@ TEST_F(NamingTest, theScatterOfAnEffectIsNoSecondEffect) {
   for (int i = 0; i < 10; ++i) {
     scatter.row(i) = (noise(7, i) + normal(8, i, 0) * other_).transpose();
   }
-  const Vector data = noise(9, 0) + 4 * first_ + 0.8 * other_;
+  const Vector data = noise(9, 0) + 4 * first_ + 1.2 * other_;
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kOther}));
   naming_->loosen(scatter);
   EXPECT_EQ(said(data), (std::vector<int>{kFirst}));

@@ -145,10 +145,10 @@ TEST(Scores, SeeAPlantedPush) {
 TEST(Scores, MoveByAForceAsInformationsSay) {
   const Model model = drifting(8);
   const auto without = filmed(model, 60, 5);
-  const auto with = filmed(
-      with_parameters(model, std::vector<std::string>{"forces.self_propulsion.force_x"},
-                      std::vector<double>{6e-3}),
-      60, 6);
+  const auto with =
+      filmed(with_parameters(model, std::vector<std::string>{"forces.self_propulsion.force_x"},
+                             std::vector<double>{6e-3}),
+             60, 6);
   ScorePlan plan = plan_for(model, without);
   plan.shapes.clear();
   plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
@@ -170,18 +170,17 @@ TEST(Scores, MoveByAForceAsInformationsSay) {
   EXPECT_GT(moved, 0);
 }
 
-// Drag that is a third stronger than the predictor's, or water that is a tenth faster, looks like many
-// a force to scores that are not cleared of either.
+// Drag that is a third stronger than the predictor's, or water that is a tenth faster, looks like
+// many a force to scores that are not cleared of either.
 TEST(Scores, AreClearedOfWhatACalibrationAbsorbs) {
   const Model model = drifting(8);
   const auto right = filmed(model, 60, 5);
   ScorePlan plain = plan_for(model, right);
   ScorePlan cleared = plain;
   cleared.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
-  for (const auto& [path, value] : {std::pair<std::string, double>{"forces.face_drag.K_F", 0.6},
-                                    {"flow.K_v", 1.5}}) {
-    const auto wrong =
-        filmed(with_parameters(model, std::vector{path}, std::vector{value}), 60, 5);
+  for (const auto& [path, value] :
+       {std::pair<std::string, double>{"forces.face_drag.K_F", 0.6}, {"flow.K_v", 1.5}}) {
+    const auto wrong = filmed(with_parameters(model, std::vector{path}, std::vector{value}), 60, 5);
     for (const char* name : {"viscous_drag", "coriolis", "wake_shielding", "flow_drift"}) {
       const std::size_t at = entry_named(plain, name);
       const double moved = score(plain, wrong)[at] - score(plain, right)[at];
@@ -210,11 +209,12 @@ TEST(Scores, TellTheRangeOfAForceBetweenModules) {
                                        "forces.pair_repulsion.range"};
   const auto repelled =
       filmed(with_parameters(model, paths, std::vector<double>{8e-3, 0.02}), 60, 5);
-  const PairRange found = find_pair_range(plan_for(model, repelled), repelled);
-  EXPECT_LT(found.strength, 0);
-  EXPECT_NEAR(std::log(found.range / 0.02), 0, std::log(2.0));
+  const auto found = find_values(plan_for(model, repelled), repelled);
+  ASSERT_EQ(found.count("pair_attraction"), 1u);
+  EXPECT_LT(found.at("pair_attraction").amplitude, 0);
+  EXPECT_NEAR(std::log(found.at("pair_attraction").value / 0.02), 0, std::log(2.0));
   const auto nothing = filmed(model, 60, 5);
-  EXPECT_EQ(find_pair_range(plan_for(model, nothing), nothing).strength, 0);
+  EXPECT_EQ(find_values(plan_for(model, nothing), nothing).count("pair_attraction"), 0u);
 }
 
 // The frequency of vortices to a tenth; none where there are none.
