@@ -29,10 +29,9 @@ constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;         // one over the square of a second order that is expected
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 constexpr double kFarOff = 100;     // deviations
-// Of a fingerprint about found amplitudes: how far its experiments are from these as a share of
-// them, one over the square of an error of the slopes that is expected, and the degrees of freedom
-// that a slope takes, being held so.
-constexpr double kApart = 0.25, kApartLeast = 0.5, kSlopeKnown = 0.25, kSlopesFitted = 0.5;
+// Of a fingerprint about found amplitudes: one over the square of an error of the slopes that is
+// expected, and the degrees of freedom that a slope takes, being held so.
+constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
 // Of how an effect grows: of squares that chance has, by which it is clear, and of the amplitudes'
 // logarithms.
 constexpr double kClearly = 0.5, kLeastSpread = 0.03, kMostGrowth = 2.5;
@@ -117,10 +116,6 @@ Vector told_by(const Matrix& points, const Matrix& off) {
 }
 
 }  // namespace
-
-Vector apart(const Vector& amplitudes) {
-  return kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
-}
 
 Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
              const Matrix& spread, const AtlasOptions& options)
@@ -231,43 +226,6 @@ Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
 
 Vector Atlas::uncalibrated(const Vector& scores) const {
   return scores - scores_->mean(centre_);
-}
-
-double Fingerprint::noise_at(const Vector& amplitudes) const {
-  const double n = std::max(1, experiments);
-  return local() ? 1 / n : amplitudes.squaredNorm() / (kLearnedSquare * n);
-}
-
-Vector Fingerprint::moved(const Vector& amplitudes) const {
-  if (local()) return moved_base;
-  // Beyond the sizes it was learned at, calibration soon cannot follow any more.
-  return moved_first * amplitudes * std::min(1.0, kLearnedSize / amplitudes.cwiseAbs().maxCoeff());
-}
-
-Fingerprint together(const std::vector<Fingerprint>& fingerprints,
-                     const std::vector<Vector>& amplitudes) {
-  Eigen::Index m = 0, at = 0;
-  for (const Vector& a : amplitudes) m += a.size();
-  const Fingerprint& one = fingerprints.front();
-  Fingerprint out;
-  out.about.resize(m), out.base = Vector::Zero(one.base.size());
-  out.first.resize(one.base.size(), m), out.second = Matrix::Zero(one.base.size(), m);
-  out.moved_first = Matrix::Zero(one.moved_base.size(), m);
-  out.moved_base = Vector::Zero(one.moved_base.size());
-  out.told = one.told;
-  out.experiments = one.experiments;
-  for (std::size_t i = 0; i < fingerprints.size(); ++i) {
-    const Fingerprint& f = fingerprints[i];
-    const Vector& a = amplitudes[i];
-    out.about.segment(at, a.size()) = a;
-    out.first.middleCols(at, a.size()) = f.slope(a);
-    out.two_sided = out.two_sided || f.two_sided;
-    out.base += f.at(a), out.moved_base += f.moved(a);
-    out.told = out.told.cwiseMin(f.told);
-    out.experiments = std::min(out.experiments, f.experiments);
-    at += a.size();
-  }
-  return out;
 }
 
 Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
