@@ -12,7 +12,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kClear = 3;     // standard errors of what simulations say beside the filter
+constexpr double kClear = 3;       // standard errors of what simulations say beside the filter
 constexpr double kLeastShown = 2;  // deviations at an amplitude of one
 constexpr double kLeastFactor = 0.2, kMostFactor = 2;  // of the filter's answer, that is believed
 
@@ -70,8 +70,8 @@ const Matrix& Alignment::response(const Effect& effect) {
              from_informations(all, scores_, static_cast<Eigen::Index>(effect.paths.size()));
 }
 
-// What is clear of scores once the correlations of their noise are taken out: with these in it, noise
-// that is left out of one score would be found in another.
+// What is clear of scores once the correlations of their noise are taken out: with these in it,
+// noise that is left out of one score would be found in another.
 Vector Alignment::clear(const Vector& scores, double error) const {
   return root_ * (plain_ * scores).unaryExpr([&](double v) {
     return std::fabs(v) < kClear * error ? 0.0 : v;

@@ -37,9 +37,9 @@ class Alignment {
 
   const Atlas& atlas_;
   const std::vector<Recording>& recordings_;
-  Eigen::Index scores_;                          ///< numbers of the atlas that are scores
-  Eigen::MatrixXd own_;                          ///< information of the plan's scores
-  Eigen::MatrixXd plain_, root_;                 ///< takes expected correlations out, and its inverse
+  Eigen::Index scores_;           ///< numbers of the atlas that are scores
+  Eigen::MatrixXd own_;           ///< information of the plan's scores
+  Eigen::MatrixXd plain_, root_;  ///< takes expected correlations out, and its inverse
   std::map<std::string, Eigen::MatrixXd> told_;  ///< by variant: of residuals by each amplitude
 };
 

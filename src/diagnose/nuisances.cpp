@@ -103,8 +103,8 @@ Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t s
   constexpr auto terms = static_cast<Eigen::Index>(kTerms);
   Matrix basis(n, terms), off(n, 2 * kDraws);
   for (Eigen::Index c = 0; c < n; ++c) {
-    basis.row(c) = Eigen::Map<const Eigen::RowVectorXd>(
-        rows[static_cast<std::size_t>(c)].value.data(), terms);
+    basis.row(c) =
+        Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(c)].value.data(), terms);
   }
   for (int d = 0; d < kDraws; ++d) {
     const auto drawn = loosened(*maps.draw(seed, d), seed, d);

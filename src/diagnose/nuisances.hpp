@@ -1,5 +1,5 @@
-// What a calibration could absorb: errors of the baseline's parameters and smooth errors of the flow,
-// as accelerations of modules. Scores of effects are cleared of them.
+// What a calibration could absorb: errors of the baseline's parameters and smooth errors of the
+// flow, as accelerations of modules. Scores of effects are cleared of them.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>

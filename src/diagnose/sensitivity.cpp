@@ -137,8 +137,8 @@ Matrix Sensitivities::informations(const Matrix& known) const {
   const Matrix all = products(static_cast<Eigen::Index>(features_));
   const Matrix shared = all.topRightCorner(told, n);
   const Matrix normal = all.bottomRightCorner(n, n) + known;
-  const Matrix left = all.topLeftCorner(told, told) -
-                      shared * solve_symmetric(normal, Matrix(shared.transpose()));
+  const Matrix left =
+      all.topLeftCorner(told, told) - shared * solve_symmetric(normal, Matrix(shared.transpose()));
   Matrix out = 0.5 * (left + left.transpose());
   for (Eigen::Index k = 0; k < told; ++k) {
     if (out(k, k) > kLeastLeft * all(k, k)) continue;

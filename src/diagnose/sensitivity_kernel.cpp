@@ -26,8 +26,8 @@ void pass(const FeatureAxis& a, float root, std::size_t count, const float* push
   const Float found = hn::Set(d, a.found), weight = hn::Set(d, a.weight), scale = hn::Set(d, root);
   for (std::size_t f = 0; f < count; f += hn::Lanes(d)) {
     const Float pushed = hn::LoadU(d, push + f), speed = hn::LoadU(d, v + f);
-    const Float at = hn::Add(hn::LoadU(d, x + f),
-                             hn::Mul(dt, hn::Add(speed, hn::Mul(half, pushed))));
+    const Float at =
+        hn::Add(hn::LoadU(d, x + f), hn::Mul(dt, hn::Add(speed, hn::Mul(half, pushed))));
     const Float later = hn::Add(hn::Mul(keep, speed), hn::Mul(dt, pushed));
     hn::StoreU(hn::Mul(scale, at), d, now + f);
     hn::StoreU(hn::Add(hn::LoadU(d, score + f), hn::Mul(found, at)), d, score + f);
