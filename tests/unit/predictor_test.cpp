@@ -217,6 +217,35 @@ TEST(Scores, TellTheRangeOfAForceBetweenModules) {
   EXPECT_EQ(find_values(plan_for(model, nothing), nothing).count("pair_attraction"), 0u);
 }
 
+// Modules that a wall attracts lie at it, and it holds them: counting these, the force would seem
+// to be a third of what it is.
+TEST(Scores, TellAWallThatAttractsModulesThoughItHoldsThem) {
+  Model model = drifting(15);
+  model.flow.K_v = 0.3;  // or pumps would keep modules off the wall
+  const std::vector<Effect> catalogue = effect_catalogue(model);
+  Effect wall = *std::find_if(catalogue.begin(), catalogue.end(),
+                              [](const Effect& e) { return e.name == "wall_force"; });
+  wall.shape[0].second = 0.03;
+  const auto recordings = filmed(with_effect(model, wall, {7e-3}), 120, 5);
+  const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {wall});
+  const double truth = 7e-3 / wall.sizes[0];
+  EXPECT_NEAR(told[0].estimate(0), truth, 0.15 * truth);
+}
+
+// An effect far beyond the size at which it is tried, all its components together; hardly anything
+// of one that is not there.
+TEST(Scores, TellStrongEffectsByTheirComponentsTogether) {
+  const Model model = drifting(15);
+  const Effect stream = stream_effect(model, -0.05, 0.12, 0.09);
+  const auto recordings = filmed(with_effect(model, stream, {0.18, -0.12}), 60, 5);
+  const Effect elsewhere = stream_effect(model, 0.1, -0.12, 0.05);
+  const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {stream, elsewhere});
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_NEAR(told[0].estimate(0), 3, 0.6);  // in sizes of 6 cm/s
+  EXPECT_NEAR(told[0].estimate(1), -2, 0.4);
+  EXPECT_GT(told[0].gain, 20 * std::max(1.0, told[1].gain));
+}
+
 // The frequency of vortices to a tenth; none where there are none.
 TEST(Scores, TellTheFrequencyOfVortices) {
   const Model model = drifting(15);
