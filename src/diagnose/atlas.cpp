@@ -187,7 +187,7 @@ Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const
           std::clamp(effect->absent(stages_.setup().model, k) + amplitudes(i, c) * effect->sizes[k],
                      of.low, of.high));
     }
-    const auto field = loosened(*maps_.draw(derived_seed(seed, kFieldSeed), i), seed, i);
+    const auto field = loosened(maps_, derived_seed(seed, kFieldSeed), seed, i);
     const auto made =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
     if (!made) return std::vector<double>{};

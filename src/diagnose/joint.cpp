@@ -78,7 +78,7 @@ class Joint {
     place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
     const std::string name = stage + " " + hex(place.value());
     const auto rows = stages_.rows(name, static_cast<int>(points.rows()), [&](int i) {
-      const auto field = loosened(*maps_.draw(derived_seed(seed, kMix), i), seed, i);
+      const auto field = loosened(maps_, derived_seed(seed, kMix), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
       if (!made) return std::vector<double>{};

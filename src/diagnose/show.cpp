@@ -128,7 +128,7 @@ std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps&
   const auto stopped = [&] { return o.stop != nullptr && o.stop->load(); };
   for_each_world(count, o.threads, [&](int i) {
     if (stopped()) return;
-    const auto field = loosened(*maps.draw(derived_seed(seed, 7), i), seed, i);
+    const auto field = loosened(maps, derived_seed(seed, 7), seed, i);
     made[static_cast<std::size_t>(i)] =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
   });

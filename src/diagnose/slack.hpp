@@ -1,17 +1,18 @@
-// How far a flow map may be off beyond what its own error draws say: smooth errors of the mean and
-// of the gusts, which no finding may rest on.
+// How far a flow map may be off: farther than its own error draws say, and smooth errors of the
+// mean and of the gusts beside, which no finding may rest on.
 #pragma once
 #include <cstdint>
 #include <memory>
 
-#include "lilytank/flow_field.hpp"
+#include "lilytank/flow_maps.hpp"
 
 namespace lilytank {
 
-/// The field with a smooth random error added: of the mean 3 % of its root mean square per axis,
-/// over lengths of a quarter of the tank and more; of the gusts' deviation a common 4 % and a
-/// smooth 4 %. Draw `run`.
-std::shared_ptr<const FlowField> loosened(const FlowField& field, std::uint64_t seed,
-                                          std::int64_t run);
+/// Draw `run` of the fields that could be the true one, 1.4 times as far from the best one as balls
+/// leave open, and a smooth random error of `seed` added: of the mean 2 % of its root mean square
+/// per axis, over lengths of a quarter of the tank and more; of the gusts' deviation a common 3 %
+/// and a smooth 3 %.
+std::shared_ptr<const FlowField> loosened(const FlowMaps& maps, std::uint64_t field_seed,
+                                          std::uint64_t seed, std::int64_t run);
 
 }  // namespace lilytank
