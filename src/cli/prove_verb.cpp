@@ -84,7 +84,8 @@ int prove_verb(const Arguments& arguments) {
   job.only = options.text("only", "");
   const std::vector<std::string> kinds{"null", "named", "two", "unnamed"};
   if (options.has("only") && std::find(kinds.begin(), kinds.end(), job.only) == kinds.end()) {
-    options.refuse("--only " + job.only + ": null, named, two or unnamed");
+    options.refuse("--only " + job.only + " is none of null, named, two, unnamed" +
+                   did_you_mean(job.only, kinds));
   }
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
   job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));

@@ -1,6 +1,8 @@
 // Numbers of effects that recordings tell directly: where in the tank a stream would explain most,
 // over which range a force between modules would, beside the effects of plan.beside.
 #pragma once
+#include <map>
+#include <string>
 #include <vector>
 
 #include "diagnose/score_plan.hpp"

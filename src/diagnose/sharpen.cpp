@@ -132,6 +132,10 @@ Fingerprint Diagnoser::Sharpening::fingerprint(const EffectFit& f) {
 }
 
 void Diagnoser::Sharpening::forget(const std::string& effect) {
+  std::erase_if(own_, [&](const auto& one) {
+    const int name = one.first.first;
+    return name >= 0 && of_.atlas_->plan().effects[static_cast<std::size_t>(name)].name == effect;
+  });
   for (auto known = known_.begin(); known != known_.end();) {
     const auto [name, shape] = known->first;
     const std::vector<Effect>& effects = of_.atlas_->plan().effects;
@@ -184,10 +188,16 @@ EffectFit Diagnoser::Sharpening::begun(EffectFit f) {
   f.effect = name_of(f).first;
   const Effect effect = of_.found_effect(f, judged_.details);
   if (!effect.mean_force) return f;
-  const JointAmplitudes own =
-      joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect}).front();
-  if (tells(effect, own)) f.amplitudes = own.estimate;
+  const JointAmplitudes& told = own(f, effect);
+  if (tells(effect, told)) f.amplitudes = told.estimate;
   return f;
+}
+
+const JointAmplitudes& Diagnoser::Sharpening::own(const EffectFit& f, const Effect& effect) {
+  const auto known = own_.find(name_of(f));
+  if (known != own_.end()) return known->second;
+  auto told = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect});
+  return own_[name_of(f)] = std::move(told.front());
 }
 
 // Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
@@ -205,10 +215,10 @@ std::vector<EffectFit> Diagnoser::Sharpening::clearest() {
   const auto told = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), tried);
   std::vector<EffectFit> out;
   for (const auto& [name, effect] : of) {
-    const JointAmplitudes& own = told[out.size()];
+    const JointAmplitudes& one = own_[name] = told[out.size()];
     EffectFit f;
-    f.effect = name.first, f.amplitudes = own.estimate;
-    f.gain = tells(effect, own) ? own.gain : 0;
+    f.effect = name.first, f.amplitudes = one.estimate;
+    f.gain = tells(effect, one) ? one.gain : 0;
     out.push_back(std::move(f));
   }
   std::stable_sort(out.begin(), out.end(),

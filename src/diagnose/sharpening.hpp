@@ -44,6 +44,8 @@ class Diagnoser::Sharpening {
   Explanation settled(Explanation e);
   // Where its first experiments are to be.
   EffectFit begun(EffectFit f);
+  // What the filter says of an effect or a curve in the very recordings; asked once.
+  const JointAmplitudes& own(const EffectFit& f, const Effect& effect);
   // The effects that the filter says most clearly, by their amplitudes in the very recordings.
   std::vector<EffectFit> clearest();
   // Whether its fingerprint is not one of its strength.
@@ -109,9 +111,10 @@ class Diagnoser::Sharpening {
   Alignment& alignment_;
   Judged& judged_;
   const Eigen::VectorXd& residual_;
-  double nothing_;                     // squared distance of nothing, by the scatter of nulls
-  std::map<std::string, int> home_;    // the effect that stands for all of a name
-  std::map<Name, Fingerprint> known_;  // fingerprints about found amplitudes
+  double nothing_;                       // squared distance of nothing, by the scatter of nulls
+  std::map<std::string, int> home_;      // the effect that stands for all of a name
+  std::map<Name, JointAmplitudes> own_;  // what the filter says of effects
+  std::map<Name, Fingerprint> known_;    // fingerprints about found amplitudes
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
   std::map<Name, int> moved_;             // how often experiments of its own were made anew

@@ -28,7 +28,8 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"prove nowhere --worlds 3", "--worlds is for a new proof"},
       {"prove nowhere", "nowhere holds no finished proof: there is no key.txt"},
       {"prove --worlds 0", "--worlds"},
-      {"prove --only nothing", "--only nothing: null, named, two or unnamed"},
+      {"prove --only nothing", "--only nothing is none of null, named, two, unnamed"},
+      {"prove --only unamed", "--only unamed is none of null, named, two, unnamed - did you mean"},
       {"prove --worlds 1 --only named", "none of the first 1 sealed experiments is \"named\""},
   };
   for (const auto& c : cases) {
