@@ -17,7 +17,7 @@ constexpr std::size_t kTried = 8;  // candidates that are fitted together with t
 constexpr int kMostPasses = 4;
 // Share of what was found that a remainder may be: fingerprints are known to some per cent only,
 // those about found amplitudes better; of a curve six straight pieces are off by more.
-constexpr double kInexact = 0.2, kInexactAbout = 0.15, kRough = 0.25;
+constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 // Share of a curve's gain that does not count: it may bend to what names leave, the less the better
 // both are known.

@@ -132,7 +132,7 @@ TEST_F(NamingTest, theScatterOfAnEffectIsNoSecondEffect) {
   for (int i = 0; i < 10; ++i) {
     scatter.row(i) = (noise(7, i) + normal(8, i, 0) * other_).transpose();
   }
-  const Vector data = noise(9, 0) + 4 * first_ + 1.2 * other_;
+  const Vector data = noise(9, 0) + 4 * first_ + 0.8 * other_;
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kOther}));
   naming_->loosen(scatter);
   EXPECT_EQ(said(data), (std::vector<int>{kFirst}));
