@@ -157,28 +157,33 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
   return s.effects.empty() ? 0 : least;
 }
 
-}  // namespace
-
-std::optional<Proof> prove(const ProofOptions& options) try {
-  const Experiment open = open_tank(options);
-  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kKeySeed);
-  const Model tank = tank_model();
-  const double seconds = 60 * options.minutes;
+// Those of the kind that is asked for.
+std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
+                              const std::vector<Shape>& shapes, std::uint64_t seed) {
   const std::vector<Effect> effects = effect_catalogue(tank);
-  const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
-  Proof out;
-  std::vector<Sealed> sealed;
-  std::vector<int> number;  // of each in the sequence of all
+  std::vector<Sealed> out;
   for (int w = 0; w < options.worlds; ++w) {
     Sealed one = seal(tank, effects, shapes, seed, w);
-    if (!options.only.empty() && one.kind != options.only) continue;
-    out.key += std::to_string(w) + " " + key_text(one);
-    sealed.push_back(std::move(one)), number.push_back(w);
+    if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
   }
-  if (sealed.empty()) {
+  if (out.empty()) {
     throw InputError("none of the first " + std::to_string(options.worlds) +
                      " sealed experiments is \"" + options.only + "\"");
   }
+  return out;
+}
+
+}  // namespace
+
+std::optional<Proof> prove(const ProofOptions& options) try {
+  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kKeySeed);
+  const Model tank = tank_model();
+  const double seconds = 60 * options.minutes;
+  const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
+  Proof out;
+  const std::vector<Sealed> sealed = asked_for(options, tank, shapes, seed);
+  for (const Sealed& s : sealed) out.key += std::to_string(s.world) + " " + key_text(s);
+  const Experiment open = open_tank(options);
   out.hash = sha256(out.key), out.sealed = sealed.size();
   if (options.sealed) options.sealed(out.hash);
   DiagnosisOptions job = options.diagnosis;
@@ -197,7 +202,7 @@ std::optional<Proof> prove(const ProofOptions& options) try {
   const double of_all = options.only == "null" ? 1 : kOfAWorld;
   diagnoser.prepare(of_all * static_cast<double>(sealed.size()) + curves +
                     options.modelled * diagnoser.model_cost());
-  const auto of = [&](std::size_t i) { return static_cast<std::uint64_t>(number[i]); };
+  const auto of = [&](std::size_t i) { return static_cast<std::uint64_t>(sealed[i].world); };
   const auto film = [&](std::size_t i) {
     return film_sealed(tank, sealed[i], seconds, derived_seed(seed, kWorldSeed + of(i)));
   };

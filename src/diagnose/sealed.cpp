@@ -144,6 +144,7 @@ Model with_steps(Model model, int steps) {
 Sealed seal(const Model& tank, const std::vector<Effect>& effects, const std::vector<Shape>& shapes,
             std::uint64_t seed, int world) {
   Sealed out;
+  out.world = world;
   for (std::uint32_t k = 0; k < 5; ++k) {
     out.factors.push_back(1 + kOff * (2 * draw(seed, world, 40 + k) - 1));
   }

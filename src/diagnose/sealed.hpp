@@ -24,6 +24,7 @@ struct SealedEffect {
 
 /// What stands in the sealed envelope.
 struct Sealed {
+  int world = 0;                   ///< its number in the sequence of a seed
   std::string kind;                ///< null, named, two, unnamed
   std::vector<std::string> names;  ///< of the effects; of a law without one its variable
   std::vector<SealedEffect> effects;
