@@ -44,15 +44,15 @@ TEST(diagnoseVerb, refusesWithOneLine) {
 // The proofs that the documents tell of, told together again.
 TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Program lilytank;
-  const std::string seed10 = std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/seed10";
-  const Answer said = lilytank("prove " + seed10);
+  const std::string seed16 = std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/seed16";
+  const Answer said = lilytank("prove " + seed16);
   EXPECT_EQ(said.code, 0) << said.err;
   EXPECT_TRUE(said.out.starts_with("proof on 80 of 80 sealed experiments\n")) << said.out;
-  const Answer report = lilytank("prove " + seed10 + " --out r");
+  const Answer report = lilytank("prove " + seed16 + " --out r");
   EXPECT_EQ(report.code, 0) << report.err;
   EXPECT_EQ(report.out, said.out);
   EXPECT_EQ(lilytank.here.read("r/proof.txt"), said.out);
-  const Answer twice = lilytank("prove " + seed10 + " " + seed10 + " --out r");
+  const Answer twice = lilytank("prove " + seed16 + " " + seed16 + " --out r");
   EXPECT_EQ(twice.code, 2);
   EXPECT_NE(twice.err.find("has the same key as"), std::string::npos) << twice.err;
 #ifdef LILYTANK_HAS_RENDER
