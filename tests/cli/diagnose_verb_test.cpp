@@ -55,6 +55,11 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Answer twice = lilytank("prove " + seed16 + " " + seed16 + " --out r");
   EXPECT_EQ(twice.code, 2);
   EXPECT_NE(twice.err.find("has the same key as"), std::string::npos) << twice.err;
+  const Answer nulls =
+      lilytank("prove " + seed16 + " " + std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/nulls15");
+  EXPECT_EQ(nulls.code, 0) << nulls.err;
+  EXPECT_TRUE(nulls.out.starts_with("proof on 160 of 160 sealed experiments in 2 tanks\n"))
+      << nulls.out;
 #ifdef LILYTANK_HAS_RENDER
   const std::string page = lilytank.here.read("r/report.html");
   for (const char* part : {"How often sealed", "What was said of every", "local_flow"}) {
