@@ -43,8 +43,8 @@ TEST(Determinism, GoldenFingerprints) {
     EXPECT_EQ(final_hash(scene.model, 42, scene.seconds), scene.golden) << scene.name;
 }
 
-// Calibrations and diagnoses are the same on every processor only if their matrices are cut into the
-// same blocks; -1 is "not known, take what is usual".
+// Calibrations and diagnoses are the same on every processor only if their matrices are cut into
+// the same blocks; -1 is "not known, take what is usual".
 TEST(Determinism, MatricesAreNotCutByTheProcessorsCaches) {
   int l1 = 0, l2 = 0, l3 = 0;
   Eigen::internal::queryCacheSizes(l1, l2, l3);
