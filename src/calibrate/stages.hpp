@@ -1,6 +1,7 @@
 // The stages of a calibration, in their order. Each keeps what it has done in the directory and
 // goes on from there.
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,10 @@ class Stages {
   /// How many simulated experiments are still to come, for the progress, by whoever knows better
   /// than a calibration's usual course.
   void expect(double experiments) { expected_ = spent_ + experiments; }
+  /// In simulated experiments, for the progress: what is done, and that so much is, by work that
+  /// simulates less than was expected.
+  double spent() const { return spent_; }
+  void reach(double spent) { spent_ = std::max(spent_, spent); }
   /// Experiments that estimates and intervals rest on.
   int simulations() const { return simulations_; }
   /// A piece's share of an experiment.

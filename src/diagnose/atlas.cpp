@@ -300,13 +300,15 @@ Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, cons
 
 Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
                                      const Effect& effect, const Vector& calibrated,
-                                     const std::string& name, int experiments) {
+                                     const std::string& name, LearnedFingerprints& learned,
+                                     int experiments) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
   // What a calibration no longer tells beside the effect stays where it is expected.
   const Vector away = from.told.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
   const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
-  if (const Local* known = learned_near(name, amplitudes, point, experiments)) {
+  std::vector<LearnedFingerprint>& own = learned[name];
+  if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
     return known->fingerprint;
   }
   // By what is simulated, not by who asked first.
@@ -338,18 +340,17 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
                 std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
   out.experiments = static_cast<int>(off.rows()), out.exact = 0;
-  local_[name].push_back({point, out, experiments});
+  own.push_back({point, out, experiments});
   return out;
 }
 
 // The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
-const Atlas::Local* Atlas::learned_near(const std::string& name, const Vector& amplitudes,
-                                        const Vector& point, int experiments) const {
-  const auto all = local_.find(name);
-  if (all == local_.end()) return nullptr;
-  const Local* nearest = nullptr;
+const LearnedFingerprint* Atlas::nearest_of(const std::vector<LearnedFingerprint>& learned,
+                                            const Vector& amplitudes, const Vector& point,
+                                            int experiments) const {
+  const LearnedFingerprint* nearest = nullptr;
   double least = 1;
-  for (const Local& one : all->second) {
+  for (const LearnedFingerprint& one : learned) {
     if (one.experiments < experiments) continue;
     const Vector& at = one.fingerprint.about;
     const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();

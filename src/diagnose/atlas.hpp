@@ -21,6 +21,16 @@
 
 namespace lilytank {
 
+/// Fingerprints about amplitudes that were found, by the names of effects and shapes, and the
+/// parameters they were learned at. Each judgement learns its own: what is said of one experiment
+/// must not depend on which others were asked before.
+struct LearnedFingerprint {
+  Eigen::VectorXd point;
+  Fingerprint fingerprint;
+  int experiments = 0;  ///< that were asked for
+};
+using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
+
 struct AtlasOptions {
   int nulls = 300;       ///< experiments simulated without any effect
   int experiments = 14;  ///< with an effect, for each of its amplitudes
@@ -67,11 +77,12 @@ class Atlas {
   Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
   /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
   /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
-  /// that was learned there before, by no fewer experiments (an even number), serves again.
-  /// `name`: of the effect or shape, its own.
+  /// that was learned there before, by no fewer experiments (an even number), serves again; a new
+  /// one is added. `name`: of the effect or shape, its own.
   Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
                                 const Effect& effect, const Eigen::VectorXd& calibrated,
-                                const std::string& name, int experiments = kAbout);
+                                const std::string& name, LearnedFingerprints& learned,
+                                int experiments = kAbout);
   /// Mean residual of `experiments` simulated with an effect at these amplitudes and parameters;
   /// kept as `stage`.
   Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
@@ -92,14 +103,9 @@ class Atlas {
   Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                   const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
                   std::uint64_t seed);
-  /// A fingerprint about amplitudes, and the parameters it was learned at.
-  struct Local {
-    Eigen::VectorXd point;
-    Fingerprint fingerprint;
-    int experiments = kAbout;  ///< that were asked for
-  };
-  const Local* learned_near(const std::string& name, const Eigen::VectorXd& amplitudes,
-                            const Eigen::VectorXd& point, int experiments) const;
+  const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
+                                       const Eigen::VectorXd& amplitudes,
+                                       const Eigen::VectorXd& point, int experiments) const;
   Prior prior() const;
   Eigen::Index summary_numbers() const;
   Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
@@ -114,7 +120,6 @@ class Atlas {
   Eigen::MatrixXd null_residuals_, informations_;
   Eigen::Index named_ = 0;
   std::vector<Fingerprint> fingerprints_;
-  std::map<std::string, std::vector<Local>> local_;  ///< by name
 };
 
 }  // namespace lilytank

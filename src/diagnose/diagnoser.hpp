@@ -82,7 +82,8 @@ class Diagnoser {
   /// Learned when it is asked for first.
   const Fingerprint& shape_fingerprint(int shape);
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
-                               const Judged& judged, int experiments = Atlas::kAbout);
+                               const Judged& judged, LearnedFingerprints& learned,
+                               int experiments = Atlas::kAbout);
   void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
+#include "diagnose/proof_files.hpp"
 #include "diagnose/sealed.hpp"
 #include "diagnose/yardstick.hpp"
 #include "io/sha256.hpp"
@@ -16,8 +17,9 @@ namespace {
 constexpr int kBalls = 24;
 constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
                         kExpectedSeed = 1u << 21;
-constexpr double kOfAWorld = 28;  // experiments, on the average
-constexpr int kExpected = 8;      // experiments that tell how strongly an effect shows
+// A world takes as long as so many simulated experiments, on the average; one with nothing in it.
+constexpr double kOfAWorld = 70, kOfANull = 6;
+constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
 Experiment open_tank(const ProofOptions& options) {
@@ -173,68 +175,120 @@ std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
   return out;
 }
 
+// One tank and its sealed experiments, asked one after another.
+class Examination {
+ public:
+  explicit Examination(const ProofOptions& options)
+      : options_(options),
+        tank_(tank_model()),
+        seed_(derived_seed(options.diagnosis.seed, kKeySeed)),
+        seconds_(60 * options.minutes),
+        shapes_(shape_catalogue(tank_, seconds_)),
+        sealed_(asked_for(options, tank_, shapes_, seed_)) {
+    for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);
+    out_.hash = sha256(out_.key), out_.sealed = sealed_.size();
+  }
+
+  Proof run() {
+    const Experiment open = open_tank(options_);
+    if (options_.sealed) options_.sealed(out_.hash);
+    DiagnosisOptions job = options_.diagnosis;
+    job.hold_out = 0;
+    if (job.progress) {
+      job.progress = [this, tell = job.progress](double done, const std::string& stage) {
+        tell(done, world_told_ + stage);
+      };
+    }
+    Diagnoser diagnoser(open, job);
+    diagnoser.prepare(after(diagnoser));
+    rows_ = film_all(diagnoser);
+    const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
+    const double begin = diagnoser.stages().spent();
+    for (std::size_t w = 0; w < rows_.size(); ++w) {
+      world_told_ = "world " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
+      if (w < before.size() && !asks_for_model(before[w])) {
+        out_.worlds.push_back(before[w]);
+      } else {
+        out_.worlds.push_back(ask(diagnoser, w));
+        keep_worlds(job.out, out_);
+      }
+      modelled_ += out_.worlds.back().intervals.empty() ? 0 : 1;
+      diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
+                               modelled_ * diagnoser.model_cost());
+      if (options_.judged) options_.judged(out_);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  double of_a_world() const { return options_.only == "null" ? kOfANull : kOfAWorld; }
+
+  // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds.
+  double after(const Diagnoser& diagnoser) const {
+    const int experiments = DiagnosisBudget(options_.diagnosis.minutes).experiments;
+    return of_a_world() * static_cast<double>(sealed_.size()) +
+           static_cast<double>(shapes_.size()) * kKnots * experiments +
+           options_.modelled * diagnoser.model_cost();
+  }
+
+  std::uint64_t number(std::size_t w) const { return static_cast<std::uint64_t>(sealed_[w].world); }
+
+  std::optional<std::vector<Recording>> film(std::size_t w) const {
+    return film_sealed(tank_, sealed_[w], seconds_, derived_seed(seed_, kWorldSeed + number(w)));
+  }
+
+  std::vector<std::vector<double>> film_all(Diagnoser& diagnoser) const {
+    const std::string stage = options_.only.empty() ? "sealed" : "sealed " + options_.only;
+    const auto row = [&](int i) {
+      const auto made = film(static_cast<std::size_t>(i));
+      if (!made) return std::vector<double>{};
+      Judged j;
+      j.observed = diagnoser.atlas().vectors(*made, &j.details);
+      return row_of(j, sparse_regression(diagnoser.atlas().plan(), *made));
+    };
+    return diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row);
+  }
+
+  static bool found(const ProofWorld& world) {
+    return world.right() && world.verdict == Verdict::missing;
+  }
+  bool asks_for_model(const ProofWorld& world) const {
+    return found(world) && world.intervals.empty() && modelled_ < options_.modelled;
+  }
+
+  ProofWorld ask(Diagnoser& diagnoser, std::size_t w) const {
+    const Sealed& s = sealed_[w];
+    ProofWorld world;
+    world.kind = s.kind, world.effects = s.names;
+    world.expected_z =
+        expected_z(diagnoser, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
+    Diagnosis d;
+    std::vector<Recording> recordings;
+    if (!rows_[w].empty()) recordings = film(w).value_or(recordings);
+    const std::optional<Judged> judged = judge_world(diagnoser, rows_[w], recordings, d, world);
+    if (judged && asks_for_model(world)) {
+      model_world(diagnoser, *judged, tank_, s, seconds_,
+                  derived_seed(seed_, kFurtherSeed + number(w)), d, world);
+    }
+    return world;
+  }
+
+  const ProofOptions& options_;
+  Model tank_;
+  std::uint64_t seed_;
+  double seconds_;
+  std::vector<Shape> shapes_;
+  std::vector<Sealed> sealed_;
+  std::vector<std::vector<double>> rows_;  // what is measured in each
+  Proof out_;
+  std::string world_told_;  // before the stage, in the progress
+  int modelled_ = 0;
+};
+
 }  // namespace
 
 std::optional<Proof> prove(const ProofOptions& options) try {
-  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kKeySeed);
-  const Model tank = tank_model();
-  const double seconds = 60 * options.minutes;
-  const std::vector<Shape> shapes = shape_catalogue(tank, seconds);
-  Proof out;
-  const std::vector<Sealed> sealed = asked_for(options, tank, shapes, seed);
-  for (const Sealed& s : sealed) out.key += std::to_string(s.world) + " " + key_text(s);
-  const Experiment open = open_tank(options);
-  out.hash = sha256(out.key), out.sealed = sealed.size();
-  if (options.sealed) options.sealed(out.hash);
-  DiagnosisOptions job = options.diagnosis;
-  job.hold_out = 0;
-  std::string world_told;  // before the stage, in the progress
-  if (job.progress) {
-    job.progress = [&world_told, tell = job.progress](double done, const std::string& stage) {
-      tell(done, world_told + stage);
-    };
-  }
-  Diagnoser diagnoser(open, job);
-  // Worlds ask for those of what is in them and for some twenty about what is found, all together
-  // for those of curves.
-  const double curves =
-      static_cast<double>(shapes.size()) * kKnots * DiagnosisBudget(job.minutes).experiments;
-  const double of_all = options.only == "null" ? 1 : kOfAWorld;
-  diagnoser.prepare(of_all * static_cast<double>(sealed.size()) + curves +
-                    options.modelled * diagnoser.model_cost());
-  const auto of = [&](std::size_t i) { return static_cast<std::uint64_t>(sealed[i].world); };
-  const auto film = [&](std::size_t i) {
-    return film_sealed(tank, sealed[i], seconds, derived_seed(seed, kWorldSeed + of(i)));
-  };
-  const std::string stage = options.only.empty() ? "sealed" : "sealed " + options.only;
-  const auto rows = diagnoser.stages().rows(stage, static_cast<int>(sealed.size()), [&](int i) {
-    const auto made = film(static_cast<std::size_t>(i));
-    if (!made) return std::vector<double>{};
-    Judged j;
-    j.observed = diagnoser.atlas().vectors(*made, &j.details);
-    return row_of(j, sparse_regression(diagnoser.atlas().plan(), *made));
-  });
-  int modelled = 0;
-  for (std::size_t w = 0; w < rows.size(); ++w) {
-    ProofWorld world;
-    world_told = "world " + std::to_string(w + 1) + " of " + std::to_string(rows.size()) + ": ";
-    world.kind = sealed[w].kind, world.effects = sealed[w].names;
-    world.expected_z =
-        expected_z(diagnoser, tank, sealed[w], of(w), derived_seed(seed, kExpectedSeed + of(w)));
-    Diagnosis d;
-    std::vector<Recording> recordings;
-    if (!rows[w].empty()) recordings = film(w).value_or(recordings);
-    const std::optional<Judged> judged = judge_world(diagnoser, rows[w], recordings, d, world);
-    const bool found = judged && world.right() && d.verdict == Verdict::missing;
-    if (found && modelled < options.modelled) {
-      modelled += 1;
-      model_world(diagnoser, *judged, tank, sealed[w], seconds,
-                  derived_seed(seed, kFurtherSeed + of(w)), d, world);
-    }
-    out.worlds.push_back(std::move(world));
-    if (options.judged) options.judged(out);
-  }
-  return out;
+  return Examination(options).run();
 } catch (const Stopped&) {
   return std::nullopt;
 }

@@ -1,4 +1,6 @@
 // Tables of a proof, written and read back: one row a world, one row an interval.
+#include "diagnose/proof_files.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -6,13 +8,15 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/sha256.hpp"
-#include "lilytank/proof.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr std::size_t kHashDigits = 16;  // of a key, in names of files
 const std::string kWorldColumns =
     "world,kind,key,expected_z,verdict,said,alternatives,z,removed,gain_nat,gain_low_nat,"
     "regression,msd_misfit,right,wrong_name";
@@ -95,8 +99,7 @@ std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-void read_worlds(const std::string& dir, Proof& proof) {
-  const std::string file = (std::filesystem::path(dir) / "proof.csv").string();
+void read_worlds(const std::string& file, Proof& proof) {
   const std::string text = read_whole(file);
   CsvReader rows(text, file, {kWorldColumns});
   const std::vector<std::string> key = split(proof.key, "\n");
@@ -128,8 +131,7 @@ void read_worlds(const std::string& dir, Proof& proof) {
   }
 }
 
-void read_intervals(const std::string& dir, Proof& proof) {
-  const std::string file = (std::filesystem::path(dir) / "intervals.csv").string();
+void read_intervals(const std::string& file, Proof& proof) {
   const std::string text = read_whole(file);
   CsvReader rows(text, file, {kIntervalColumns});
   while (rows.next()) {
@@ -140,6 +142,16 @@ void read_intervals(const std::string& dir, Proof& proof) {
                                              rows.number(kHigh)});
   }
 }
+
+// Where worlds of a key are kept, and their intervals.
+struct KeptFiles {
+  std::string worlds, intervals;
+  KeptFiles(const std::string& dir, const std::string& hash) {
+    const fs::path work = fs::path(dir) / "work";
+    const std::string of = " of " + hash.substr(0, kHashDigits) + ".csv";
+    worlds = (work / ("worlds" + of)).string(), intervals = (work / ("intervals" + of)).string();
+  }
+};
 
 }  // namespace
 
@@ -176,16 +188,34 @@ std::string proof_intervals_csv(const Proof& proof) {
 }
 
 Proof read_proof(const std::string& dir) {
-  const std::filesystem::path key = std::filesystem::path(dir) / "key.txt";
-  if (!std::filesystem::exists(key)) {
+  const fs::path key = fs::path(dir) / "key.txt";
+  if (!fs::exists(key)) {
     throw InputError(dir + " holds no finished proof: there is no key.txt");
   }
   Proof proof;
   proof.key = read_whole(key.string());
   proof.hash = sha256(proof.key), proof.sealed = lines_of(proof.key);
-  read_worlds(dir, proof);
-  read_intervals(dir, proof);
+  read_worlds((fs::path(dir) / "proof.csv").string(), proof);
+  read_intervals((fs::path(dir) / "intervals.csv").string(), proof);
   return proof;
+}
+
+// A kill between the two files leaves a world whose model is not there, which is asked again.
+void keep_worlds(const std::string& dir, const Proof& so_far) {
+  if (dir.empty()) return;
+  const KeptFiles files(dir, so_far.hash);
+  write_atomically(files.worlds, proof_csv(so_far));
+  write_atomically(files.intervals, proof_intervals_csv(so_far));
+}
+
+std::vector<ProofWorld> kept_worlds(const std::string& dir, const Proof& of) {
+  const KeptFiles files(dir, of.hash);
+  if (dir.empty() || !fs::exists(files.worlds)) return {};
+  Proof kept;
+  kept.key = of.key, kept.hash = of.hash;
+  read_worlds(files.worlds, kept);
+  if (fs::exists(files.intervals)) read_intervals(files.intervals, kept);
+  return std::move(kept.worlds);
 }
 
 }  // namespace lilytank

@@ -192,8 +192,9 @@ Fingerprint Diagnoser::Sharpening::simulated(const std::vector<EffectFit>& found
         at.push_back(f.amplitudes);
   }
   const Fingerprint sum = together(each, at);
-  Fingerprint out = of_.atlas_->fingerprint_about(
-      sum.about, sum, together(effects), of_.atlas_->calibrated(judged_.observed.summary), name);
+  Fingerprint out = of_.atlas_->fingerprint_about(sum.about, sum, together(effects),
+                                                  of_.atlas_->calibrated(judged_.observed.summary),
+                                                  name, learned_);
   out.base = out.at(sum.about), out.about = sum.about;
   return out;
 }

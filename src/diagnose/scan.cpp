@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnose/scores.hpp"
+#include "lilytank/study.hpp"
 
 namespace lilytank {
 namespace {
@@ -75,8 +76,13 @@ std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
   return out;
 }
 
-Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings) {
-  return {find_stream(plan, recordings), find_values(plan, recordings)};
+Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads) {
+  Scans out;
+  for_each_world(2, threads, [&](int i) {
+    if (i == 0) out.stream = find_stream(plan, recordings);
+    if (i == 1) out.values = find_values(plan, recordings);
+  });
+  return out;
 }
 
 }  // namespace lilytank

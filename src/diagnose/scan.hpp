@@ -18,7 +18,7 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
 std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
                                                 const std::vector<Recording>& recordings);
 
-/// Both.
-Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings);
+/// Both, `threads` at a time (0: one a core).
+Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads);
 
 }  // namespace lilytank

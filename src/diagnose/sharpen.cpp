@@ -156,8 +156,9 @@ void Diagnoser::Sharpening::sharpen(EffectFit f, int experiments) {
   if (known_.count(name_of(f)) == 0) f = begun(f);
   const Fingerprint from = fingerprint(f);
   f.amplitudes = halfway(f, from);
-  const Fingerprint to = alignment_.aligned(of_.fingerprint_near(f, from, judged_, experiments),
-                                            of_.found_effect(f, judged_.details));
+  const Fingerprint to =
+      alignment_.aligned(of_.fingerprint_near(f, from, judged_, learned_, experiments),
+                         of_.found_effect(f, judged_.details));
   known_[name_of(f)] = to;
   naming_.sharpen(f, to);
   alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
@@ -264,7 +265,7 @@ std::optional<EffectFit> Diagnoser::Sharpening::next_after(const Explanation& e)
 Explanation Diagnoser::sharpened(Naming& naming, Alignment& alignment, Explanation e,
                                  Judged& judged, const Vector& residual) {
   if (e.found.empty()) return e;
-  judged.details.scans = scans_of(atlas_->plan(), alignment.recordings());
+  judged.details.scans = scans_of(atlas_->plan(), alignment.recordings(), options_.threads);
   if (plain(naming, e, residual)) return e;
   return Sharpening(*this, naming, alignment, judged, residual).run();
 }

@@ -115,6 +115,7 @@ class Diagnoser::Sharpening {
   std::map<std::string, int> home_;      // the effect that stands for all of a name
   std::map<Name, JointAmplitudes> own_;  // what the filter says of effects
   std::map<Name, Fingerprint> known_;    // fingerprints about found amplitudes
+  LearnedFingerprints learned_;          // all that there were
   std::map<Name, Naming::Alone> alone_;
   std::set<Name> centred_;
   std::map<Name, int> moved_;             // how often experiments of its own were made anew

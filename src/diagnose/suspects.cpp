@@ -80,10 +80,11 @@ const Fingerprint& Diagnoser::shape_fingerprint(int s) {
 
 // The fingerprint about the amplitudes that were found, in the place of the one before.
 Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
-                                        const Judged& judged, int experiments) {
+                                        const Judged& judged, LearnedFingerprints& learned,
+                                        int experiments) {
   return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
                                    atlas_->calibrated(judged.observed.summary),
-                                   stage_name(f, judged.details), experiments);
+                                   stage_name(f, judged.details), learned, experiments);
 }
 
 }  // namespace lilytank

@@ -2,6 +2,7 @@
 // damaged.
 #include <gtest/gtest.h>
 
+#include "diagnose/proof_files.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/proof.hpp"
@@ -62,6 +63,24 @@ TEST_F(ProofFiles, AreToldTogether) {
   const std::string text = proof_text(both);
   EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks\n")) << text;
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
+}
+
+// A proof that was stopped goes on after the worlds that it had told, but not after those of
+// another key, as `--only` makes one.
+TEST_F(ProofFiles, AreKeptForTheSameKey) {
+  const Proof p = three_worlds();
+  const std::string dir = here.path("kept");
+  EXPECT_TRUE(kept_worlds(dir, p).empty());
+  std::filesystem::create_directories(here.path("kept/work"));
+  keep_worlds(dir, p);
+  Proof again = p;
+  again.worlds = kept_worlds(dir, p);
+  EXPECT_EQ(proof_csv(again), proof_csv(p));
+  EXPECT_EQ(proof_intervals_csv(again), proof_intervals_csv(p));
+  Proof other = p;
+  other.key = "0 null 1 1\n", other.hash = sha256(other.key);
+  EXPECT_TRUE(kept_worlds(dir, other).empty());
+  EXPECT_TRUE(kept_worlds("", p).empty());
 }
 
 // Nothing is drawn of complete experiments; what is told in part is neither right nor silent.
