@@ -79,7 +79,8 @@ std::vector<std::vector<double>> Stages::rows(const std::string& stage, int coun
     tell(spent_ + cost * done, stage + ", " + std::to_string(done) + " of " + std::to_string(all));
   };
   auto out = kept_rows(kept, count, work);
-  if (!out) throw Stopped{};
+  // Rows that were all kept are there even so, but what is made of them may take minutes.
+  if (!out || (kept.stop != nullptr && *kept.stop)) throw Stopped{};
   spent_ += cost * count;
   return std::move(*out);
 }
