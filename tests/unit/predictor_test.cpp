@@ -178,13 +178,17 @@ TEST(Scores, AreClearedOfWhatACalibrationAbsorbs) {
   ScorePlan plain = plan_for(model, right);
   ScorePlan cleared = plain;
   cleared.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  const std::vector<double> plain_right = score(plain, right),
+                            cleared_right = score(cleared, right);
   for (const auto& [path, value] :
        {std::pair<std::string, double>{"forces.face_drag.K_F", 0.6}, {"flow.K_v", 1.5}}) {
     const auto wrong = filmed(with_parameters(model, std::vector{path}, std::vector{value}), 60, 5);
+    const std::vector<double> plain_wrong = score(plain, wrong),
+                              cleared_wrong = score(cleared, wrong);
     for (const char* name : {"viscous_drag", "coriolis", "wake_shielding", "flow_drift"}) {
       const std::size_t at = entry_named(plain, name);
-      const double moved = score(plain, wrong)[at] - score(plain, right)[at];
-      const double left = score(cleared, wrong)[at] - score(cleared, right)[at];
+      const double moved = plain_wrong[at] - plain_right[at];
+      const double left = cleared_wrong[at] - cleared_right[at];
       EXPECT_GT(std::fabs(moved), 0.5) << path << ", " << name;
       EXPECT_LT(std::fabs(left), 0.5 * std::fabs(moved)) << path << ", " << name;
     }
