@@ -210,7 +210,7 @@ class Examination {
         out_.worlds.push_back(before[w]);
       } else {
         out_.worlds.push_back(ask(diagnoser, w));
-        keep_worlds(job.out, out_);
+        keep(job.out, before);
       }
       modelled_ += out_.worlds.back().intervals.empty() ? 0 : 1;
       diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
@@ -221,6 +221,13 @@ class Examination {
   }
 
  private:
+  // What is told now, and after it what was told before: a world may be asked again for its model.
+  void keep(const std::string& dir, const std::vector<ProofWorld>& before) const {
+    Proof all = out_;
+    for (std::size_t w = all.worlds.size(); w < before.size(); ++w) all.worlds.push_back(before[w]);
+    keep_worlds(dir, all);
+  }
+
   double of_a_world() const { return options_.only == "null" ? kOfANull : kOfAWorld; }
 
   // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds.
