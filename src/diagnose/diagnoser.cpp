@@ -130,7 +130,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "21 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "22 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 

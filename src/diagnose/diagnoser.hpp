@@ -68,11 +68,11 @@ class Diagnoser {
                         const Eigen::VectorXd& residual);
   class Sharpening;
   const Effect& effect(const EffectFit& fit) const;
-  /// The effect of this name as recordings tell it directly, with its amplitudes if they do: a
-  /// stream at its place, a force between modules of its range, vortices of their frequency.
+  /// The effect of this name as recordings tell it directly: a stream at its place, with its speed,
+  /// a force between modules of its range, vortices of their frequency.
   struct Scanned {
     std::vector<std::pair<std::string, double>> shape;
-    std::optional<Eigen::VectorXd> amplitudes;
+    std::optional<JointAmplitudes> amplitudes;
   };
   std::optional<Scanned> scanned(const Effect& effect, const ScoreDetails& details) const;
   /// With what recordings tell of it directly: the line of pumps, the module that differs, what is

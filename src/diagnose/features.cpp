@@ -29,14 +29,12 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
   for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_, &by_gusts_}) {
     of->resize(n);
   }
-  for (auto* of : {&ux_, &uy_, &turning_, &probe_, &turned_, &none_}) of->resize(n);
-  std::fill(probe_.begin(), probe_.end(), kProbe);
-  std::fill(turned_.begin(), turned_.end(), kTurned);
+  for (auto* of : {&ux_, &uy_, &turning_, &water_x_, &water_y_, &water_turning_}) of->resize(n);
   wrenches_.assign(features_.size(), std::vector<Wrench>(n));
 }
 
 void Features::find(const Kinematics& k, const Moment& now) {
-  (*base_)(k, now, baseline_), (*drag_sum_)(k, now, drag_);
+  (*base_)(k, now, baseline_);
   derive(k, now);
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Feature& feature = features_[f];
@@ -75,25 +73,38 @@ void Features::add(const Effect& effect, std::size_t component) {
   features_.push_back(std::move(feature));
 }
 
+// The drag and its derivatives in water that the model's own terms stir.
 void Features::derive(const Kinematics& k, const Moment& now) {
-  const auto probe = [&](const std::vector<double>& ux, const std::vector<double>& uy,
-                         const std::vector<double>& turning, double gain, double gusts, double step,
-                         std::vector<Wrench>& out) {
+  for (auto* of : {&water_x_, &water_y_, &water_turning_}) std::fill(of->begin(), of->end(), 0.0);
+  Stirring water{1, water_x_, water_y_, water_turning_, 1};
+  for (const ActiveForce& force : model_.forces) {
+    if (force.term->stirs()) force.term->stir(model_, k, now, force.p, water);
+  }
+  const auto drag = [&](double x, double y, double turning, double gain, double gusts,
+                        std::vector<Wrench>& out) {
+    for (std::size_t i = 0; i < ux_.size(); ++i) {
+      ux_[i] = water_x_[i] + x, uy_[i] = water_y_[i] + y, turning_[i] = water_turning_[i] + turning;
+    }
     Moment other = now;
-    other.ux = ux, other.uy = uy, other.turning = turning;
-    other.gain = gain, other.gust_gain = gusts;
+    other.ux = ux_, other.uy = uy_, other.turning = turning_;
+    other.gain = water.gain + gain, other.gust_gain = water.gust_gain + gusts;
     (*drag_sum_)(k, other, out);
+  };
+  drag(0, 0, 0, 0, 0, drag_);
+  const auto probe = [&](double x, double y, double turning, double gain, double gusts, double step,
+                         std::vector<Wrench>& out) {
+    drag(x, y, turning, gain, gusts, out);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].fx = (out[i].fx - drag_[i].fx) / step;
       out[i].fy = (out[i].fy - drag_[i].fy) / step;
       out[i].torque = (out[i].torque - drag_[i].torque) / step;
     }
   };
-  probe(probe_, none_, none_, 1, 1, kProbe, by_x_);
-  probe(none_, probe_, none_, 1, 1, kProbe, by_y_);
-  probe(none_, none_, turned_, 1, 1, kTurned, by_turning_);
-  probe(none_, none_, none_, 1 + kProbe, 1, kProbe, by_gain_);
-  probe(none_, none_, none_, 1, 1 + kGusty, kGusty, by_gusts_);
+  probe(kProbe, 0, 0, 0, 0, kProbe, by_x_);
+  probe(0, kProbe, 0, 0, 0, kProbe, by_y_);
+  probe(0, 0, kTurned, 0, 0, kTurned, by_turning_);
+  probe(0, 0, 0, kProbe, 0, kProbe, by_gain_);
+  probe(0, 0, 0, 0, kGusty, kGusty, by_gusts_);
 }
 
 void Features::stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,

@@ -145,11 +145,13 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before,
   for (DiagnosisFinding& f : out.findings) {
     f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
   }
-  if (gain.high < 0) {
-    out.warnings.push_back(
-        "one step ahead, what was found predicts recordings that had no part in this worse than "
-        "nothing does: the name or its law is doubtful");
-  }
+  if (gain.high >= 0) return;
+  out.warnings.push_back(
+      likelier_but_for_errors(atlas_->plan(), after, recordings)
+          ? "one step ahead, errors of the baseline's parameters cost more than what was found "
+            "gains; allowing for these, it does predict recordings that had no part in this better"
+          : "one step ahead, what was found predicts recordings that had no part in this worse "
+            "than nothing does: the name or its law is doubtful");
 }
 
 }  // namespace lilytank

@@ -40,7 +40,7 @@ bool Diagnoser::Sharpening::rescan(const Explanation& e) {
   bool moved = false;
   if (const ScorePlan plan = beside(e, {"local_flow"}, "position"); !plan.beside.empty()) {
     StreamPlace& was = judged_.details.scans.stream;
-    const StreamPlace now = find_stream(plan, alignment_.recordings());
+    const StreamPlace now = find_stream(plan, alignment_.recordings(), of_.options_.threads);
     if (std::hypot(now.x - was.x, now.y - was.y) > kElsewhere) {
       was = now, moved = true;
       find_homes(), forget("local_flow");

@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kSpacing = 0.16, kFarthest = 0.8;  // of the tank's radius
 constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
+constexpr double kApart = 0.06;                     // m, of places that are tried
+constexpr std::size_t kTried = 3;                   // of each way to rank them
 // What has a range, from where to where it is tried, m, and a factor from one to the next.
 struct Ranged {
   const char* effect;
@@ -21,34 +23,83 @@ constexpr Ranged kRanged[] = {
 constexpr double kLonger = 1.25;
 constexpr double kClear = 30;  // twice a log-likelihood: a rise that is no chance
 
-}  // namespace
-
-StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings) {
-  ScorePlan scan = plan;
-  scan.effects.clear(), scan.shapes.clear();
+std::vector<StreamPlace> grid_of(const Model& model) {
   std::vector<StreamPlace> places;
-  const double R = plan.model.tank.radius, step = kSpacing * R, row = step * std::sqrt(0.75);
+  const double R = model.tank.radius, step = kSpacing * R, row = step * std::sqrt(0.75);
   const int most = static_cast<int>(std::ceil(kFarthest * R / row));
   for (int j = -most; j <= most; ++j) {
     for (int i = -most; i <= most; ++i) {
       const double x = step * (i + (j % 2 == 0 ? 0 : 0.5)), y = row * j;
       if (std::hypot(x, y) > kFarthest * R) continue;
-      for (const double width : kWidths) {
-        places.push_back({x, y, width, 0, 0});
-        scan.effects.push_back(stream_effect(plan.model, x, y, width));
-      }
+      for (const double width : kWidths) places.push_back({x, y, width});
     }
   }
+  return places;
+}
+
+Effect effect_at(const Model& model, const StreamPlace& place) {
+  return stream_effect(model, place.x, place.y, place.width);
+}
+
+Model with_stream(const Model& model, const StreamPlace& place) {
+  const Effect effect = effect_at(model, place);
+  return with_effect(model, effect,
+                     {place.speed_x * effect.sizes[0], place.speed_y * effect.sizes[1]});
+}
+
+// The places that a linear estimate favours most, none near another, at their speeds. A smooth
+// error of the flow can do nearly all that a wide stream does: cleared of that, its speed and even
+// its place may be told wrongly; with the flow taken as it is drawn an error of the flow may be
+// told as one.
+std::vector<StreamPlace> leading(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                                 const std::vector<StreamPlace>& grid, bool flow_as_drawn) {
+  ScorePlan scan = plan;
+  scan.effects.clear(), scan.shapes.clear();
+  for (const StreamPlace& place : grid) scan.effects.push_back(effect_at(plan.model, place));
+  if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
   const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
-  StreamPlace best;
-  double largest = -1;
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  std::vector<std::pair<double, StreamPlace>> ranked;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
     const ScoredAmplitude &x = told[2 * k], &y = told[2 * k + 1];
-    if (!(x.gain + y.gain > largest)) continue;
-    largest = x.gain + y.gain, best = places[k];
-    best.speed_x = x.estimate, best.speed_y = y.estimate;
+    StreamPlace place = grid[k];
+    place.speed_x = x.estimate, place.speed_y = y.estimate;
+    ranked.emplace_back(x.gain + y.gain, place);
   }
-  return best;
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<StreamPlace> out;
+  for (const auto& [gain, place] : ranked) {
+    const bool near = std::any_of(out.begin(), out.end(), [&, &at = place](const StreamPlace& one) {
+      return std::hypot(one.x - at.x, one.y - at.y) < kApart;
+    });
+    if (!near) out.push_back(place);
+    if (out.size() == kTried) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                        int threads) {
+  const std::vector<StreamPlace> grid = grid_of(plan.model);
+  std::vector<StreamPlace> tried{StreamPlace{}};
+  for (const bool flow_as_drawn : {false, true}) {
+    for (const StreamPlace& place : leading(plan, recordings, grid, flow_as_drawn)) {
+      tried.push_back(place);
+    }
+  }
+  std::vector<double> misfit(tried.size());
+  for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    ScorePlan with = plan;
+    if (k > 0) with.model = with_stream(plan.model, tried[k]);
+    misfit[k] = misfit_of(with, recordings);
+  });
+  const auto best = std::min_element(misfit.begin() + 1, misfit.end());
+  StreamPlace out = tried[static_cast<std::size_t>(best - misfit.begin())];
+  out.gain = misfit.front() - *best;
+  return out;
 }
 
 std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
@@ -79,7 +130,7 @@ std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
 Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads) {
   Scans out;
   for_each_world(2, threads, [&](int i) {
-    if (i == 0) out.stream = find_stream(plan, recordings);
+    if (i == 0) out.stream = find_stream(plan, recordings, threads);
     if (i == 1) out.values = find_values(plan, recordings);
   });
   return out;

@@ -9,9 +9,12 @@
 
 namespace lilytank {
 
-/// The stream among those of several widths about the places of a hexagonal grid that raises the
-/// one-step likelihood of recordings most, each component by itself.
-StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings);
+/// The stream among those of several widths about the places of a hexagonal grid with which the
+/// recordings are likeliest, one step ahead and errors of the flow allowed for. The scores of all
+/// places, which are linear, propose; the predictor with each proposal's stream in its model
+/// decides (scores.hpp, misfit_of). `threads`: 0 is one a core.
+StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                        int threads);
 
 /// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
 /// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.

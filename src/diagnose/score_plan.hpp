@@ -41,6 +41,7 @@ struct ScorePlan {
 struct StreamPlace {
   double x = 0, y = 0, width = 0.06;  ///< m
   double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
+  double gain = 0;                    ///< by which it raises twice the log-likelihood
 };
 
 /// The range or thickness of an effect, and its amplitude in sizes.
@@ -50,7 +51,7 @@ struct ScannedValue {
 
 /// What recordings tell directly of effects that have a place or a range.
 struct Scans {
-  StreamPlace stream;  ///< that raises the likelihood most
+  StreamPlace stream;  ///< with which the recordings are likeliest
   /// By the effect's name, of those that are clear; a repulsion is a negative attraction.
   std::map<std::string, ScannedValue> values;
 };

@@ -121,6 +121,8 @@ class Scorer {
     return out;
   }
 
+  double misfit() const { return misfit_ - sensitivities_.absorbed(known_); }
+
   Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
 
   std::vector<double> tell(ScoreDetails* details) const {
@@ -142,8 +144,9 @@ class Scorer {
  private:
   void add(const PredictedFrame& frame) {
     const auto n = static_cast<std::size_t>(frame.now.size());
-    if (frame.model != model_) {
-      model_ = frame.model;
+    // Every recording has a model of its own, perhaps where the last one's was.
+    if (frame.model != model_ || frame.recording != recording_) {
+      model_ = frame.model, recording_ = frame.recording;
       features_ = std::make_unique<Features>(plan_, *model_);
     }
     const Moment now{.time = frame.time, .gusts = false, .expected = true};
@@ -259,6 +262,9 @@ class Scorer {
     }
     const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
     const bool held = frame.contact[i] > kContact || touching_[i] != 0;
+    if (visible && frame.told[i] != 0 && !held) {
+      for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
+    }
     out.usable = visible && frame.told[i] != 0 && !held && !lost;
     if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
     last_[out.module] = frame.frame;
@@ -281,8 +287,10 @@ class Scorer {
   std::vector<int> last_;
   std::vector<std::uint8_t> touching_;
   const Model* model_ = nullptr;
+  int recording_ = -1;
   std::unique_ptr<Features> features_;
   std::vector<Seen> seen_;
+  double misfit_ = 0;  // squares of innovations beyond 1 each
 };
 
 }  // namespace
@@ -356,6 +364,13 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
   Scorer scorer(plan, true);
   scorer.run(recordings);
   return scorer.jointly();
+}
+
+double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings) {
+  plan.shapes.clear(), plan.effects.clear();
+  Scorer scorer(plan);
+  scorer.run(recordings);
+  return scorer.misfit();
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,

@@ -52,4 +52,9 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
                                               const std::vector<Recording>& recordings,
                                               const std::vector<Effect>& effects);
 
+/// How far recordings are from what the plan's model predicts one step ahead, once errors of
+/// parameters and of the flow, and the effects beside, have taken what they can: minus twice the
+/// log-likelihood, less what it is expected to be.
+double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings);
+
 }  // namespace lilytank

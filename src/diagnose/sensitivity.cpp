@@ -132,6 +132,16 @@ std::vector<Sensitivities::Amplitude> Sensitivities::amplitudes(const Matrix& kn
   return out;
 }
 
+double Sensitivities::absorbed(const Matrix& known) const {
+  const Eigen::Index n = known.rows();
+  if (n == 0) return 0;
+  const Matrix own = products(n).bottomRows(n);
+  const Matrix normal = 0.5 * (own + own.transpose()) + known;
+  const Vector scores =
+      Eigen::Map<const Vector>(score_.data() + static_cast<Eigen::Index>(features_) - n, n);
+  return scores.dot(solve_symmetric(normal, scores));
+}
+
 Matrix Sensitivities::informations(const Matrix& known) const {
   const Eigen::Index n = known.rows(), told = static_cast<Eigen::Index>(features_) - n;
   const Matrix all = products(static_cast<Eigen::Index>(features_));

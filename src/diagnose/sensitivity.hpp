@@ -49,6 +49,8 @@ class Sensitivities {
   /// Of every feature but the nuisances, the last ones; 0 where nothing was pushed. `known`:
   /// precision of the nuisances' amplitudes before any data, [nuisance, nuisance].
   std::vector<Amplitude> amplitudes(const Eigen::MatrixXd& known) const;
+  /// By how much the nuisances, the last features, alone raise twice the log-likelihood.
+  double absorbed(const Eigen::MatrixXd& known) const;
   /// Information of every two features that nuisances leave, if all features are partners: an
   /// amplitude of the second moves the estimate of the first by it over the first's own.
   Eigen::MatrixXd informations(const Eigen::MatrixXd& known) const;

@@ -198,7 +198,13 @@ const JointAmplitudes& Diagnoser::Sharpening::own(const EffectFit& f, const Effe
   const auto known = own_.find(name_of(f));
   if (known != own_.end()) return known->second;
   auto told = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect});
-  return own_[name_of(f)] = std::move(told.front());
+  return own_[name_of(f)] = scanned_or(std::move(told.front()), effect);
+}
+
+JointAmplitudes Diagnoser::Sharpening::scanned_or(JointAmplitudes linear,
+                                                  const Effect& effect) const {
+  const auto told = of_.scanned(effect, judged_.details);
+  return told && told->amplitudes ? *told->amplitudes : std::move(linear);
 }
 
 // Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
@@ -216,7 +222,7 @@ std::vector<EffectFit> Diagnoser::Sharpening::clearest() {
   const auto told = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), tried);
   std::vector<EffectFit> out;
   for (const auto& [name, effect] : of) {
-    const JointAmplitudes& one = own_[name] = told[out.size()];
+    const JointAmplitudes& one = own_[name] = scanned_or(told[out.size()], effect);
     EffectFit f;
     f.effect = name.first, f.amplitudes = one.estimate;
     f.gain = tells(effect, one) ? one.gain : 0;

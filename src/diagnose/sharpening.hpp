@@ -46,6 +46,8 @@ class Diagnoser::Sharpening {
   EffectFit begun(EffectFit f);
   // What the filter says of an effect or a curve in the very recordings; asked once.
   const JointAmplitudes& own(const EffectFit& f, const Effect& effect);
+  // The same where a linear estimate is not all that is known.
+  JointAmplitudes scanned_or(JointAmplitudes linear, const Effect& effect) const;
   // The effects that the filter says most clearly, by their amplitudes in the very recordings.
   std::vector<EffectFit> clearest();
   // Whether its fingerprint is not one of its strength.

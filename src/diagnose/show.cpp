@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "diagnose/scores.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
@@ -250,6 +251,17 @@ StepGain step_gain(const Model& before, const Model& after, const PredictorOptio
   for (const auto& [block, gain] : blocks) of.add(gain);
   const double width_of = 1.96 * std::sqrt(of.variance() * of.count);
   return {of.sum, of.sum - width_of, of.sum + width_of};
+}
+
+bool likelier_but_for_errors(const ScorePlan& plan, const Model& after,
+                             const std::vector<Recording>& recordings) {
+  double fallen = 0;
+  for (const Recording& one : recordings) {
+    ScorePlan with = plan;
+    with.model = in_phase(after, one, plan.predictor);
+    fallen += misfit_of(plan, {one}) - misfit_of(with, {one});
+  }
+  return fallen > 0;
 }
 
 }  // namespace lilytank

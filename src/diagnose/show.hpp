@@ -36,4 +36,10 @@ struct StepGain {
 StepGain step_gain(const Model& before, const Model& after, const PredictorOptions& predictor,
                    const std::vector<Recording>& recordings);
 
+/// Whether `after` is likelier than the plan's model once errors of parameters and of the flow are
+/// allowed for in both: these may cost a right model more, one step ahead, than a weak effect
+/// gains.
+bool likelier_but_for_errors(const ScorePlan& plan, const Model& after,
+                             const std::vector<Recording>& recordings);
+
 }  // namespace lilytank

@@ -24,7 +24,7 @@ std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
   if (effect.name == "local_flow") {
     const StreamPlace& s = details.scans.stream;
     return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
-                   Eigen::Vector2d(s.speed_x, s.speed_y)};
+                   JointAmplitudes{Eigen::Vector2d(s.speed_x, s.speed_y), s.gain}};
   }
   if (effect.name == "vortex_shedding" && details.swinging > 0) {
     return Scanned{{{effect.shape[0].first, details.swinging}}, std::nullopt};
@@ -34,7 +34,7 @@ std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
   if (told == details.scans.values.end()) return std::nullopt;
   const double amplitude = repels ? -told->second.amplitude : told->second.amplitude;
   if (!effect.two_sided && !(amplitude > 0)) return std::nullopt;
-  return Scanned{{{effect.shape[0].first, told->second.value}}, Vector::Constant(1, amplitude)};
+  return Scanned{{{effect.shape[0].first, told->second.value}}, std::nullopt};
 }
 
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {

@@ -200,7 +200,7 @@ TEST(Scores, TellThePlaceOfAStream) {
   const Model model = drifting(8);
   Effect stream = stream_effect(model, -0.05, 0.12, 0.06);
   const auto recordings = filmed(with_effect(model, stream, {0.12, -0.06}), 60, 5);
-  const StreamPlace found = find_stream(plan_for(model, recordings), recordings);
+  const StreamPlace found = find_stream(plan_for(model, recordings), recordings, 1);
   EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.05);
   EXPECT_NEAR(found.speed_x, 2, 1);  // in sizes of 6 cm/s
   EXPECT_NEAR(found.speed_y, -1, 1);
