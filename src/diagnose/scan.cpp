@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnose/scores.hpp"
 #include "lilytank/study.hpp"
@@ -12,7 +13,7 @@ namespace {
 constexpr double kSpacing = 0.16, kFarthest = 0.8;  // of the tank's radius
 constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
 constexpr double kApart = 0.06;                     // m, of places that are tried
-constexpr std::size_t kTried = 3;                   // of each way to rank them
+constexpr std::size_t kTried = 3, kTriedNear = 4;   // of each way to rank them
 // What has a range, from where to where it is tried, m, and a factor from one to the next.
 struct Ranged {
   const char* effect;
@@ -47,33 +48,50 @@ Model with_stream(const Model& model, const StreamPlace& place) {
                      {place.speed_x * effect.sizes[0], place.speed_y * effect.sizes[1]});
 }
 
-// The places that a linear estimate favours most, none near another, at their speeds. A smooth
-// error of the flow can do nearly all that a wide stream does: cleared of that, its speed and even
-// its place may be told wrongly; with the flow taken as it is drawn an error of the flow may be
-// told as one.
-std::vector<StreamPlace> leading(const ScorePlan& plan, const std::vector<Recording>& recordings,
-                                 const std::vector<StreamPlace>& grid, bool flow_as_drawn) {
+// The places of the grid with the speeds of a linear estimate, those that it favours most first. A
+// smooth error of the flow can do nearly all that a wide stream does: cleared of that, its speed
+// and even its place may be told wrongly; with the flow taken as it is drawn an error of the flow
+// may be told as one.
+std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                                bool flow_as_drawn) {
   ScorePlan scan = plan;
   scan.effects.clear(), scan.shapes.clear();
-  for (const StreamPlace& place : grid) scan.effects.push_back(effect_at(plan.model, place));
+  std::vector<StreamPlace> out = grid_of(plan.model);
+  for (const StreamPlace& place : out) scan.effects.push_back(effect_at(plan.model, place));
   if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
   const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
-  std::vector<std::pair<double, StreamPlace>> ranked;
-  for (std::size_t k = 0; k < grid.size(); ++k) {
+  for (std::size_t k = 0; k < out.size(); ++k) {
     const ScoredAmplitude &x = told[2 * k], &y = told[2 * k + 1];
-    StreamPlace place = grid[k];
-    place.speed_x = x.estimate, place.speed_y = y.estimate;
-    ranked.emplace_back(x.gain + y.gain, place);
+    out[k].speed_x = x.estimate, out[k].speed_y = y.estimate, out[k].gain = x.gain + y.gain;
   }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const StreamPlace& a, const StreamPlace& b) { return a.gain > b.gain; });
+  return out;
+}
+
+double apart(const StreamPlace& a, const StreamPlace& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+// The first ones of which none is near another.
+std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
   std::vector<StreamPlace> out;
-  for (const auto& [gain, place] : ranked) {
-    const bool near = std::any_of(out.begin(), out.end(), [&, &at = place](const StreamPlace& one) {
-      return std::hypot(one.x - at.x, one.y - at.y) < kApart;
-    });
+  for (const StreamPlace& place : ranking) {
+    const bool near = std::any_of(
+        out.begin(), out.end(), [&](const StreamPlace& one) { return apart(one, place) < kApart; });
     if (!near) out.push_back(place);
     if (out.size() == kTried) break;
+  }
+  return out;
+}
+
+// The first ones near a place.
+std::vector<StreamPlace> around(const StreamPlace& centre,
+                                const std::vector<StreamPlace>& ranking) {
+  std::vector<StreamPlace> out;
+  for (const StreamPlace& place : ranking) {
+    if (apart(centre, place) < kApart) out.push_back(place);
+    if (out.size() == kTriedNear) break;
   }
   return out;
 }
@@ -82,24 +100,32 @@ std::vector<StreamPlace> leading(const ScorePlan& plan, const std::vector<Record
 
 StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
                         int threads) {
-  const std::vector<StreamPlace> grid = grid_of(plan.model);
-  std::vector<StreamPlace> tried{StreamPlace{}};
-  for (const bool flow_as_drawn : {false, true}) {
-    for (const StreamPlace& place : leading(plan, recordings, grid, flow_as_drawn)) {
-      tried.push_back(place);
+  const auto misfits = [&](const std::vector<StreamPlace>& tried) {
+    std::vector<double> out(tried.size());
+    for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      ScorePlan with = plan;
+      with.model = with_stream(plan.model, tried[k]);
+      out[k] = misfit_of(with, recordings);
+    });
+    return out;
+  };
+  const std::vector<StreamPlace> cleared = ranked(plan, recordings, false),
+                                 as_drawn = ranked(plan, recordings, true);
+  StreamPlace best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto attempt = [&](std::vector<StreamPlace> tried, const std::vector<StreamPlace>& more) {
+    tried.insert(tried.end(), more.begin(), more.end());
+    const std::vector<double> misfit = misfits(tried);
+    const auto lowest = std::min_element(misfit.begin(), misfit.end());
+    if (*lowest < least) {
+      least = *lowest, best = tried[static_cast<std::size_t>(lowest - misfit.begin())];
     }
-  }
-  std::vector<double> misfit(tried.size());
-  for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    ScorePlan with = plan;
-    if (k > 0) with.model = with_stream(plan.model, tried[k]);
-    misfit[k] = misfit_of(with, recordings);
-  });
-  const auto best = std::min_element(misfit.begin() + 1, misfit.end());
-  StreamPlace out = tried[static_cast<std::size_t>(best - misfit.begin())];
-  out.gain = misfit.front() - *best;
-  return out;
+  };
+  attempt(leading(cleared), leading(as_drawn));
+  attempt(around(best, cleared), around(best, as_drawn));
+  best.gain = misfit_of(plan, recordings) - least;
+  return best;
 }
 
 std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,

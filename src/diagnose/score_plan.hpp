@@ -41,7 +41,7 @@ struct ScorePlan {
 struct StreamPlace {
   double x = 0, y = 0, width = 0.06;  ///< m
   double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
-  double gain = 0;                    ///< by which it raises twice the log-likelihood
+  double gain = 0;                    ///< rise of twice the log-likelihood
 };
 
 /// The range or thickness of an effect, and its amplitude in sizes.

@@ -206,6 +206,25 @@ TEST(Scores, TellThePlaceOfAStream) {
   EXPECT_NEAR(found.speed_y, -1, 1);
 }
 
+// A smooth error of the flow can do nearly all that a wide stream does: cleared of such errors,
+// scores alone put this one elsewhere.
+TEST(Scores, TellThePlaceOfAStrongWideStream) {
+  const Model model = drifting(12);
+  const Effect stream = stream_effect(model, 0.13, 0.08, 0.085);
+  const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 5);
+  ScorePlan plan = plan_for(model, recordings);
+  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  const StreamPlace found = find_stream(plan, recordings, 1);
+  EXPECT_LT(std::hypot(found.x - 0.13, found.y - 0.08), 0.05);
+  EXPECT_NEAR(found.speed_x, -2, 0.7);  // in sizes of 6 cm/s
+  EXPECT_NEAR(found.speed_y, -1, 0.7);
+  EXPECT_GT(found.gain, 100);
+  // With it in the model the recordings are as the predictor expects, but for what it leaves out.
+  ScorePlan with = plan;
+  with.model = with_effect(model, stream, {-0.12, -0.06});
+  EXPECT_LT(misfit_of(with, recordings), misfit_of(plan, recordings) - 100);
+}
+
 // The range of a force between modules to a factor of two, and its sign; none where there is none.
 TEST(Scores, TellTheRangeOfAForceBetweenModules) {
   const Model model = drifting(15);
