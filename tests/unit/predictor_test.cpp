@@ -211,7 +211,7 @@ TEST(Scores, TellThePlaceOfAStream) {
 TEST(Scores, TellThePlaceOfAStrongWideStream) {
   const Model model = drifting(12);
   const Effect stream = stream_effect(model, 0.13, 0.08, 0.085);
-  const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 5);
+  const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 30, 5);
   ScorePlan plan = plan_for(model, recordings);
   plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
   const StreamPlace found = find_stream(plan, recordings, 1);
