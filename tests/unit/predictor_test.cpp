@@ -6,6 +6,7 @@
 #include "diagnose/nuisances.hpp"
 #include "diagnose/scan.hpp"
 #include "diagnose/scores.hpp"
+#include "diagnose/show.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
@@ -223,6 +224,22 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
   ScorePlan with = plan;
   with.model = with_effect(model, stream, {-0.12, -0.06});
   EXPECT_LT(misfit_of(with, recordings), misfit_of(plan, recordings) - 100);
+}
+
+// A right stream beside a K_v that is too large loses one step ahead; allowing for that it is
+// likelier than nothing. One that flows the other way is not.
+TEST(Show, ARightEffectIsToldFromErrorsOfParameters) {
+  const Model model = drifting(12);
+  const Effect stream = stream_effect(model, 0.05, 0.05, 0.04);
+  const auto recordings = filmed(with_effect(model, stream, {0.06, 0}), 30, 5);
+  ScorePlan plan = plan_for(model, recordings);
+  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  const std::vector<std::string> paths{"flow.K_v"};
+  const Model off = with_parameters(model, paths, std::vector{1.06 * model.flow.K_v});
+  const Model right = with_effect(off, stream, {0.06, 0});
+  EXPECT_LT(step_gain(model, right, plan.predictor, recordings).high, 0);
+  EXPECT_TRUE(likelier_but_for_errors(plan, right, recordings));
+  EXPECT_FALSE(likelier_but_for_errors(plan, with_effect(off, stream, {-0.06, 0}), recordings));
 }
 
 // The range of a force between modules to a factor of two, and its sign; none where there is none.
