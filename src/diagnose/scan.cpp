@@ -116,9 +116,10 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
   double least = std::numeric_limits<double>::infinity();
   const auto attempt = [&](std::vector<StreamPlace> tried, const std::vector<StreamPlace>& more) {
     tried.insert(tried.end(), more.begin(), more.end());
+    std::erase(tried, best);  // known already
     const std::vector<double> misfit = misfits(tried);
     const auto lowest = std::min_element(misfit.begin(), misfit.end());
-    if (*lowest < least) {
+    if (lowest != misfit.end() && *lowest < least) {
       least = *lowest, best = tried[static_cast<std::size_t>(lowest - misfit.begin())];
     }
   };

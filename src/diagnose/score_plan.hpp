@@ -42,6 +42,7 @@ struct StreamPlace {
   double x = 0, y = 0, width = 0.06;  ///< m
   double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
   double gain = 0;                    ///< rise of twice the log-likelihood
+  bool operator==(const StreamPlace&) const = default;
 };
 
 /// The range or thickness of an effect, and its amplitude in sizes.

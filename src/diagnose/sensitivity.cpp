@@ -15,6 +15,12 @@ constexpr int kEvery = 3;
 constexpr std::size_t kFlush = 768;  // passings whose sums are in single precision
 constexpr double kLeastLeft = 1e-3;  // share of an information that nuisances leave at least
 
+// Precision of the nuisances' amplitudes, by their products and what is known before.
+Matrix precision(const Matrix& products, const Matrix& known) {
+  const Matrix own = products.bottomRows(known.rows());
+  return 0.5 * (own + own.transpose()) + known;
+}
+
 }  // namespace
 
 Sensitivities::Sensitivities(std::size_t features, std::size_t modules, std::size_t partners)
@@ -116,11 +122,8 @@ std::vector<Sensitivities::Amplitude> Sensitivities::amplitudes(const Matrix& kn
   Vector blamed = Vector::Zero(features), taken = blamed;
   if (n > 0) {
     const Matrix shared = products(n);
-    const Matrix own = shared.bottomRows(n);
-    const Matrix normal = 0.5 * (own + own.transpose()) + known;
-    const Eigen::Map<const Vector> scores(score_.data() + features - n, n);
-    const Matrix solved = solve_symmetric(normal, Matrix(shared.transpose()));
-    blamed = solved.transpose() * scores;
+    const Matrix solved = solve_symmetric(precision(shared, known), Matrix(shared.transpose()));
+    blamed = solved.transpose() * last_scores(n);
     taken = (shared.transpose().array() * solved.array()).colwise().sum().transpose().matrix();
   }
   for (std::size_t f = 0; f < out.size(); ++f) {
@@ -135,11 +138,12 @@ std::vector<Sensitivities::Amplitude> Sensitivities::amplitudes(const Matrix& kn
 double Sensitivities::absorbed(const Matrix& known) const {
   const Eigen::Index n = known.rows();
   if (n == 0) return 0;
-  const Matrix own = products(n).bottomRows(n);
-  const Matrix normal = 0.5 * (own + own.transpose()) + known;
-  const Vector scores =
-      Eigen::Map<const Vector>(score_.data() + static_cast<Eigen::Index>(features_) - n, n);
-  return scores.dot(solve_symmetric(normal, scores));
+  const Vector scores = last_scores(n);
+  return scores.dot(solve_symmetric(precision(products(n), known), scores));
+}
+
+Eigen::Map<const Vector> Sensitivities::last_scores(Eigen::Index count) const {
+  return {score_.data() + static_cast<Eigen::Index>(features_) - count, count};
 }
 
 Matrix Sensitivities::informations(const Matrix& known) const {

@@ -61,6 +61,8 @@ class Sensitivities {
   void flush();
   /// Products of every feature with the last `count`.
   Eigen::MatrixXd products(Eigen::Index count) const;
+  /// Scores of the last `count`.
+  Eigen::Map<const Eigen::VectorXd> last_scores(Eigen::Index count) const;
 
   std::size_t features_, partners_, wide_;      // wide: features and empty ones
   std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [module * wide + feature]
