@@ -17,7 +17,7 @@ run_tests() {  # <tree> [ctest option...]
 # Assertions on, no renderer, no vectors: other code must give the same golden fingerprints.
 configure build-debug -DCMAKE_BUILD_TYPE=Debug -DLILYTANK_SIMD=OFF -DLILYTANK_RENDER=OFF -DLILYTANK_BENCH=OFF \
                       -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
-cmake --build build-debug --target lilytank unit_tests analytic_tests determinism_tests
+cmake --build build-debug --target unit_tests analytic_tests determinism_tests
 run_tests build-debug --exclude-regex '_NOT_BUILT$' --label-exclude '^(tree|slurm)$'
 
 configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH=ON \
