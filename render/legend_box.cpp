@@ -18,9 +18,11 @@ bool within(const LegendBox& box, const PagePoint& p) {
          p.y < box.y + box.height + kRoom;
 }
 
-// Points every few units along the visible parts of all curves; bands count by their edges.
+// Points every few units along the visible parts of all curves; bands count by their edges. A marker
+// counts as much as a stretch of line: who cannot see it does not miss it.
 std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
   constexpr double kEvery = 5;
+  constexpr std::size_t kMarker = 8;
   std::vector<PagePoint> ink;
   const auto trace = [&](const std::vector<double>& xs, const std::vector<double>& ys, bool steps) {
     PagePoint before{NAN, NAN};
@@ -50,7 +52,12 @@ std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
     }
   };
   for (const Curve& curve : plot.curves) {
-    trace(curve.x, curve.y, curve.steps);
+    const std::size_t n = points_of(curve);
+    for (std::size_t i = 0; (curve.markers || n == 1) && i < n; ++i) {
+      const PagePoint p = page_point(area, curve.x[i], curve.y[i]);
+      if (p.known()) ink.insert(ink.end(), kMarker, p);
+    }
+    if (curve.line) trace(curve.x, curve.y, curve.steps);
     trace(curve.x, curve.low, curve.steps);
     trace(curve.x, curve.high, curve.steps);
   }

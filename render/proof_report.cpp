@@ -9,10 +9,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kUsual = 1.959964;          // deviations that a half width is
-constexpr double kFar = 3;                   // half widths, where larger errors are drawn
-constexpr double kRoom = 1.2, kLegend = 10;  // of z, beside the outermost, and for the legend
-constexpr double kBeside = 0.05;             // of z, that curves stand beside each other
+constexpr double kUsual = 1.959964;  // deviations that a half width is
+constexpr double kFar = 3;           // half widths, where larger errors are drawn
+constexpr double kRoom = 1.2;        // of z, beside the outermost
+constexpr double kBeside = 0.05;     // of z, that curves stand beside each other
 
 Curve power_curve(const std::string& name, const std::vector<ProofPower>& power, double aside) {
   Curve out;
@@ -63,9 +63,8 @@ Plot outcomes_plot(const ProofFigures& of) {
     return odd_a != odd_b ? odd_b : a < b;
   });
   plot.y_names.erase(std::unique(plot.y_names.begin(), plot.y_names.end()), plot.y_names.end());
-  plot.height = 130 + 26 * static_cast<int>(plot.y_names.size());
+  plot.width = 1100, plot.height = 130 + 26 * static_cast<int>(plot.y_names.size());
   spread_x(of, plot);
-  plot.x_low /= kLegend;
   using Outcome = ProofPoint::Outcome;
   const std::array<std::pair<Outcome, const char*>, 4> kinds = {
       {{Outcome::right, "told rightly"},
@@ -93,7 +92,7 @@ Curve errors_curve(const std::string& name, const std::vector<double>& sorted) {
   out.x.push_back(-kFar), out.y.push_back(0);
   for (std::size_t k = 0; k < sorted.size(); ++k) {
     out.x.push_back(std::clamp(sorted[k], -kFar, kFar));
-    out.y.push_back(100 * (static_cast<double>(k) + 0.5) / static_cast<double>(sorted.size()));
+    out.y.push_back(100 * static_cast<double>(k + 1) / static_cast<double>(sorted.size()));
   }
   out.x.push_back(kFar), out.y.push_back(100);
   return out;

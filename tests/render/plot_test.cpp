@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "render/picture.hpp"
@@ -67,6 +68,42 @@ TEST(Plot, TakesOddNumbers) {
       EXPECT_NO_THROW(draw_plot(plot, folder.file("a.svg"))) << "plot " << i << " kind " << kind;
     }
   }
+}
+
+// Pixels of a clear colour, as curves and markers have.
+int coloured_pixels(const std::string& file) {
+  const sample::Pixels pixels(file);
+  const sample::Size size = sample::png_size(file);
+  int count = 0;
+  for (int y = 0; pixels.read() && y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const sample::Pixel p = pixels.at(x, y);
+      count += std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 100;
+    }
+  }
+  return count;
+}
+
+TEST(Plot, ALegendHidesNoMarker) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  Plot plot;
+  // One at each place where a legend may lie, so it has to lie elsewhere.
+  for (const double x : {0.06, 0.5, 0.94}) {
+    for (const double y : {0.06, 0.5, 0.94}) {
+      Curve& curve = plot.curves.emplace_back();
+      curve.x = {x}, curve.y = {y};
+      curve.markers = true, curve.line = false;
+    }
+  }
+  plot.x_low = plot.y_low = 0, plot.x_high = plot.y_high = 1;
+  draw_plot(plot, folder.file("bare.png"));
+  const int bare = coloured_pixels(folder.file("bare.png"));
+  EXPECT_GT(bare, 900) << "nine markers of a hundred pixels and more";
+  plot.curves.front().name = "with a name of some length";
+  draw_plot(plot, folder.file("named.png"));
+  EXPECT_GT(coloured_pixels(folder.file("named.png")), bare * 19 / 18)
+      << "all nine, and the one in the legend";
 }
 
 TEST(Plot, GivenLimitsHold) {
