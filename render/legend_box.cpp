@@ -18,8 +18,8 @@ bool within(const LegendBox& box, const PagePoint& p) {
          p.y < box.y + box.height + kRoom;
 }
 
-// Points every few units along the visible parts of all curves; bands count by their edges. A marker
-// counts as much as a stretch of line: who cannot see it does not miss it.
+// Points every few units along the visible parts of all curves; bands count by their edges. A
+// marker counts as much as a stretch of line: who cannot see it does not miss it.
 std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
   constexpr double kEvery = 5;
   constexpr std::size_t kMarker = 8;
