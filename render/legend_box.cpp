@@ -19,7 +19,7 @@ bool within(const LegendBox& box, const PagePoint& p) {
 }
 
 // Points every few units along the visible parts of all curves; bands count by their edges. A
-// marker counts as much as a stretch of line: who cannot see it does not miss it.
+// marker counts as much as a stretch of line: hidden, it is a datum lost.
 std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
   constexpr double kEvery = 5;
   constexpr std::size_t kMarker = 8;
