@@ -72,7 +72,8 @@ struct AnalyticTank {
   double inlet_angle = 0.2617993877991494;  ///< rad, each inlet's turn from the radius (15 degrees)
   int cells = 50;
   /// Surface flow relative to that at 69 % and -8 cm: proportional to pump power, and 15 % more
-  /// for each centimetre that the water is lower.
+  /// for each centimetre that the water is lower; none where the level is within 1.3 cm of the
+  /// tank's upper border.
   double strength() const;
 };
 
@@ -81,7 +82,10 @@ struct AnalyticTank {
 FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation);
 
 /// Reads `ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured`, one row a cell,
-/// in any order; `measured` = 0 marks cells to fill. Throws InputError with file, line and column.
-FlowField read_flow_csv(const std::string& file, Interpolation interpolation);
+/// in any order; `measured` = 0 marks cells to fill. Throws InputError with file, line and column;
+/// so too where a velocity is beyond 5 m/s, or where the grid's extent is not that of a tank of
+/// `tank_radius` (0: not known) within a factor of 5: then units are other ones than named.
+FlowField read_flow_csv(const std::string& file, Interpolation interpolation,
+                        double tank_radius = 0);
 
 }  // namespace lilytank

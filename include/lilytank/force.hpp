@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -77,6 +78,12 @@ class ForceTerm {
   virtual std::string_view summary() const = 0;   ///< one sentence
   virtual std::string_view equation() const = 0;  ///< plain text, with its source
   virtual std::span<const Parameter> parameters() const = 0;
+  /// Why these values, each within its bounds, make no sense together or in this model:
+  /// "<parameter>: <reason>". Empty: they do.
+  virtual std::string objection(const Model&, std::span<const double> p) const {
+    static_cast<void>(p);
+    return "";
+  }
   /// Part of the paper's model: on unless a scenario says otherwise.
   virtual bool baseline() const { return false; }
   /// Adds the wrench on every body to `out` (length k.size()). `p` are the parameters' values in
@@ -87,6 +94,9 @@ class ForceTerm {
   }
   /// Whether stir() does anything.
   virtual bool stirs() const { return false; }
+  /// Whether that is to multiply `water.gain` alone: such terms come first, so that what others do
+  /// to the water is done to as much of it as there is.
+  virtual bool sets_gain() const { return false; }
   /// Changes the water that all other terms see: multiplies `water.gain`, adds to its velocities
   /// and its rotation, which are to agree: bodies turn with half the curl of what moves them.
   /// Called before any add(); `now` holds what terms before this one did. Never throws or

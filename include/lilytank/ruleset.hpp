@@ -81,6 +81,9 @@ std::vector<std::array<int, 2>> final_labels(const Ruleset& rules);
 /// line, column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
 Ruleset read_ruleset(const std::string& file);
+/// How often a link rule fires of all dockings that fire one with its left side, in either order:
+/// its p as a share of all of theirs, 0 where that is 0.
+double docking_share(const Ruleset& rules, const Rule& rule);
 /// Throws InputError where a p is outside [0,1] or the rules that share a left side (and with it
 /// one random number) have p that add up to more than 1. For callers that change p after reading.
 void check_probabilities(const Ruleset& rules);

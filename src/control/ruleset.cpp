@@ -53,6 +53,16 @@ Match match(const Ruleset& rules, Label initiator, Label responder, bool standin
   return found;
 }
 
+double docking_share(const Ruleset& rules, const Rule& rule) {
+  double sum = 0;
+  for (const Rule& other : rules.rules) {
+    const bool same = other.before == rule.before ||
+                      (other.before[0] == rule.before[1] && other.before[1] == rule.before[0]);
+    if (other.kind == RuleKind::link && same) sum += other.p;
+  }
+  return sum > 0 ? rule.p / sum : 0;
+}
+
 std::vector<Cell> canonical_shape(std::vector<Cell> cells) {
   std::vector<Cell> best;
   for (int turn = 0; turn < 4 && !cells.empty(); ++turn) {

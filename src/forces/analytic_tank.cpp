@@ -42,7 +42,7 @@ Vec2 jets(const AnalyticTank& tank, double x, double y, double scale) {
 }  // namespace
 
 double AnalyticTank::strength() const {
-  return pump_power / 69 * (1 + 15 * (-0.08 - water_level));
+  return pump_power / 69 * std::fmax(0, 1 + 15 * (-0.08 - water_level));
 }
 
 FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation) {

@@ -38,8 +38,10 @@ EddyWaves waves_of(std::uint64_t seed, double time, double length, double now, d
       const float share = size > 0 ? std::sqrt(4.0f / kWaves) / size : 0.0f;
       out.kx[m] = wide * x, out.ky[m] = wide * y, out.ax[m] = -share * y, out.ay[m] = share * x;
       // A ratio of normals is Cauchy-distributed. In double precision: it turns for hours.
-      const double ratio =
-          static_cast<double>(z[2 * kBulkBodies + i]) / static_cast<double>(z[3 * kBulkBodies + i]);
+      const double over = static_cast<double>(z[2 * kBulkBodies + i]);
+      const double under = static_cast<double>(z[3 * kBulkBodies + i]);
+      // Both are 0 where the uniform number that they come from is nearest to 1.
+      const double ratio = under != 0 ? over / under : 0;
       const double offset = ratio * turns + 0x1p-32 * phase[i];
       out.offset[m] = static_cast<float>(offset - std::floor(offset + 0.5));
     }

@@ -59,6 +59,9 @@ class EmpiricalForce final : public ForceTerm {
            "gaps nothing beyond high";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::string objection(const Model&, std::span<const double> p) const override {
+    return p[2] < p[3] ? "" : "high: it must be above low";
+  }
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     const ForceCurve curve{static_cast<Along>(static_cast<int>(p[0])),

@@ -19,6 +19,7 @@ class FlowDrift final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }
+  bool sets_gain() const override { return true; }
   void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
     water.gain *= std::fmax(0, 1 + p[0] * now.time);

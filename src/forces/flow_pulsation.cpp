@@ -21,6 +21,7 @@ class FlowPulsation final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }
+  bool sets_gain() const override { return true; }
   void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
     const double cycles = p[1] * now.time;

@@ -11,6 +11,8 @@ ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
     if (force.term->transforms()) transforming_.push_back(&force);
   }
   if (stirring_.empty()) return;
+  std::stable_partition(stirring_.begin(), stirring_.end(),
+                        [](const ActiveForce* force) { return force->term->sets_gain(); });
   stirred_x_.resize(static_cast<std::size_t>(model.bodies()));
   stirred_y_.resize(stirred_x_.size()), stirred_turning_.resize(stirred_x_.size());
 }

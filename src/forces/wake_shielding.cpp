@@ -1,4 +1,5 @@
 // The lee behind a module.
+#include <algorithm>
 #include <cmath>
 
 #include "library.hpp"
@@ -15,11 +16,36 @@ constexpr Parameter kParameters[] = {
 };
 
 constexpr double kWide = 5;  // deviations beyond which the lee is nothing
+constexpr int kBlock = 64;   // modules in the lee that are looked at together
 
 // The moment without what terms have added to the water so far.
 Moment still(Moment now) {
   now.ux = now.uy = now.turning = {};
   return now;
+}
+
+// What the modules [first, last) miss: of the water as it was, so that no order of modules counts.
+void shield(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
+            int first, int last, Stirring& water) {
+  const double far = 4 * p[1] + model.module.side, wide = kWide * p[2];
+  double left[kBlock];  // of the relative flow at each
+  std::fill(left, left + kBlock, 1.0);
+  for (int front = 0; front < k.modules; ++front) {
+    const Vec2 slip = slip_of(model, k, now, front);
+    const double size = slip.norm();
+    if (size == 0) continue;
+    const double cx = slip.x() / size, cy = slip.y() / size;
+    for (int lee = first; lee < last; ++lee) {
+      const double dx = k.x[lee] - k.x[front], dy = k.y[lee] - k.y[front];
+      const double s = dx * cx + dy * cy, y = dx * cy - dy * cx;
+      if (s <= 0 || std::fabs(y) > wide || s * s + y * y >= far * far) continue;
+      const double lost = p[0] * exp_portable(-s / p[1] - y * y / (2 * p[2] * p[2]));
+      const double deficit = std::fmin(lost, left[lee - first]);
+      left[lee - first] -= deficit;
+      const Vec2 own = slip_of(model, k, now, lee);
+      water.ux[lee] -= deficit * own.x(), water.uy[lee] -= deficit * own.y();
+    }
+  }
 }
 
 class WakeShielding final : public ForceTerm {
@@ -30,28 +56,15 @@ class WakeShielding final : public ForceTerm {
   }
   std::string_view equation() const override {
     return "u_i += share exp(-s / length - y^2 / (2 width^2)) (v_i - u_i), s > 0 and y the place "
-           "of i "
-           "along and across the relative flow at j";
+           "of i along and across the relative flow at j; of many j together no more than all of "
+           "it";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
-    const double far = 4 * p[1] + model.module.side, wide = kWide * p[2];
-    // From the water as it was, so that no order of modules counts.
-    for (int front = 0; front < k.modules; ++front) {
-      const Vec2 slip = slip_of(model, k, still(now), front);
-      const double size = slip.norm();
-      if (size == 0) continue;
-      const double cx = slip.x() / size, cy = slip.y() / size;
-      for (int lee = 0; lee < k.modules; ++lee) {
-        const double dx = k.x[lee] - k.x[front], dy = k.y[lee] - k.y[front];
-        const double s = dx * cx + dy * cy, y = dx * cy - dy * cx;
-        if (s <= 0 || std::fabs(y) > wide || s * s + y * y >= far * far) continue;
-        const double deficit = p[0] * exp_portable(-s / p[1] - y * y / (2 * p[2] * p[2]));
-        const Vec2 own = slip_of(model, k, still(now), lee);
-        water.ux[lee] -= deficit * own.x(), water.uy[lee] -= deficit * own.y();
-      }
+    for (int first = 0; first < k.modules; first += kBlock) {
+      shield(model, k, still(now), p, first, std::min(first + kBlock, k.modules), water);
     }
   }
 };

@@ -142,6 +142,13 @@ class Loader {
                                                     " m: bodies of " + shortest(widest) +
                                                     " m would overlap on the lattice");
     }
+    if (m.control.latches && m.control.capture_distance > m.module.side / 2) {
+      throw InputError(
+          place(was_set("control.capture_distance") ? "control.capture_distance" : "module.side"),
+          "control.capture_distance = " + shortest(m.control.capture_distance) +
+              " m is more than half of module.side = " + shortest(m.module.side) +
+              " m: faces would latch across a module");
+    }
     check_rules();
   }
 
@@ -156,7 +163,15 @@ class Loader {
 
   void build_forces() {
     for (const ForceDraft& force : draft_.forces) {
-      if (force.on) draft_.scenario.model.forces.push_back({force.term, force.p});
+      if (!force.on) continue;
+      Model& model = draft_.scenario.model;
+      const std::string objection = force.term->objection(model, force.p);
+      if (!objection.empty()) {
+        const std::string base = "forces." + std::string(force.term->name()) + ".";
+        const std::string path = base + objection.substr(0, objection.find(':'));
+        throw InputError(place(was_set(path) ? path : base + "on"), base + objection);
+      }
+      model.forces.push_back({force.term, force.p});
     }
   }
 
@@ -167,8 +182,8 @@ class Loader {
     }
     if (draft_.source == FlowSource::file) {
       flow_text_ = read_whole(draft_.flow_file, place("flow.file"));
-      m.field =
-          std::make_shared<const FlowField>(read_flow_csv(draft_.flow_file, draft_.interpolation));
+      m.field = std::make_shared<const FlowField>(
+          read_flow_csv(draft_.flow_file, draft_.interpolation, m.tank.radius));
     } else if (draft_.source == FlowSource::tank) {
       m.field = std::make_shared<const FlowField>(analytic_tank(draft_.tank, draft_.interpolation));
     } else {

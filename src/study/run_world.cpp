@@ -1,5 +1,6 @@
 #include "study/run_world.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "jobs/report.hpp"
@@ -38,10 +39,27 @@ bool can_change(const Ruleset& rules, const State& state, int module, int face) 
   return false;
 }
 
+// Whether a ruleset with another target is still to come: then copies are counted anew.
+bool awaits_another_target(const World& world) {
+  const Model& model = world.model();
+  const State& state = world.state();
+  const auto other = [&](const Command& command) {
+    const auto target = [&](int ruleset) {
+      return canonical_shape(model.rulesets[static_cast<std::size_t>(ruleset)].target);
+    };
+    return command.kind == CommandKind::replace_ruleset &&
+           target(command.ruleset) != target(state.ruleset);
+  };
+  const auto& timed = model.commands;
+  return std::any_of(timed.begin() + state.next_command, timed.end(), other) ||
+         std::any_of(model.feedback.begin(), model.feedback.end(), other);
+}
+
 bool over(EarlyEnd early, const World& world, const AssemblyRecord& record) {
   if (early == EarlyEnd::never || record.possible_copies() == 0) return false;
   const auto reached = static_cast<int>(record.completion_times().size());
   if (reached < record.possible_copies()) return false;
+  if (awaits_another_target(world)) return false;
   return early == EarlyEnd::completed || settled(world, record);
 }
 

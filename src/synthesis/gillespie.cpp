@@ -10,16 +10,8 @@
 namespace lilytank {
 namespace {
 
-// Of the rules that share a link rule's left side, this one fires so often.
-double share_of(const Ruleset& rules, int index) {
-  const Rule& rule = rules.rules[static_cast<std::size_t>(index)];
-  double sum = 0;
-  for (const Rule& other : rules.rules) {
-    const bool same = other.before == rule.before ||
-                      (other.before[0] == rule.before[1] && other.before[1] == rule.before[0]);
-    if (other.kind == RuleKind::link && same) sum += other.p;
-  }
-  return sum > 0 ? rule.p / sum : 0;
+double share_of(const Ruleset& rules, const Reaction& reaction) {
+  return docking_share(rules, rules.rules[static_cast<std::size_t>(reaction.rule)]);
 }
 
 const RateTable::Meeting* meeting_of(const RateTable& table, const ReactionNetwork& network,
@@ -112,7 +104,7 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) 
     kinetics.seen.push_back(seen);
     if (meeting == nullptr || reaction.kind != RuleKind::link) continue;
     links += static_cast<double>(seen);
-    chances += meeting->exposure * reaction.places * share_of(rules, reaction.rule);
+    chances += meeting->exposure * reaction.places * share_of(rules, reaction);
   }
   if (!(links > 0) || !(chances > 0))
     throw InputError("the counted rates have no joins of ruleset " + rules.name +
@@ -127,7 +119,7 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) 
       kinetics.rate.push_back(rule.p * kinetics.evaluation_rate * reaction.places);
       continue;
     }
-    const double usual = kinetics.face_rate * reaction.places * share_of(rules, reaction.rule);
+    const double usual = kinetics.face_rate * reaction.places * share_of(rules, reaction);
     const RateTable::Meeting* meeting = meeting_of(table, network, reaction);
     const double exposure = meeting == nullptr ? 0 : meeting->exposure;
     kinetics.rate.push_back((static_cast<double>(kinetics.seen[k]) + 1) / (exposure + 1 / usual));
@@ -143,7 +135,7 @@ Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_r
   for (const Reaction& reaction : kinetics.network.reactions) {
     const bool meets = reaction.kind == RuleKind::link && reaction.from.size() == 2;
     const Rule& rule = rules.rules[static_cast<std::size_t>(reaction.rule)];
-    kinetics.rate.push_back(reaction.places * (meets ? face_rate * share_of(rules, reaction.rule)
+    kinetics.rate.push_back(reaction.places * (meets ? face_rate * share_of(rules, reaction)
                                                      : evaluation_rate * rule.p));
     kinetics.seen.push_back(0);
   }

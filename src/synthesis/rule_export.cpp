@@ -52,14 +52,6 @@ std::string opening(const Ruleset& rules, const std::string& tool) {
          "shapes: a bond is all that is known.\n";
 }
 
-// Link rules whose probabilities are shares of one docking.
-double link_share(const Ruleset& rules, const Rule& rule) {
-  double sum = 0;
-  for (const Rule& other : rules.rules)
-    if (other.kind == RuleKind::link && other.before == rule.before) sum += other.p;
-  return sum > 0 ? rule.p / sum : 0;
-}
-
 bool symmetric(const Rule& rule) {
   return rule.before[0] == rule.before[1];
 }
@@ -89,7 +81,7 @@ std::string to_kappa(const Ruleset& rules, double face_rate, double evaluation_r
     const bool link = rule.kind == RuleKind::link;
     const std::string before = link ? "." : "1", after = rule.kind == RuleKind::unlink ? "." : "1";
     out += "%var: 'k_" + rule.name + "' " +
-           (link ? shortest(link_share(rules, rule)) + " * 'face_rate'"
+           (link ? shortest(docking_share(rules, rule)) + " * 'face_rate'"
                  : shortest(rule.p) + " * 'evaluation_rate'") +
            "\n";
     for_each_case(rule, [&](const Case& a, const Case& b, const std::string& name) {
@@ -112,7 +104,7 @@ std::string to_bngl(const Ruleset& rules, double face_rate, double evaluation_ra
                     shortest(face_rate) + "\n  evaluation_rate " + shortest(evaluation_rate) + "\n";
   for (const Rule& rule : rules.rules)
     out += "  k_" + rule.name + " " +
-           (rule.kind == RuleKind::link ? shortest(link_share(rules, rule)) + "*face_rate"
+           (rule.kind == RuleKind::link ? shortest(docking_share(rules, rule)) + "*face_rate"
                                         : shortest(rule.p) + "*evaluation_rate") +
            "\n";
   out += "end parameters\nbegin molecule types\n  M(a";

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "forces/force_sum.hpp"
 #include "lilytank/force.hpp"
 #include "support/moving_bodies.hpp"
 #include "support/worlds.hpp"
@@ -168,6 +169,56 @@ TEST(CandidateForces, StreamsByHand) {
   row.x = {0, 0}, row.y = {0, 0.1};
   lee = stirred(model, row, force("wake_shielding", {0.5, 0.05, 0.02}), {});
   EXPECT_EQ(lee.x[1], 0);
+}
+
+// However many stand before it, a module misses no more than the whole stream.
+TEST(CandidateForces, ARowOfModulesTurnsNoStreamAbout) {
+  const Model model = uniform(0.2);
+  MovingBodies row(6, 0, 1, 0);
+  for (int i = 0; i < 6; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    row.x[k] = 0.037 * i, row.y[k] = 0, row.c[k] = 1, row.s[k] = 0, row.omega[k] = 0;
+  }
+  const Stirred lee = stirred(model, row, force("wake_shielding", {1, 0.08, 0.02}), {});
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_GE(lee.x[i], -0.2 - 1e-12) << i;
+  EXPECT_NEAR(lee.x[5], -0.2, 1e-12);
+}
+
+// A layer and a lee take a share of the water that there is, whatever the pumps do.
+TEST(CandidateForces, WhatSlowsTheWaterSlowsAsMuchAsPumpsMove) {
+  Model model = uniform(0.2);
+  MovingBodies b = lone();
+  b.y = {model.tank.radius - 0.01};
+  for (const ActiveForce& pumps :
+       {force("flow_drift", {0.5}), force("flow_pulsation", {0.5, 1, 0})}) {
+    const std::string_view name = pumps.term->name();
+    model.forces = {force("wall_layer", {1, 0.1}), pumps};
+    ForceSum sum(model);
+    Moment now{.time = 1, .gusts = false};
+    sum.stir(b.view(), now);
+    EXPECT_NEAR(now.gain, 1.5, 1e-9) << name;
+    EXPECT_NEAR(now.ux[0], -1.5 * std::exp(-0.1) * 0.2, 1e-9) << name;
+  }
+}
+
+// Of an assembly only the sum of forces counts: inner ones must go on cancelling each other.
+TEST(CandidateForces, AHeavyModuleDrivesNoAssembly) {
+  const Model model = standard_model();
+  MovingBodies b = pair_of(model.module.side);
+  b.covered = {1, 4};
+  const auto changed =
+      transformed(model, b, force("heterogeneous_module", {1, 0}), {{0.01, 0, 0}, {-0.01, 0, 0}});
+  EXPECT_EQ(changed[0].fx + changed[1].fx, 0);
+}
+
+// Numbers nearest to 1 make a length of 0: these two seeds have one.
+TEST(CandidateForces, EddiesOfEverySeedAreFinite) {
+  const Model model = standard_model();
+  for (const std::uint64_t seed : {559079u, 966946u}) {
+    const Moment now{.time = 1.3, .step = 52, .gust = 52, .seed = seed};
+    const Stirred s = stirred(model, lone(), force("correlated_gusts", {0.02}), now);
+    EXPECT_TRUE(std::isfinite(s.x[0]) && std::isfinite(s.y[0])) << seed;
+  }
 }
 
 TEST(CandidateForces, WallsByHand) {

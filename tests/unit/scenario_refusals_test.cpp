@@ -21,6 +21,14 @@ TEST_F(ScenarioRefusals, RefusesWithPlaceAndAdvice) {
        "s.toml:1:9: unknown key 'forces.face_drga.K_F' - did you mean 'face_drag'?"},
       {"[forces.face_drga]\n",
        "s.toml:1:9: unknown key 'forces.face_drga' - did you mean 'face_drag'?"},
+      {"[[recordings]]\nfile = \"a.csv\"\n",
+       "s.toml:1:3: unknown key 'recordings' - did you mean 'recording'?"},
+      {"[[commands]]\nat = 1\n", "s.toml:1:3: unknown key 'commands' - did you mean 'command'?"},
+      {"[experimnt]\nname = \"a\"\n",
+       "s.toml:1:2: unknown key 'experimnt.name' - did you mean 'experiment'?"},
+      {"bse = \"tank.toml\"\n", "s.toml:1:1: unknown key 'bse' - did you mean 'base'?"},
+      {"[study]\nname = \"a\"\n",
+       "s.toml:1:2: [study] is not of a scenario, but of the file of a study: for lilytank study"},
       {"radius = 1\n", "s.toml:1:1: unknown key 'radius' - did you mean 'tank.radius'?"},
       {"[tank]\nviscosity = 1\n", "s.toml:2:1: unknown key 'tank.viscosity' - 'tank' has radius"},
       {"[tank]\nradius.x = 1\n", "s.toml:2:8: 'tank.radius' is a value and has no 'x'"},
@@ -68,6 +76,13 @@ TEST_F(ScenarioRefusals, RefusesWithPlaceAndAdvice) {
        "s.toml:2:8: cannot read 'no.csv': No such file or directory"},
       {"[ruleset]\nfile = \"no.rules\"\n",
        "s.toml:2:8: cannot read 'no.rules': No such file or directory"},
+      {"[control]\ncapture_distance = \"2 cm\"\n",
+       "s.toml:2:20: control.capture_distance = 0.02 m is more than half of module.side = 0.035 m: "
+       "faces would latch across a module"},
+      {"[forces.empirical_force]\nlow = 2\nhigh = 2\n",
+       "s.toml:3:8: forces.empirical_force.high: it must be above low"},
+      {"[forces.heterogeneous_module]\nextra = 0.5\nmodule = 15\n",
+       "s.toml:3:10: forces.heterogeneous_module.module: there are only 15, counted from 0"},
       {"command = 3\n",
        "s.toml:1:11: command is a list of tables, each under its own line [[command]]"},
       {"[[command]]\ndo = \"pause\"\n",
@@ -150,6 +165,32 @@ TEST_F(ScenarioRefusals, RefusesFilesThatDoNotFit) {
   EXPECT_EQ(refusal("[flow]\nsource = \"still\"\n"
                     "[[command]]\nat = 1\ndo = \"pump_power\"\npower = 5\n"),
             "s.toml:2:10: still water has no pumps to set");
+}
+
+// The grid is square about the centre in any unit; only the tank and speeds tell which one it is
+// in.
+TEST_F(ScenarioRefusals, RefusesFlowsInOtherUnits) {
+  const auto with = [&](const std::string& edge, const std::string& first) {
+    const std::string rest = ",0.1,0,0,0,1\n";
+    dir_.write("f.csv",
+               "ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured\n0,0,-" +
+                   edge + ",-" + edge + "," + first + "\n1,0," + edge + ",-" + edge + rest +
+                   "0,1,-" + edge + "," + edge + rest + "1,1," + edge + "," + edge + rest);
+    return refusal("[flow]\nfile = \"f.csv\"\n");
+  };
+  const std::string slow = "0.1,0,0,0,1";
+  const std::string reach = "f.csv: the flow grid reaches ";
+  const std::string of = " m to every side of the centre of a tank of radius 0.3 m";
+  EXPECT_EQ(with("15", slow), reach + "30" + of + ": are x_m and y_m in cm?");
+  EXPECT_EQ(with("150", slow), reach + "300" + of + ": are x_m and y_m in mm?");
+  EXPECT_EQ(with("1.5", slow), reach + "3" + of);
+  EXPECT_EQ(with("0.02", slow), reach + "0.04" + of);
+  const std::string fast = " m/s is faster than 5 m/s: are these velocities in cm/s or mm/s?";
+  EXPECT_EQ(with("0.15", "10.2,0,0,0,1"), "f.csv:2:17: mean_vx_mps = 10.2" + fast);
+  EXPECT_EQ(with("0.15", "0,-10.2,0,0,1"), "f.csv:2:19: mean_vy_mps = -10.2" + fast);
+  EXPECT_EQ(with("0.15", "0,0,0,12,1"), "f.csv:2:23: std_vy_mps = 12" + fast);
+  for (const char* edge : {"0.05", "0.15", "0.6"}) EXPECT_EQ(with(edge, slow), "(accepted)");
+  EXPECT_EQ(with("0.15", "999,0,0,0,0"), "(accepted)");  // of a cell that does not count
 }
 
 }  // namespace
