@@ -49,7 +49,8 @@ struct FoundCurve {
 struct DiagnosisFinding {
   std::string effect;  ///< of the catalogue, or "unnamed"
   std::vector<std::string> alternatives;
-  double confidence = 0;  ///< 1 - probability of such a fit with nothing there
+  /// 1 - probability that with nothing there the strongest of all that is tried is as strong.
+  double confidence = 0;
   double z = 0;
   std::string variable;         ///< position, radius, pair, slip, heading, spin, time, module, lag
   double from = 0, to = 0;      ///< where it acts
@@ -108,6 +109,8 @@ struct Diagnosis {
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
   bool tank = true;  ///< of Lilies in a tank; false: of point bodies, by diagnose_bodies
+  /// No recording was held out: `held_out` is of those that the fit rests on.
+  bool nothing_held_out = false;
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found
   std::string flow_csv;

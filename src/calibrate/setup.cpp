@@ -85,13 +85,11 @@ void find_parameters(const Experiment& experiment, CalibrationSetup& setup) {
   }
 }
 
-double seconds_of(const Recording& recording) {
-  return recording.frames / recording.rate;
-}
-
 void find_summary(CalibrationSetup& setup) {
   for (const auto* all : {&setup.training, &setup.held_out}) {
-    for (const Recording& one : *all) setup.piece = std::min(setup.piece, seconds_of(one) / 2);
+    // Half of the frames, rounded down: two pieces must fit.
+    for (const Recording& one : *all)
+      setup.piece = std::min(setup.piece, one.frames / 2 / one.rate);
   }
   // Where recordings are short, two pieces of each, for the noise floor.
   if (setup.piece < 2) throw InputError("recordings of less than 4 s tell nothing of a tank");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "calibrate/design.hpp"
 #include "diagnose/nuisances.hpp"
@@ -29,8 +30,9 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
                                   const DiagnosisBudget& budget) {
   CalibrationOptions c;
   c.parameters = standard_parameters(BodyKind::lily);
-  const bool told = std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
-                                [](const Recording& r) { return r.held_out; });
+  const bool told =
+      std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
+                  [](const Recording& r) { return r.body == BodyKind::lily && r.held_out; });
   const auto lilies = std::count_if(experiment.recordings.begin(), experiment.recordings.end(),
                                     [](const Recording& r) { return r.body == BodyKind::lily; });
   c.hold_out = told || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
@@ -38,6 +40,15 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;
+}
+
+// Numbers of bodies, over all recordings.
+int identities_in(const std::vector<Recording>& recordings) {
+  std::set<std::int64_t> ids;
+  for (const Recording& one : recordings) {
+    for (const Track& track : one.tracks) ids.insert(track.id);
+  }
+  return static_cast<int>(ids.size());
 }
 
 std::uint64_t fnv_of(const Vector& numbers) {
@@ -124,6 +135,20 @@ Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diag
 void Diagnoser::run(Diagnosis& out) {
   prepare(model_cost());
   out.flow_csv = setup_.corrected_csv(*maps_->best());
+  for (const auto* shapes : {&setup_.shapes, &setup_.held_out_shapes}) {
+    for (const RecordingShape& shape : *shapes) out.modules = std::max(out.modules, shape.bodies);
+  }
+  if (!atlas_->plan().identities) {
+    out.checks.push_back(
+        "there are more identities than bodies: what single modules differ in is "
+        "not asked, nor is heterogeneous_module");
+  }
+  out.nothing_held_out = setup_.held_out.empty();
+  if (out.nothing_held_out) {
+    out.warnings.push_back(
+        "no recording was held out: what is shown of the fit is of recordings "
+        "that it rests on, and says less than of others");
+  }
   const Judged judged = judge(setup_.training, out);
   model_and_show(judged, setup_.held_out.empty() ? setup_.training : setup_.held_out, out);
 }
@@ -163,23 +188,22 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
 
 ScorePlan Diagnoser::plan(const Vector& centre) const {
   ScorePlan p;
-  const std::vector<double> values = stages_.from_scale(centre);
-  const std::vector<std::string> paths = setup_.paths();
-  const auto told = static_cast<std::ptrdiff_t>(setup_.told());
-  p.model =
-      with_parameters(setup_.model, std::vector<std::string>(paths.begin(), paths.begin() + told),
-                      std::vector<double>(values.begin(), values.begin() + told));
+  p.model = baseline_at(centre);
   p.predictor = predictor_options(p.model, setup_.training);
   p.effects = effect_catalogue(setup_.model);
   double longest = 0;
-  int modules = 0;
-  for (const Recording& r : setup_.training) {
-    longest = std::max(longest, r.frames / r.rate);
-    modules = std::max(modules, static_cast<int>(r.tracks.size()));
+  int bodies = 0;
+  for (const Recording& r : setup_.training) longest = std::max(longest, r.frames / r.rate);
+  for (const RecordingShape& shape : setup_.shapes) bodies = std::max(bodies, shape.bodies);
+  const int known = identities_in(setup_.training);
+  p.identities = known <= bodies;
+  if (!p.identities) {
+    std::erase_if(p.effects, [](const Effect& e) { return e.name == "heterogeneous_module"; });
   }
   p.shapes = shape_catalogue(p.model, longest);
   p.nuisances_known = nuisances_known(p.model, *maps_, derived_seed(options_.seed, 32));
-  p.rate = setup_.training.front().rate, p.modules = std::max(modules, setup_.shapes[0].bodies);
+  p.rate = setup_.training.front().rate;
+  p.modules = std::max({bodies, known, identities_in(setup_.held_out)});
   return p;
 }
 

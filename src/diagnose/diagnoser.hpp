@@ -88,6 +88,7 @@ class Diagnoser {
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
   void tell_detectable(const Naming& naming, Diagnosis& out) const;
+  bool is_told(const Explanation& e, const std::string& name) const;
   const FoundCurve* map_of(const std::string& variable, const Diagnosis& out) const;
   void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
   void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
@@ -98,7 +99,8 @@ class Diagnoser {
   void tell_camera(const std::vector<double>& values, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                        Diagnosis& out) const;
-  void show(const JointFit& fit, const std::vector<double>& before,
+  Model baseline_at(const Eigen::VectorXd& scaled) const;
+  void show(const JointFit& fit, const std::vector<double>& before, const Eigen::VectorXd& baseline,
             const std::vector<Recording>& recordings, Diagnosis& out);
 
   DiagnosisOptions options_;

@@ -96,7 +96,6 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
       throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
     }
     out.recordings += 1, out.seconds += r.frames / r.rate;
-    out.modules = std::max(out.modules, static_cast<int>(r.tracks.size()));
   }
   if (recordings_at_fault(experiment, out)) {
     out.verdict = Verdict::measurement;

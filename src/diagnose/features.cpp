@@ -29,7 +29,7 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
   for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_, &by_gusts_}) {
     of->resize(n);
   }
-  for (auto* of : {&ux_, &uy_, &turning_, &water_x_, &water_y_, &water_turning_}) of->resize(n);
+  for (auto* of : {&ux_, &uy_, &turning_}) of->resize(n);
   wrenches_.assign(features_.size(), std::vector<Wrench>(n));
 }
 
@@ -75,15 +75,14 @@ void Features::add(const Effect& effect, std::size_t component) {
 
 // The drag and its derivatives in water that the model's own terms stir.
 void Features::derive(const Kinematics& k, const Moment& now) {
-  for (auto* of : {&water_x_, &water_y_, &water_turning_}) std::fill(of->begin(), of->end(), 0.0);
-  Stirring water{1, water_x_, water_y_, water_turning_, 1};
-  for (const ActiveForce& force : model_.forces) {
-    if (force.term->stirs()) force.term->stir(model_, k, now, force.p, water);
-  }
+  Moment water = now;
+  base_->stir(k, water);
+  const bool stirred = !water.ux.empty();
   const auto drag = [&](double x, double y, double turning, double gain, double gusts,
                         std::vector<Wrench>& out) {
     for (std::size_t i = 0; i < ux_.size(); ++i) {
-      ux_[i] = water_x_[i] + x, uy_[i] = water_y_[i] + y, turning_[i] = water_turning_[i] + turning;
+      ux_[i] = (stirred ? water.ux[i] : 0) + x, uy_[i] = (stirred ? water.uy[i] : 0) + y;
+      turning_[i] = (stirred ? water.turning[i] : 0) + turning;
     }
     Moment other = now;
     other.ux = ux_, other.uy = uy_, other.turning = turning_;

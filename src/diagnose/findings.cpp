@@ -99,13 +99,21 @@ void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
   f.text = text;
 }
 
+// Whether it is a finding itself, by name.
+bool Diagnoser::is_told(const Explanation& e, const std::string& name) const {
+  return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
+    return fit.effect >= 0 &&
+           atlas_->plan().effects[static_cast<std::size_t>(fit.effect)].name == name;
+  });
+}
+
 void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, const Explanation& e,
                               Diagnosis& out) const {
   const std::vector<EffectFit> ranked = naming.effects(residual);
   for (std::size_t i = 0; i < e.found.size(); ++i) {
     const EffectFit& fit = e.found[i];
     DiagnosisFinding f;
-    f.z = fit.z, f.confidence = std::erf(fit.z / std::sqrt(2.0));
+    f.z = fit.z, f.confidence = naming.confidence(fit);
     if (fit.effect >= 0) {
       const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
       f.effect = effect.name, f.variable = effect.variable;
@@ -118,6 +126,7 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
         const std::string& name =
             atlas_->plan().effects[static_cast<std::size_t>(other.effect)].name;
         if (name == effect.name || own->gain - other.gain >= kSame) continue;
+        if (is_told(e, name)) continue;
         if (std::find(f.alternatives.begin(), f.alternatives.end(), name) == f.alternatives.end())
           f.alternatives.push_back(name);
       }

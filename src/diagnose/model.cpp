@@ -61,7 +61,16 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
   tell_camera(fit.value, out);
   tell_parameters(fit, found, out);
-  show(fit, before, held_out, out);
+  show(fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
+}
+
+// The baseline alone, with the parameters at these scaled values.
+Model Diagnoser::baseline_at(const Vector& scaled) const {
+  const std::vector<std::string> all = setup_.paths();
+  const std::vector<double> values = stages_.from_scale(scaled);
+  const auto told = static_cast<std::ptrdiff_t>(setup_.told());
+  return with_parameters(setup_.model, std::vector<std::string>(all.begin(), all.begin() + told),
+                         std::vector<double>(values.begin(), values.begin() + told));
 }
 
 void Diagnoser::tell_camera(const std::vector<double>& values, Diagnosis& out) const {
@@ -120,7 +129,8 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
   out.overlay = text;
 }
 
-void Diagnoser::show(const JointFit& fit, const std::vector<double>& before,
+// `baseline`: what calibrating it to these very recordings says.
+void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, const Vector& baseline,
                      const std::vector<Recording>& recordings, Diagnosis& out) {
   std::vector<RecordingShape> shapes;
   for (const Recording& one : recordings) shapes.push_back(shape_of(one));
@@ -140,8 +150,14 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before,
     told.push_back(paths[i]), values.push_back(fit.value[i]);
   }
   const Model after = with_parameters(fit.model, told, values);
-  const StepGain gain =
-      step_gain(atlas_->plan().model, after, atlas_->plan().predictor, recordings);
+  // Against the better of two baselines: where an effect is strong, a calibration that does not
+  // know it can be worse than none.
+  const auto gain_over = [&](const Model& without) {
+    return step_gain(without, after, atlas_->plan().predictor, recordings);
+  };
+  const StepGain by_plan = gain_over(atlas_->plan().model);
+  const StepGain by_own = gain_over(baseline_at(baseline));
+  const StepGain& gain = by_own.gain < by_plan.gain ? by_own : by_plan;
   for (DiagnosisFinding& f : out.findings) {
     f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
   }

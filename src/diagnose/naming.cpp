@@ -52,18 +52,24 @@ Matrix loosened_by(const Matrix& own, const Matrix& off) {
          Matrix(aside.cwiseAbs2().asDiagonal());
 }
 
-// The value that the largest of many nulls exceeds with this probability, by a Gumbel law with
-// their mean and deviation.
-double extreme(const std::vector<double>& values, double probability) {
+}  // namespace
+
+ExtremeLaw::ExtremeLaw(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (const double v : values) mean += v / n;
-  for (const double v : values) square += (v - mean) * (v - mean) / (n - 1);
-  const double scale = std::sqrt(6 * square) / kPi;
-  return mean + scale * (-std::log(-std::log(1 - probability)) - kEulerGamma);
+  double square = 0;
+  for (const double v : values) mean_ += v / n;
+  for (const double v : values) square += (v - mean_) * (v - mean_) / (n - 1);
+  scale_ = std::sqrt(6 * square) / kPi;
 }
 
-}  // namespace
+double ExtremeLaw::exceeded_with(double probability) const {
+  return mean_ + scale_ * (-std::log(-std::log(1 - probability)) - kEulerGamma);
+}
+
+double ExtremeLaw::chance_beyond(double value) const {
+  if (!(scale_ > 0)) return value < mean_ ? 1 : 0;
+  return -std::expm1(-std::exp(-((value - mean_) / scale_ + kEulerGamma)));
+}
 
 Naming::Naming(const Matrix& nulls, const Matrix& alike, const std::vector<Effect>& effects,
                const std::vector<Fingerprint>& fingerprints, std::size_t curves,
@@ -248,9 +254,10 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
                                   z_of(of(static_cast<Eigen::Index>(i)), shape_scale_[s], kKnots));
     }
   }
-  effect_threshold_ = extreme(largest_effect, 0.5 * false_alarms);
-  shape_threshold_ = extreme(largest_shape, 0.3 * false_alarms);
-  misfit_threshold_ = extreme(misfits, 0.2 * false_alarms);
+  largest_effect_ = ExtremeLaw(largest_effect), largest_shape_ = ExtremeLaw(largest_shape);
+  effect_threshold_ = largest_effect_.exceeded_with(0.5 * false_alarms);
+  shape_threshold_ = largest_shape_.exceeded_with(0.3 * false_alarms);
+  misfit_threshold_ = ExtremeLaw(misfits).exceeded_with(0.2 * false_alarms);
   null_misfit_ = std::accumulate(misfits.begin(), misfits.end(), 0.0) / static_cast<double>(n);
 }
 

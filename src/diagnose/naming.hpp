@@ -31,6 +31,18 @@ struct Explanation {
   double doubt = 0;       ///< -2 log likelihood of the named numbers, and a price for amplitudes
 };
 
+/// The law of the largest of many numbers (Gumbel's), by its mean and deviation in nulls.
+class ExtremeLaw {
+ public:
+  ExtremeLaw() = default;
+  explicit ExtremeLaw(const std::vector<double>& largest);
+  double exceeded_with(double probability) const;  ///< the number that is exceeded so often
+  double chance_beyond(double value) const;        ///< how often that number is exceeded
+
+ private:
+  double mean_ = 0, scale_ = 0;
+};
+
 class Naming {
  public:
   /// `nulls`: residuals of experiments in which nothing is missing, a row each, those of `curves`
@@ -77,6 +89,10 @@ class Naming {
                       const std::vector<EffectFit>& begun = {}) const;
   double effect_threshold() const { return effect_threshold_; }
   double shape_threshold() const { return shape_threshold_; }
+  /// Probability that in a complete experiment no effect (no curve, of a shape's fit) is as strong.
+  double confidence(const EffectFit& fit) const {
+    return 1 - (fit.effect >= 0 ? largest_effect_ : largest_shape_).chance_beyond(fit.z);
+  }
   /// Of the squared distance of all named numbers.
   double misfit_threshold() const { return misfit_threshold_; }
   /// Squared distance of all named numbers if nothing is there.
@@ -169,6 +185,7 @@ class Naming {
   std::vector<double> shape_scale_;
   std::vector<Known> known_;
   std::vector<Meeting> meetings_;
+  ExtremeLaw largest_effect_, largest_shape_;  ///< z of nulls
   double effect_threshold_ = 0, shape_threshold_ = 0, misfit_threshold_ = 0;
   double null_misfit_ = 0;  ///< mean squared distance of nulls
 };

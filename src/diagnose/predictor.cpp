@@ -135,6 +135,8 @@ class Filter {
       if (known) continue;
       Carried c;
       c.track = &track, c.module = modules.at(track.id);
+      // It goes on in this piece: its last one is not carried along beside it.
+      std::erase_if(carried_, [&](const Carried& old) { return old.module == c.module; });
       c.x = track.x[i], c.y = track.y[i], c.theta = track.theta[i];
       c.place = {noise_, 0, kFirstSpeed * kFirstSpeed};
       c.turn = {heading_noise_, 0, kFirstSpin * kFirstSpin};

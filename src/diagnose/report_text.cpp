@@ -43,9 +43,9 @@ void tell(const DiagnosisFinding& f, std::string& out) {
 }
 
 void tell_fit(const Diagnosis& d, std::string& out) {
-  out +=
-      "\nRecordings that had no part in this, against simulations before and after: mean square "
-      "of deviations, 1 is chance\n";
+  out += d.nothing_held_out ? "\nThe recordings that were fitted (no other was held out)"
+                            : "\nRecordings that had no part in this";
+  out += ", against simulations before and after: mean square of deviations, 1 is chance\n";
   TextTable table({"numbers", "before", "after", "share removed"});
   for (const GroupFit& g : d.held_out) {
     table.add({g.group, digits(g.before), digits(g.after),
@@ -75,6 +75,19 @@ void tell_far(const Diagnosis& d, std::string& out) {
          ", " + digits(f.gain_high) + "]\n";
 }
 
+// Of a tank, false alarms are shared by effects, curves and all numbers together.
+void tell_thresholds(const Diagnosis& d, std::string& out) {
+  const std::string share = digits(100 * d.false_alarms) + " % of complete experiments ";
+  out += "\nStrongest effects, each alone (z; ";
+  if (d.tank) {
+    out += share + "have an effect beyond " + digits(d.effect_threshold) + ", a curve beyond " +
+           digits(d.shape_threshold) +
+           " or too much in all); left after the findings: " + digits(d.strongest_left) + "\n";
+  } else {
+    out += share + "exceed " + digits(d.effect_threshold) + ")\n";
+  }
+}
+
 }  // namespace
 
 std::string diagnosis_text(const Diagnosis& d) {
@@ -99,10 +112,7 @@ std::string diagnosis_text(const Diagnosis& d) {
     out += table.text();
   }
   if (!d.ranking.empty()) {
-    out += "\nStrongest effects, each alone (z; " + digits(100 * d.false_alarms) +
-           " % of complete experiments exceed " + digits(d.effect_threshold) + ", curves " +
-           digits(d.shape_threshold) + "); left after the findings: " + digits(d.strongest_left) +
-           "\n";
+    tell_thresholds(d, out);
     TextTable table({"effect", "z", "with"});
     for (std::size_t i = 0; i < d.ranking.size() && i < 8; ++i) {
       table.add({d.ranking[i].effect, digits(d.ranking[i].z), d.ranking[i].variant});

@@ -212,24 +212,27 @@ class ModuleDifferences final : public ScatterPart {
   }
   void tell(std::vector<double>& values, ScoreDetails* details) const override {
     std::array<std::vector<double>, 4> of;
+    std::size_t module = 0, heaviest = 0;
     for (const Each& m : each_) {
+      ++module;
+      if (m.square.count == 0) continue;  // of nothing but contacts, nothing is told
       of[0].push_back(std::log(std::max(m.square.value(), 1e-9)));
       of[1].push_back(std::log(std::max(m.turn.value(), 1e-9)));
       of[2].push_back(m.drag.value() / std::max(m.drag_square.value(), 1e-12));
       of[3].push_back(m.bias.value());
+      if (of[0].back() == *std::min_element(of[0].begin(), of[0].end())) heaviest = module - 1;
     }
     for (const std::vector<double>& list : of) {
       const auto n = static_cast<double>(list.size());
       double mean = 0, square = 0;
       for (const double v : list) mean += v / n;
       for (const double v : list) square += (v - mean) * (v - mean) / n;
-      values.push_back(*std::max_element(list.begin(), list.end()) - mean);
-      values.push_back(*std::min_element(list.begin(), list.end()) - mean);
+      const auto ends = std::minmax_element(list.begin(), list.end());
+      values.push_back(list.empty() ? 0 : *ends.second - mean);
+      values.push_back(list.empty() ? 0 : *ends.first - mean);
       values.push_back(std::sqrt(square));
     }
-    if (details == nullptr || each_.empty()) return;
-    const auto& s = of[0];
-    details->heaviest = static_cast<int>(std::min_element(s.begin(), s.end()) - s.begin());
+    if (details != nullptr) details->heaviest = static_cast<int>(heaviest);
   }
 
  private:

@@ -23,7 +23,9 @@ struct ScorePlan {
   std::vector<Effect> effects;
   std::vector<Shape> shapes;
   double rate = 30;
-  int modules = 15;  ///< identities in all recordings
+  int modules = 15;  ///< identities in all recordings, of each call
+  /// Every body keeps its identity, in all recordings: what single modules differ in can be told.
+  bool identities = true;
   /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
   std::vector<Effect> beside;
   /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.

@@ -28,7 +28,8 @@ constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes a
 std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
   std::vector<std::unique_ptr<ScatterPart>> parts;
   parts.push_back(memory_part(plan)), parts.push_back(variance_part(plan));
-  parts.push_back(neighbour_part(plan)), parts.push_back(module_part(plan));
+  parts.push_back(neighbour_part(plan));
+  if (plan.identities) parts.push_back(module_part(plan));
   parts.push_back(spectrum_part(plan)), parts.push_back(contact_part(plan));
   return parts;
 }

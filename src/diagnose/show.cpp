@@ -249,7 +249,9 @@ StepGain step_gain(const Model& before, const Model& after, const PredictorOptio
   }
   Moments of;
   for (const auto& [block, gain] : blocks) of.add(gain);
-  const double width_of = 1.96 * std::sqrt(of.variance() * of.count);
+  // A block or two do not say how much they scatter.
+  const double width_of = of.count < 3 ? std::numeric_limits<double>::infinity()
+                                       : 1.96 * std::sqrt(of.variance() * of.count);
   return {of.sum, of.sum - width_of, of.sum + width_of};
 }
 

@@ -228,6 +228,29 @@ TEST_F(NamingTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
 // deviation of 10; the threshold is met by an estimate whose mean it is to a tenth. By a
 // fingerprint of five experiments more is needed, and one that begins slowly needs the root of its
 // size.
+// A name is as sure as no null's strongest of all names is as strong.
+TEST(ExtremeLaw, sharesOfTheLargestOfManyNormals) {
+  std::vector<double> largest;
+  const int draws = 2000, each = 50;
+  for (int i = 0; i < draws; ++i) {
+    double most = -9;
+    for (int k = 0; k < each; k += 2) {
+      const auto [x, y] = normal_pair({5, Stream::calibrate, i, static_cast<std::uint32_t>(k), 0});
+      most = std::max({most, x, y});
+    }
+    largest.push_back(most);
+  }
+  const ExtremeLaw law(largest);
+  for (const double p : {0.5, 0.1, 0.01}) {
+    EXPECT_NEAR(law.chance_beyond(law.exceeded_with(p)), p, 1e-12);
+    const double beyond = static_cast<double>(std::count_if(
+        largest.begin(), largest.end(), [&](double v) { return v > law.exceeded_with(p); }));
+    // Five standard errors, and a third for what is not a Gumbel law at 50 normals.
+    EXPECT_NEAR(beyond / draws, p, 5 * std::sqrt(p * (1 - p) / draws) + p / 3) << p;
+  }
+  EXPECT_EQ(ExtremeLaw({1, 1, 1}).chance_beyond(2), 0);
+}
+
 TEST_F(NamingTest, halfOfAllExperimentsShowTheSmallestSize) {
   Matrix nulls(kNulls, first_.size());
   for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
