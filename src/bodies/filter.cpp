@@ -134,7 +134,9 @@ Belief first_belief(const BodyModel& model, const Typical& typical, const BodyRu
     const double x = run.position[a * row + c],
                  u = run.position[std::min(b, run.samples() - 1) * row + c];
     out.z[i] = std::isnan(x) ? 0 : x;
-    out.z[n + i] = std::isnan(u - x) ? 0 : (u - x) / (run.time[b] - run.time[a]);
+    // A body that is seen in one row alone has no velocity yet.
+    const bool moves = b < run.samples() && !std::isnan(u - x);
+    out.z[n + i] = moves ? (u - x) / (run.time[b] - run.time[a]) : 0;
     const double dt = run.time[to] - run.time[0];
     out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * model.noise * model.noise;
     out.P(n + i, n + i) = typical.speed * typical.speed;

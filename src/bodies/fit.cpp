@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "analysis/linear.hpp"
 
@@ -227,6 +228,15 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
       }
     }
   }
+  // Where whole runs are marked as held out, others have no part in what is compared.
+  std::set<int> scored;
+  for (std::size_t k = 0; k < g.fold.size(); ++k) {
+    if (g.fold[k] >= 0) scored.insert(g.block[k]);
+  }
+  if (std::find(g.fold.begin(), g.fold.end(), -1) == g.fold.end()) return;
+  std::vector<double> told;
+  for (const int block : scored) told.push_back(fitted.held_out[static_cast<std::size_t>(block)]);
+  fitted.held_out = std::move(told);
 }
 
 Group make_group(const BodyExperiment& e, const std::string& name,

@@ -41,7 +41,12 @@ struct Rows {
   std::vector<std::string> bodies;
   std::vector<double> time, drivers;
   std::vector<std::vector<double>> cells;
+  std::vector<int> lines;  // of each body's row at the last time; 0: it has none yet
 };
+
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));  // empty cells say the same
+}
 
 class TableReader {
  public:
@@ -81,40 +86,83 @@ class TableReader {
     if (fresh) order_.push_back(name), r.name = name;
     const double time = table_.number(time_);
     if (std::isnan(time)) table_.refuse(time_, table_.quoted(time_) + " is not a time");
-    const bool same = t_->together && !r.time.empty() && time == r.time.back();
-    if (!same) {
-      if (!r.time.empty() && time < r.time.back()) {
-        table_.refuse(time_, table_.quoted(time_) + " is before the row above");
-      }
-      // A row that a tracker wrote twice says nothing new.
-      if (!r.time.empty() && time == r.time.back()) return;
+    if (!r.time.empty() && time < r.time.back()) {
+      table_.refuse(time_, table_.quoted(time_) + " is before the row above");
+    }
+    if (r.time.empty() || time > r.time.back()) {
+      const std::vector<double> drivers = driver_cells();
       r.time.push_back(time), r.cells.emplace_back();
-      for (const int d : drivers_) {
-        const double value = table_.number(d);
-        if (std::isnan(value)) table_.refuse(d, table_.quoted(d) + " is not a number");
-        r.drivers.push_back(value);
-      }
+      r.drivers.insert(r.drivers.end(), drivers.begin(), drivers.end());
+      r.lines.assign(r.bodies.size(), 0);
     }
     put(r, body);
+  }
+
+  std::vector<double> driver_cells() const {
+    std::vector<double> out;
+    for (const int d : drivers_) {
+      out.push_back(table_.number(d));
+      if (std::isnan(out.back())) table_.refuse(d, table_.quoted(d) + " is not a number");
+    }
+    return out;
   }
 
   // A row of one body, or of all of them.
   void put(Rows& r, const std::string& body) {
     std::vector<double>& to = r.cells.back();
-    const auto nd = static_cast<std::size_t>(e_->dimensions);
-    if (t_->x.size() > 1) {
-      if (r.bodies.empty()) {
-        for (const NamedAt& x : t_->x) r.bodies.push_back(x.name);
+    const std::size_t b = number_of(body, r);
+    const std::vector<double> here = cells();
+    const std::size_t at = b * static_cast<std::size_t>(e_->dimensions);
+    to.resize(std::max(to.size(), at + here.size()), NAN);
+    const auto before = to.begin() + static_cast<std::ptrdiff_t>(at);
+    if (r.lines[b] != 0) {
+      // A row that a tracker wrote twice says nothing new.
+      if (!std::equal(here.begin(), here.end(), before, same) || !same_drivers(r)) {
+        refuse_second(r.lines[b]);
       }
-      to = cells();
       return;
     }
-    auto at = std::find(r.bodies.begin(), r.bodies.end(), body);
-    if (at == r.bodies.end()) at = r.bodies.insert(at, body);
-    const auto b = static_cast<std::size_t>(at - r.bodies.begin());
-    to.resize(std::max(to.size(), (b + 1) * nd), NAN);
-    const std::vector<double> here = cells();
-    std::copy(here.begin(), here.end(), to.begin() + static_cast<std::ptrdiff_t>(b * nd));
+    r.lines[b] = table_.line();
+    std::copy(here.begin(), here.end(), before);
+  }
+
+  bool wide() const { return t_->x.size() > 1; }
+
+  // Bodies together share the drivers of the first of them, so those of others are not looked at.
+  bool same_drivers(const Rows& r) const {
+    if (t_->together && !wide()) return true;
+    const std::vector<double> here = driver_cells();
+    return std::equal(here.rbegin(), here.rend(), r.drivers.rbegin());
+  }
+
+  // The place of a row's body among those of its run; of wide tables, that of the first.
+  std::size_t number_of(const std::string& body, Rows& r) const {
+    if (wide()) {
+      if (r.bodies.empty()) {
+        for (const NamedAt& x : t_->x) r.bodies.push_back(x.name);
+        r.lines.assign(r.bodies.size(), 0);
+      }
+      return 0;
+    }
+    const auto at = std::find(r.bodies.begin(), r.bodies.end(), body);
+    if (at != r.bodies.end()) return static_cast<std::size_t>(at - r.bodies.begin());
+    const std::size_t most = most_together(e_->dimensions);
+    if (r.bodies.size() == most) {
+      table_.refuse(body_ >= 0 ? body_ : time_,
+                    "more than " + std::to_string(most) + " bodies together");
+    }
+    r.bodies.push_back(body), r.lines.push_back(0);
+    return r.bodies.size() - 1;
+  }
+
+  // Two rows of one body, run and time that say different things: one of them would be lost.
+  [[noreturn]] void refuse_second(int first) const {
+    std::string missing;
+    if (body_ < 0 && !wide()) missing = "recording.body";
+    if (run_ < 0) missing += (missing.empty() ? "" : " or ") + std::string("recording.run");
+    table_.refuse(time_, table_.quoted(time_) + " is that of line " + std::to_string(first) +
+                             " too, with other values" +
+                             (missing.empty() ? "" : ": is there no column for " + missing + "?"));
   }
 
   // Leaves one row in `every`.

@@ -78,6 +78,18 @@ std::string unit_for(const BodyExperiment& e, std::string unit) {
   return unit;
 }
 
+// 95 % from .. to of a fitted parameter, by its number in the fit and that one's deviation.
+struct Ends {
+  double low, high;
+};
+Ends ends_of(const Term& t, std::size_t p, double number, double deviation) {
+  const auto end = [&](double by) {
+    return t.parameters[p].kind == Kind::positive ? std::exp(number + by * deviation)
+                                                  : (number + by * deviation) * t.scale[p];
+  };
+  return {end(-1.96), end(1.96)};
+}
+
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
@@ -97,11 +109,8 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
         out.value = out.low = out.high = t.value[p];
         out.unit = unit_for(*c.experiment, t.parameters[p].unit);
         if (t.fitted[p]) {
-          const bool log = t.parameters[p].kind == Kind::positive;
-          const auto end = [&](double by) {
-            return log ? std::exp(number + by * deviation) : (number + by * deviation) * t.scale[p];
-          };
-          out.low = end(-1.96), out.high = end(1.96);
+          const Ends ends = ends_of(t, p, number, deviation);
+          out.low = ends.low, out.high = ends.high;
         }
         if (t.fitted[p] || c.groups.size() == 1) f.parameters.push_back(out);
       }
@@ -288,12 +297,14 @@ void add_moved(const Comparison& c, Diagnosis& d) {
       const Term &t = a.model.terms[k], &u = b.model.terms[k];
       for (std::size_t p = 0; p < t.value.size(); ++p) {
         if (!t.fitted[p]) continue;
-        const double s = t.scale[p] * b.deviation[at];
+        const double wide = c.repeats.factor();
+        const Ends ends = ends_of(u, p, b.numbers[at], wide * b.deviation[at]);
+        const bool log = t.parameters[p].kind == Kind::positive;
         d.parameters.push_back({std::string(t.law->name()) + "." + t.parameters[p].name +
                                     (c.groups[i].name.empty() ? "" : " of " + c.groups[i].name),
                                 unit_for(*c.experiment, t.parameters[p].unit), t.value[p],
-                                t.scale[p] * a.deviation[at], u.value[p], u.value[p] - 1.96 * s,
-                                u.value[p] + 1.96 * s});
+                                wide * a.deviation[at] * (log ? t.value[p] : t.scale[p]),
+                                u.value[p], ends.low, ends.high});
         ++at;
       }
     }

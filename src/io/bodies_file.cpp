@@ -167,7 +167,7 @@ class Reader {
     if (t.x.size() > 1 && !t.body.name.empty()) {
       f.refuse("body", "recording.body goes with one column x; here every column is a body");
     }
-    const std::size_t most = flat ? 8 : 4;
+    const std::size_t most = most_together(out_.experiment.dimensions);
     if (t.x.size() > most) f.refuse("x", "more than " + std::to_string(most) + " bodies together");
     if (f.has("mass")) t.mass = numbers(f, "mass", "kg");
     if (f.has("radius")) t.radius = numbers(f, "radius", "m");

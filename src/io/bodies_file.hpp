@@ -40,6 +40,11 @@ struct BodyFile {
   NamedAt latitude;
 };
 
+/// The most bodies that are followed together: the filter carries eight coordinates.
+constexpr std::size_t most_together(int dimensions) {
+  return dimensions == 1 ? 8 : 4;
+}
+
 /// Throws InputError. `laws` are the words that [baseline] may have besides contact.
 BodyFile read_body_file(const std::string& file, const std::vector<std::string>& laws);
 
