@@ -14,9 +14,12 @@ struct Proof;
 
 struct ProofOptions {
   int worlds = 100;
-  std::string only;            ///< null, named, two or unnamed: leaves out those of another kind
-  double minutes = 4;          ///< of a recording; an experiment has three, and three of balls
-  bool known_flow = false;     ///< no balls: the diagnosis is given the true flow
+  std::string only;         ///< null, named, two or unnamed: leaves out those of another kind
+  double minutes = 4;       ///< of a recording; an experiment has three, and three of balls
+  bool known_flow = false;  ///< no balls: the diagnosis is given the true flow
+  /// The tank is drawn from the seed: pumps, inlets and the parameters that calibrations find. Not
+  /// so: the built-in tank, whose parameters the diagnosis begins with.
+  bool drawn_tank = false;
   int modelled = 10;           ///< rightly told worlds whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
@@ -68,15 +71,17 @@ struct ProofWorld {
 };
 
 struct Proof {
-  std::string key;         ///< a line a world: kind, effect, its held numbers, amplitudes, factors
-  std::string hash;        ///< SHA-256 of the key
-  std::size_t sealed = 0;  ///< worlds of the key
+  std::string key;   ///< a line a world: kind, effect, its held numbers, amplitudes, factors
+  std::string hash;  ///< SHA-256 of the key
+  /// Which tank, balls and nulls they share, in words: the same text, the same tank. "": not told.
+  std::string tank;
+  std::size_t sealed = 0;          ///< worlds of the key
   std::vector<ProofWorld> worlds;  ///< those that were judged, from the first
 };
 
-/// Makes a tank, its balls and sealed experiments in it (other steps than the diagnosis's, gusts
-/// point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One tank's
-/// nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
+/// Makes or draws a tank, its balls and sealed experiments in it (other steps than the diagnosis's,
+/// gusts point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One
+/// tank's nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
 std::optional<Proof> prove(const ProofOptions& options);
 
 /// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by

@@ -65,6 +65,7 @@ int prove_verb(const Arguments& arguments) {
       "only", "null, named, two or unnamed: leave out those of another kind", text(), "KIND")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
+      "drawn-tank", "draw the tank, too: its pumps, inlets and parameters (the built-in tank)")(
       "modelled", "worlds whose effect is also fitted and shown (10)", text(), "N")(
       "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
       "seed", "of everything that is drawn (1)", text(), "N")(
@@ -73,8 +74,8 @@ int prove_verb(const Arguments& arguments) {
       "force", "replace another proof's files")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    for (const char* other :
-         {"worlds", "only", "minutes", "known-flow", "modelled", "budget", "seed", "threads"}) {
+    for (const char* other : {"worlds", "only", "minutes", "known-flow", "drawn-tank", "modelled",
+                              "budget", "seed", "threads"}) {
       if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
     }
     return tell_together(options.positional(), options.text("out", ""), options.has("force"));
@@ -89,7 +90,7 @@ int prove_verb(const Arguments& arguments) {
   }
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
   job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));
-  job.known_flow = options.has("known-flow");
+  job.known_flow = options.has("known-flow"), job.drawn_tank = options.has("drawn-tank");
   job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
   job.diagnosis.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.diagnosis.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
@@ -109,6 +110,7 @@ int prove_verb(const Arguments& arguments) {
   job.judged = [&](const Proof& so_far) {
     write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
     write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
+    write_atomically((dir / "tank.txt").string(), so_far.tank + "\n");
     write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
   };
   const auto proof = prove(job);

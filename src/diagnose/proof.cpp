@@ -10,32 +10,35 @@
 #include "io/sha256.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr int kBalls = 24;
 constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
-                        kExpectedSeed = 1u << 21;
+                        kExpectedSeed = 1u << 21, kDrawnSeed = 5;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
 constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
-Experiment open_tank(const ProofOptions& options) {
+Experiment open_tank(const ProofOptions& options, const Model& tank) {
   Experiment e;
   e.name = "proof";
+  // What a drawn tank is like is for the diagnosis to find.
   e.base.model = with_steps(tank_model(), 5);
+  if (options.known_flow) e.base.model.field = tank.field;
   const double seconds = 60 * options.minutes;
   std::vector<RecordingShape> shapes(kSealedRecordings,
                                      shape_named("balls", BodyKind::ball, kBalls, seconds));
   EmulatorOptions exact;
   exact.moment_matched = false;
   const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
-  auto balls = Emulator(with_steps(tank_model(), kSealedSteps), {}, shapes, exact).record({}, seed);
+  auto balls = Emulator(with_steps(tank, kSealedSteps), {}, shapes, exact).record({}, seed);
   Sealed nothing;
   nothing.factors.assign(5, 1.0);
-  auto lilies = film_sealed(tank_model(), nothing, seconds, derived_seed(seed, 1));
+  auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
   if (!balls || !lilies) throw InputError("the proof's tank diverges");
   if (options.known_flow) balls->clear();
   for (auto* of : {&*balls, &*lilies}) {
@@ -159,6 +162,16 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
   return s.effects.empty() ? 0 : least;
 }
 
+// Of a drawn tank; nothing else about it is told before the key is opened.
+DrawnTank tank_of(const ProofOptions& options) {
+  return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
+}
+std::string words_for_tank(const ProofOptions& options) {
+  return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
+         std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
+         " min, " + (options.known_flow ? "known flow" : "flow from balls");
+}
+
 // Those of the kind that is asked for.
 std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
                               const std::vector<Shape>& shapes, std::uint64_t seed) {
@@ -180,17 +193,19 @@ class Examination {
  public:
   explicit Examination(const ProofOptions& options)
       : options_(options),
-        tank_(tank_model()),
+        tank_(options.drawn_tank ? tank_model(tank_of(options)) : tank_model()),
         seed_(derived_seed(options.diagnosis.seed, kKeySeed)),
         seconds_(60 * options.minutes),
         shapes_(shape_catalogue(tank_, seconds_)),
         sealed_(asked_for(options, tank_, shapes_, seed_)) {
+    out_.tank = words_for_tank(options);
+    if (options.drawn_tank) out_.key = key_text(tank_of(options));
     for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);
     out_.hash = sha256(out_.key), out_.sealed = sealed_.size();
   }
 
   Proof run() {
-    const Experiment open = open_tank(options_);
+    const Experiment open = open_tank(options_, tank_);
     if (options_.sealed) options_.sealed(out_.hash);
     DiagnosisOptions job = options_.diagnosis;
     job.hold_out = 0;

@@ -102,7 +102,8 @@ std::size_t lines_of(const std::string& text) {
 void read_worlds(const std::string& file, Proof& proof) {
   const std::string text = read_whole(file);
   CsvReader rows(text, file, {kWorldColumns});
-  const std::vector<std::string> key = split(proof.key, "\n");
+  std::vector<std::string> key = split(proof.key, "\n");
+  if (!key.empty() && key.front().starts_with("tank ")) key.erase(key.begin());
   while (rows.next()) {
     ProofWorld w;
     const std::size_t number = proof.worlds.size();
@@ -195,6 +196,12 @@ Proof read_proof(const std::string& dir) {
   Proof proof;
   proof.key = read_whole(key.string());
   proof.hash = sha256(proof.key), proof.sealed = lines_of(proof.key);
+  if (proof.key.starts_with("tank ")) proof.sealed -= 1;
+  const fs::path tank = fs::path(dir) / "tank.txt";
+  if (fs::exists(tank)) {
+    const std::string text = read_whole(tank.string());
+    proof.tank = text.substr(0, text.find('\n'));
+  }
   read_worlds((fs::path(dir) / "proof.csv").string(), proof);
   read_intervals((fs::path(dir) / "intervals.csv").string(), proof);
   return proof;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "analysis/text_table.hpp"
 #include "lilytank/proof.hpp"
@@ -98,22 +99,40 @@ std::string models_text(const Proof& proof) {
   return out + "  one step ahead " + std::to_string(gained) + " of them are surely better\n";
 }
 
-// The same worlds by simpler methods. The MSD's threshold is the largest of the nulls themselves,
-// in its favour.
-std::string simpler_text(const Proof& proof) {
-  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, seen = 0, ours = 0;
-  double largest = 0;
-  for (const ProofWorld& w : proof.worlds) {
-    if (w.kind != "null") continue;
-    nulls += 1, alarms += w.regression.empty() ? 0 : 1;
-    largest = std::max(largest, w.displacement);
+// Proofs of the same tank have the same nulls.
+std::string tank_of(const Proof& proof) {
+  return proof.tank.empty() ? proof.hash : proof.tank;
+}
+
+// How far the MSD of nulls is off at most, by tank.
+std::map<std::string, double> largest_displacements(std::span<const Proof> proofs) {
+  std::map<std::string, double> out;
+  for (const Proof& proof : proofs) {
+    for (const ProofWorld& w : proof.worlds) {
+      if (w.kind != "null") continue;
+      double& largest = out[tank_of(proof)];
+      largest = std::max(largest, w.displacement);
+    }
   }
-  for (const ProofWorld& w : proof.worlds) {
-    if (w.kind != "named" || w.expected_z < 10) continue;
-    strong += 1, ours += w.right() ? 1 : 0;
-    right += w.regression == w.effects[0] ? 1 : 0;
-    wrong += !w.regression.empty() && w.regression != w.effects[0] ? 1 : 0;
-    seen += w.displacement > largest ? 1 : 0;
+  return out;
+}
+
+// The same worlds by simpler methods. The MSD's threshold is the largest of its tank's nulls
+// themselves, in its favour; where a tank has none, it is not asked.
+std::string simpler_text(std::span<const Proof> proofs) {
+  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, asked = 0, seen = 0, ours = 0;
+  const auto largest = largest_displacements(proofs);
+  for (const Proof& proof : proofs) {
+    const auto of_tank = largest.find(tank_of(proof));
+    for (const ProofWorld& w : proof.worlds) {
+      if (w.kind == "null") nulls += 1, alarms += w.regression.empty() ? 0 : 1;
+      if (w.kind != "named" || w.expected_z < 10) continue;
+      strong += 1, ours += w.right() ? 1 : 0;
+      right += w.regression == w.effects[0] ? 1 : 0;
+      wrong += !w.regression.empty() && w.regression != w.effects[0] ? 1 : 0;
+      if (of_tank == largest.end()) continue;
+      asked += 1, seen += w.displacement > of_tank->second ? 1 : 0;
+    }
   }
   if (nulls == 0 || strong == 0) return "";
   const auto of = [](int n, int all) { return std::to_string(n) + " of " + std::to_string(all); };
@@ -121,12 +140,12 @@ std::string simpler_text(const Proof& proof) {
          of(ours, strong) +
          " right)\n  finite differences with sparse regression: " + of(right, strong) + " right, " +
          of(wrong, strong) + " a wrong name, " + of(alarms, nulls) +
-         " of nothing missing called something\n  MSD alone: " + of(seen, strong) +
+         " of nothing missing called something\n  MSD alone: " + of(seen, asked) +
          " noticed, none named\n";
 }
 
 /// The tables of all worlds together.
-std::string worlds_text(const Proof& proof) {
+std::string worlds_text(const Proof& proof, std::span<const Proof> proofs) {
   struct Rate {
     int right = 0, wrong_name = 0, silent = 0, all = 0;
   };
@@ -157,7 +176,7 @@ std::string worlds_text(const Proof& proof) {
   std::string out = table.text() + "\nwhat was taken for what\n";
   TextTable confusion({"key", "said", "times"});
   for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text() + models_text(proof) + simpler_text(proof);
+  return out + confusion.text() + models_text(proof) + simpler_text(proofs);
 }
 
 }  // namespace
@@ -165,7 +184,9 @@ std::string worlds_text(const Proof& proof) {
 std::string proof_text(std::span<const Proof> proofs) {
   Proof all;
   std::string hashes;
+  std::set<std::string> tanks;
   for (const Proof& p : proofs) {
+    tanks.insert(tank_of(p));
     all.worlds.insert(all.worlds.end(), p.worlds.begin(), p.worlds.end());
     all.sealed += p.sealed;
     hashes += "SHA-256 of " + std::string(proofs.size() > 1 ? "a" : "the") +
@@ -174,8 +195,9 @@ std::string proof_text(std::span<const Proof> proofs) {
   return "proof on " + std::string(all.worlds.size() < all.sealed ? "the first " : "") +
          std::to_string(all.worlds.size()) + " of " + std::to_string(all.sealed) +
          " sealed experiments" +
-         (proofs.size() > 1 ? " in " + std::to_string(proofs.size()) + " tanks\n" : "\n") + hashes +
-         "\n" + worlds_text(all);
+         (tanks.size() > 1 ? " in " + std::to_string(tanks.size()) + " tanks" : "") +
+         (proofs.size() == 1 && !proofs[0].tank.empty() ? " in " + proofs[0].tank : "") + "\n" +
+         hashes + "\n" + worlds_text(all, proofs);
 }
 
 }  // namespace lilytank

@@ -1,6 +1,7 @@
 #include "diagnose/sealed.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -12,6 +13,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kOff = 0.08;        // share by which parameters of a sealed world are off
+constexpr double kOtherTank = 1.25;  // factor by which a drawn tank's parameters are off at most
 constexpr double kOtherShape = 1.5;  // factor by which a range of the catalogue is off at most
 constexpr double kPlaces = 0.5;      // of the radius, that a place is off along each axis at most
 constexpr double kMissed = 0.01;     // share of the frames in which a body is not seen
@@ -134,6 +136,45 @@ Model tank_model() {
     if (force.term->name() == "ball_drag") force.p[0] = BallPhysics{}.drag_coefficient;
   }
   return model;
+}
+
+DrawnTank drawn_tank(std::uint64_t seed) {
+  const auto draw = [seed](std::uint32_t which) {
+    return uniform({seed, Stream::calibrate, 0, which, 31});
+  };
+  DrawnTank out;
+  out.water.pump_power = 50 + 35 * draw(0);
+  out.water.water_level = -0.07 - 0.02 * draw(1);
+  out.water.inlets = 3 + static_cast<int>(7 * draw(2));
+  out.water.inlet_angle = kPi / 6 * draw(3);
+  for (std::uint32_t k = 4; k < 8; ++k) {
+    out.factors.push_back(exp_portable((2 * draw(k) - 1) * log_portable(kOtherTank)));
+  }
+  return out;
+}
+
+Model tank_model(const DrawnTank& tank) {
+  Model model = tank_model();
+  model.field =
+      std::make_shared<const FlowField>(analytic_tank(tank.water, model.field->interpolation()));
+  std::vector<std::string> paths;
+  std::vector<double> values;
+  for (const FitParameter& p : standard_parameters(BodyKind::lily)) {
+    if (p.path == "flow.K_v") continue;
+    values.push_back(
+        std::clamp(tank.factors[paths.size()] * parameter_value(model, p.path), p.low, p.high));
+    paths.push_back(p.path);
+  }
+  return with_parameters(model, paths, values);
+}
+
+std::string key_text(const DrawnTank& tank) {
+  const AnalyticTank& w = tank.water;
+  std::string out = "tank pump_power " + shortest(w.pump_power) + " water_level " +
+                    shortest(w.water_level) + " inlets " + std::to_string(w.inlets) +
+                    " inlet_angle " + shortest(w.inlet_angle);
+  for (const double f : tank.factors) out += " " + shortest(f);
+  return out + "\n";
 }
 
 Model with_steps(Model model, int steps) {

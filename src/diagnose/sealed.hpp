@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnose/effects.hpp"
+#include "lilytank/flow_field.hpp"
 #include "lilytank/recording.hpp"
 
 namespace lilytank {
@@ -31,8 +32,18 @@ struct Sealed {
   std::vector<double> factors;  ///< on the five parameters
 };
 
-/// The tank of all sealed experiments, nothing missing.
+/// A tank of sealed experiments, nothing missing: the built-in one.
 Model tank_model();
+/// Another, drawn from a seed: a flow of 0.6 to 1.4 times the built-in one's strength from other
+/// inlets, and the parameters of Lilies up to a quarter off (but K_v, as balls meet this flow).
+struct DrawnTank {
+  AnalyticTank water;
+  std::vector<double> factors;  ///< on the parameters of standard_parameters but K_v
+};
+DrawnTank drawn_tank(std::uint64_t seed);
+Model tank_model(const DrawnTank& tank);
+/// Its line of the key.
+std::string key_text(const DrawnTank& tank);
 /// At so many steps a tick.
 Model with_steps(Model model, int steps);
 /// Recordings of so many bodies and seconds, each body unseen in some frames.

@@ -47,7 +47,9 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const std::string seed16 = std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/seed16";
   const Answer said = lilytank("prove " + seed16);
   EXPECT_EQ(said.code, 0) << said.err;
-  EXPECT_TRUE(said.out.starts_with("proof on 80 of 80 sealed experiments\n")) << said.out;
+  EXPECT_TRUE(
+      said.out.starts_with("proof on 80 of 80 sealed experiments in the built-in tank of seed 16"))
+      << said.out;
   const Answer report = lilytank("prove " + seed16 + " --out r");
   EXPECT_EQ(report.code, 0) << report.err;
   EXPECT_EQ(report.out, said.out);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/proof_files.hpp"
+#include "diagnose/sealed.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/proof.hpp"
@@ -35,6 +36,7 @@ class ProofFiles : public testing::Test {
     here.write(dir + "/key.txt", p.key);
     here.write(dir + "/proof.csv", proof_csv(p));
     here.write(dir + "/intervals.csv", proof_intervals_csv(p));
+    if (!p.tank.empty()) here.write(dir + "/tank.txt", p.tank + "\n");
   }
   std::string refusal(const std::string& dir) const {
     try {
@@ -58,11 +60,46 @@ TEST_F(ProofFiles, AreReadBackAsTheyWere) {
   EXPECT_TRUE(q.worlds[1].right());
 }
 
+// Of another tank, if it is told.
 TEST_F(ProofFiles, AreToldTogether) {
-  const Proof both[] = {three_worlds(), three_worlds()};
+  Proof both[] = {three_worlds(), three_worlds()};
+  both[0].tank = "a tank", both[1].tank = "another";
   const std::string text = proof_text(both);
   EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks\n")) << text;
+  both[1].tank = "a tank";
+  EXPECT_TRUE(proof_text(both).starts_with("proof on 6 of 6 sealed experiments\n"));
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
+}
+
+// The MSD is judged by the nulls of its own tank, however far those of another are off.
+TEST_F(ProofFiles, DisplacementsAreJudgedByTheirOwnTanksNulls) {
+  ProofWorld null, named;
+  null.kind = "null", null.displacement = 2;
+  named.kind = "named", named.effects = {"coriolis"}, named.expected_z = 20;
+  named.displacement = 3;
+  Proof calm, wild;
+  calm.tank = "calm", calm.worlds = {null, named};
+  wild.tank = "wild", wild.worlds = {null, named};
+  wild.worlds[0].displacement = 9;
+  const Proof both[] = {calm, wild};
+  EXPECT_NE(proof_text(both).find("MSD alone: 1 of 2 noticed"), std::string::npos)
+      << proof_text(both);
+  Proof without = wild;
+  without.tank = "unknown", without.worlds.erase(without.worlds.begin());
+  const Proof three[] = {calm, without};
+  EXPECT_NE(proof_text(three).find("MSD alone: 1 of 1 noticed"), std::string::npos)
+      << proof_text(three);
+}
+
+TEST_F(ProofFiles, OfADrawnTankHaveALineMoreInTheKey) {
+  Proof p = three_worlds();
+  p.key = key_text(drawn_tank(7)) + p.key, p.hash = sha256(p.key);
+  p.tank = "a drawn tank of seed 7";
+  write("drawn", p);
+  const Proof q = read_proof(here.path("drawn"));
+  EXPECT_EQ(q.sealed, 3u);
+  EXPECT_EQ(q.tank, p.tank);
+  EXPECT_EQ(proof_text({&q, 1}), proof_text({&p, 1}));
 }
 
 // A proof that was stopped goes on after the worlds that it had told, but not after those of

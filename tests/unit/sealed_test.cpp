@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "lilytank/calibration.hpp"
 #include "lilytank/model_parameter.hpp"
 
 namespace lilytank {
@@ -29,6 +32,33 @@ TEST(Sealed, effectsHaveOtherNumbersThanTheCatalogueWithinTheirBounds) {
     }
   }
   EXPECT_GT(others, 200);
+}
+
+// Every seed has a tank of its own, as strong as tanks are, with parameters that a calibration
+// finds.
+TEST(Sealed, drawnTanksDiffer) {
+  const Model built_in = tank_model();
+  std::set<std::string> keys;
+  double strongest = 0, weakest = 9;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const DrawnTank drawn = drawn_tank(seed);
+    keys.insert(key_text(drawn));
+    const double strength = drawn.water.strength();
+    strongest = std::max(strongest, strength), weakest = std::min(weakest, strength);
+    const Model tank = tank_model(drawn);
+    EXPECT_EQ(tank.flow.K_v, 1);
+    for (const FitParameter& p : standard_parameters(BodyKind::lily)) {
+      const double share = parameter_value(tank, p.path) / parameter_value(built_in, p.path);
+      EXPECT_TRUE(share > 0.79 && share < 1.26) << p.path << " " << share;
+    }
+    const FlowSample here = tank.field->at(0.13, 0.02), there = built_in.field->at(0.13, 0.02);
+    EXPECT_NE(here.mu_x, there.mu_x);
+  }
+  EXPECT_EQ(keys.size(), 40u);
+  EXPECT_LT(weakest, 0.8);
+  EXPECT_GT(strongest, 1.2);
+  EXPECT_LT(strongest, 1.45);
+  EXPECT_GT(weakest, 0.55);
 }
 
 }  // namespace
