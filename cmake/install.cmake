@@ -1,4 +1,5 @@
-# Installs the program, headers, scenarios, and the package that find_package(lilytank) finds.
+# Installs the program, headers, scenarios with the pages about them, and the package that
+# find_package(lilytank) finds.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lilytank)
 
@@ -9,8 +10,13 @@ if(NOT LILYTANK_HAS_RENDER)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lilytank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp" ${without_render})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
+# Scenarios and pages lie as in the sources, so that links from one to another hold; scripts among them
+# can be run.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/docs
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank USE_SOURCE_PERMISSIONS)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank)
+install(FILES ${PROJECT_SOURCE_DIR}/bench/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank/bench)
 
 install(EXPORT lilytankTargets NAMESPACE lilytank:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lilytankConfig.cmake.in

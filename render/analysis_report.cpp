@@ -76,18 +76,48 @@ Plot empty_plot(const AnalysisCurves& set, const Shown& x, const Shown& y) {
   return plot;
 }
 
-// Panels side by side can be compared only on one axis.
-void share_axes(std::vector<Plot>& plots) {
+bool is_given(double low, double high) {
+  return low < high;
+}
+
+// Panels side by side can be compared only on one axis, which has room for what is drawn: curves
+// and bands within the horizontal axis.
+void share_y(std::vector<Plot>& plots) {
   if (plots.size() < 2) return;
   double low = 0, high = 0;
+  const auto add = [&](const std::vector<double>& values, std::size_t i) {
+    if (i >= values.size() || !std::isfinite(values[i])) return;
+    low = std::min(low, values[i]), high = std::max(high, values[i]);
+  };
   for (const Plot& plot : plots) {
+    const bool cut = is_given(plot.x_low, plot.x_high);
     for (const Curve& curve : plot.curves) {
-      for (const double y : curve.y) {
-        if (std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+      for (std::size_t i = 0; i < curve.y.size(); ++i) {
+        const bool shown = !cut || (curve.x[i] >= plot.x_low && curve.x[i] <= plot.x_high);
+        for (const auto* values : {&curve.y, &curve.low, &curve.high}) {
+          if (shown && std::isfinite(curve.y[i])) add(*values, i);
+        }
       }
     }
   }
   for (Plot& plot : plots) plot.y_low = low, plot.y_high = low + 1.06 * (high - low);
+}
+
+// Plots above each other, too: an x is at one place in all of them.
+void share_x(std::vector<Plot>& plots) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Plot& plot : plots) {
+    if (is_given(plot.x_low, plot.x_high)) return;  // the same for all of a set
+    for (const Curve& curve : plot.curves) {
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        const bool shown = std::isfinite(curve.y[i]) && (!plot.log_x || curve.x[i] > 0) &&
+                           (!plot.log_y || curve.y[i] > 0);
+        if (shown) low = std::min(low, curve.x[i]), high = std::max(high, curve.x[i]);
+      }
+    }
+  }
+  if (!is_given(low, high)) return;
+  for (Plot& plot : plots) plot.x_low = low, plot.x_high = high;
 }
 
 std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, const Shown& x,
@@ -112,7 +142,7 @@ std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, 
     }
     if (!plot.curves.empty()) plots.push_back(std::move(plot));
   }
-  share_axes(plots);
+  share_y(plots);
   return plots;
 }
 
@@ -122,6 +152,7 @@ Plot difference_plot(const Analysis& analysis, const AnalysisCurves& set, const 
   plot.height = kLowHeight;
   plot.title = analysis.sources[1].name + " less " + analysis.sources[0].name;
   plot.y_label = "difference" + (y.unit == "1" ? "" : " (" + y.unit + ")");
+  plot.curves.resize(2);  // empty: their colours are those of the sources
   plot.curves.push_back(curve_of("", set.x, set.difference, x.size, y.size, true));
   plot.zero_line = true;
   return plot;
@@ -149,11 +180,15 @@ PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set) {
   const Shown x = shown(set.x_unit), y = shown(set.y_unit);
   PlotPage page{overlays(analysis, set, x, y), 1};
   page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
-  if (page.plots.size() > 1) return page;
+  if (page.plots.size() > 1) {
+    share_x(page.plots);
+    return page;
+  }
   if (!set.difference.value.empty()) {
     page.plots.push_back(difference_plot(analysis, set, x, y));
   }
   if (set.name.starts_with("msd")) add_track_numbers(analysis, set, page);
+  share_x(page.plots);
   return page;
 }
 
@@ -161,6 +196,7 @@ PlotPage logarithmic(const Analysis& analysis, const AnalysisCurves& set) {
   PlotPage page{overlays(analysis, set, shown(set.x_unit), shown(set.y_unit)), 1};
   page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
   for (Plot& plot : page.plots) plot.log_x = plot.log_y = true, plot.y_low = plot.y_high = 0;
+  if (page.plots.size() > 1) share_x(page.plots);
   return page;
 }
 

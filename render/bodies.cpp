@@ -33,8 +33,7 @@ ModuleLook BodyPainter::look(const Snapshot& now, int i) const {
   look.faces.fill(FaceLook::off);
   if (now.marks.empty()) return look;
   const Markings& m = now.marks[static_cast<std::size_t>(i)];
-  look.fill = colour_of_state(m.label);
-  if (!m.complete) look.fill = mixed(look.fill, palette::paper, 0.28);
+  look.fill = colour_of_module(m.label, m.complete != 0);
   for (int face = 0; face < 4; ++face) {
     look.faces[static_cast<std::size_t>(face)] = face_look(m, face, model_.control.latches);
   }

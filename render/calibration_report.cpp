@@ -111,28 +111,42 @@ PlotPage profile_page(const CalibrationResult& c) {
   return page;
 }
 
+// Room to the left and right of what stands outermost, as there is above and below.
+void room_beside(Plot& plot) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Curve& curve : plot.curves) {
+    for (const double x : curve.x) {
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+    }
+  }
+  const double room = 0.05 * (high - low);
+  if (room > 0) plot.x_low = low - room, plot.x_high = high + room;
+}
+
 // Estimates of simulated experiments, two parameters a plot: what cannot be told apart is a line.
 PlotPage pair_page(const CalibrationResult& c) {
   PlotPage page;
   page.columns = 4;
+  page.title = "Circle: estimate; squares: simulated";  // a legend would hide some of them
   const std::size_t n = c.parameters.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const CalibratedParameter &x = c.parameters[j], &y = c.parameters[i];
       if (x.parameter.nuisance || y.parameter.nuisance) continue;
       char title[40];
-      std::snprintf(title, sizeof title, "correlation %.2f", c.correlation[i * n + j]);
+      std::snprintf(title, sizeof title, "correlation %.3f", c.correlation[i * n + j]);
       Plot plot;
       plot.title = title, plot.x_label = with_unit(x), plot.y_label = with_unit(y);
-      plot.width = 420, plot.height = 360;
+      plot.width = 460, plot.height = 380;
       Curve dots;
       for (const auto& of : c.replicate_estimates) {
-        dots.x.insert(dots.x.end(), {x.parameter.from_scale(of[j]), kNone});
-        dots.y.insert(dots.y.end(), {y.parameter.from_scale(of[i]), kNone});
+        dots.x.push_back(x.parameter.from_scale(of[j]));
+        dots.y.push_back(y.parameter.from_scale(of[i]));
       }
       Curve estimate{"", {x.estimate}, {y.estimate}, {}, {}};
-      estimate.markers = true;
-      plot.curves = {dots, estimate};
+      for (Curve* curve : {&dots, &estimate}) curve->markers = true, curve->line = false;
+      plot.curves = {estimate, dots};  // the first lies on top
+      room_beside(plot);
       page.plots.push_back(std::move(plot));
     }
   }

@@ -195,8 +195,10 @@ void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve
   for (std::size_t i = 0; i < n; ++i) {
     const PagePoint p = page_point(area, curve.x[i], curve.y[i]);
     if (!p.known() || !area.holds(p)) continue;
-    // Crowded points share a marker.
-    if (before.known() && std::hypot(p.x - before.x, p.y - before.y) < 1.2 * kMarker) continue;
+    // Crowded points on a line share a marker; without one each is a datum to be counted.
+    const bool crowded =
+        before.known() && std::hypot(p.x - before.x, p.y - before.y) < 1.2 * kMarker;
+    if (curve.line && crowded) continue;
     marker_path(canvas, index, p.x, p.y);
     before = p;
   }

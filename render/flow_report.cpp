@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lilytank/render.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -78,6 +79,7 @@ MapPanel rejections(const FlowEstimate& e, const std::string& title, const std::
 Map normality_map(const FlowReport& report, const FlowEstimate& e) {
   Map map;
   const double level = report.options.significance;
+  const std::string percent = significant(100 * level, 3) + " %";
   map.title = "Is the flow of " + report.name + " normal in each cell?";
   map.tank_radius = report.ball.tank_radius, map.columns = 2;
   for (const bool along_x : {true, false}) {
@@ -91,8 +93,8 @@ Map normality_map(const FlowReport& report, const FlowEstimate& e) {
       below.push_back(a.raw_p < level);
     }
     const std::string axis = along_x ? ", x axis" : ", y axis";
-    map.panels.push_back(rejections(e, "All frames, 5 %" + axis, every, below));
-    map.panels.push_back(rejections(e, "Independent, Lilliefors, FDR" + axis, thinned,
+    map.panels.push_back(rejections(e, "All frames, " + percent + axis, every, below));
+    map.panels.push_back(rejections(e, "Independent, Lilliefors, FDR " + percent + axis, thinned,
                                     false_discovery(thinned, level)));
   }
   // Rows are the two tests, columns the axes.

@@ -34,15 +34,16 @@ FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double
     : run_(run),
       style_(checked(style, run)),
       view_(view_of_tank(run.scenario.model.tank.radius)),
+      pumps_(run),
       panel_(run, style, kPanel, speed),
       bodies_(run.scenario.model, view_, style.labels) {}
 
-void FramePainter::draw_static(const Canvas& canvas) const {
+void FramePainter::draw_static(const Canvas& canvas, int field) const {
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
-  draw_tank(canvas, view_, run_.scenario.model, style_.flow);
+  draw_tank(canvas, view_, run_.scenario.model, style_.flow, field);
   draw_scale_bar(canvas, view_, run_.scenario.model, 60, 1036);
-  panel_.draw_static(canvas);
+  panel_.draw_static(canvas, field, pumps_.power_of(field));
 }
 
 void FramePainter::draw_moving(const Canvas& canvas, double time) {
@@ -57,16 +58,27 @@ FrameRaster::FrameRaster(const StoredRun& run, const FrameStyle& style, double s
     : width_(width_for(height)),
       height_(height),
       painter_(run, style, speed),
-      background_(Canvas::raster(width_, height_)),
-      page_(Canvas::raster(width_, height_)) {
-  for (const Canvas* canvas : {&background_, &page_}) {
-    cairo_scale(canvas->get(), width_ / kPageWidth, height_ / kPageHeight);
-  }
-  painter_.draw_static(background_);
+      page_(scaled_page()) {}
+
+Canvas FrameRaster::scaled_page() const {
+  Canvas page = Canvas::raster(width_, height_);
+  cairo_scale(page.get(), width_ / kPageWidth, height_ / kPageHeight);
+  return page;
+}
+
+// Few are kept, as each is as large as a frame; a flow that comes back later is drawn again.
+const Canvas& FrameRaster::background(int field) {
+  constexpr std::size_t kMost = 6;
+  const auto known = backgrounds_.find(field);
+  if (known != backgrounds_.end()) return known->second;
+  if (backgrounds_.size() >= kMost) backgrounds_.clear();
+  const Canvas& made = backgrounds_.emplace(field, scaled_page()).first->second;
+  painter_.draw_static(made, field);
+  return made;
 }
 
 Canvas& FrameRaster::draw(double time) {
-  const auto from = background_.pixels(), to = page_.pixels();
+  const auto from = background(painter_.field_at(time)).pixels(), to = page_.pixels();
   std::memcpy(to.data(), from.data(), to.size());
   cairo_surface_mark_dirty(cairo_get_target(page_.get()));
   painter_.draw_moving(page_, time);
@@ -87,7 +99,7 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
   const double scale = style.size / kPageHeight;
   Canvas canvas = Canvas::vector(format, width_for(style.size), style.size);
   cairo_scale(canvas.get(), scale, scale);
-  painter.draw_static(canvas);
+  painter.draw_static(canvas, painter.field_at(time));
   painter.draw_moving(canvas, time);
   write_atomically(file, canvas.encoded());
 }

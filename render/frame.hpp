@@ -1,9 +1,12 @@
 // One picture of a stored run: the tank on the left, the panel on the right.
 #pragma once
+#include <map>
+
 #include "bodies.hpp"
 #include "canvas.hpp"
 #include "lilytank/render.hpp"
 #include "panel.hpp"
+#include "pumps.hpp"
 #include "tank.hpp"
 
 namespace lilytank {
@@ -15,8 +18,10 @@ class FramePainter {
   /// Throws InputError for a style out of bounds or a run without frames.
   FramePainter(const StoredRun& run, const FrameStyle& style, double speed);
 
-  /// Background, tank, flow, captions and legend.
-  void draw_static(const Canvas& canvas) const;
+  /// Number of the flow in force at a time (s). While it stays, so does all that draw_static draws.
+  int field_at(double time) const { return pumps_.field_at(time); }
+  /// Background, tank, captions and legend, with a flow.
+  void draw_static(const Canvas& canvas, int field) const;
   /// Bodies, trails, clock and counters at a time (s). Throws InputError outside the run.
   void draw_moving(const Canvas& canvas, double time);
 
@@ -24,6 +29,7 @@ class FramePainter {
   const StoredRun& run_;
   FrameStyle style_;
   View view_;
+  Pumps pumps_;
   Panel panel_;
   BodyPainter bodies_;
   Snapshot now_;
@@ -40,9 +46,13 @@ class FrameRaster {
   Canvas& draw(double time);
 
  private:
+  Canvas scaled_page() const;
+  const Canvas& background(int field);
+
   int width_, height_;
   FramePainter painter_;
-  Canvas background_, page_;
+  std::map<int, Canvas> backgrounds_;  // by the flow in force
+  Canvas page_;
 };
 
 /// Pixels across for a height: 16/9 of it, to the nearest even number.

@@ -6,6 +6,7 @@
 
 #include "modules.hpp"
 #include "palette.hpp"
+#include "pumps.hpp"
 #include "streamlines.hpp"
 
 namespace lilytank {
@@ -16,9 +17,15 @@ constexpr double kRow = 64;        // height of a row
 constexpr std::size_t kMost = 11;  // states that fit a row
 const TextStyle kText{20, palette::muted, false, Align::left};
 
+bool has_rules(const Model& model) {
+  return std::any_of(model.rulesets.begin(), model.rulesets.end(),
+                     [](const Ruleset& r) { return !r.rules.empty(); });
+}
+
 // The control states that modules of this run can have or had.
 std::vector<int> states_of(const StoredRun& run) {
   std::set<int> states;
+  if (!run.scenario.model.control.latches) return {0};
   for (const Ruleset& rules : run.scenario.model.rulesets) {
     for (const Rule& rule : rules.rules) {
       for (const Label& l : rule.before) states.insert(l.state);
@@ -38,7 +45,7 @@ void draw_states(const Canvas& canvas, const std::vector<int>& states, double x,
       kChip + 10, (width - 130 - kChip) / static_cast<double>(std::max<std::size_t>(shown, 2) - 1));
   for (std::size_t i = 0; i < shown; ++i) {
     ModuleLook look;
-    look.fill = colour_of_state(states[i]);
+    look.fill = colour_of_module(states[i], false);
     look.faces.fill(FaceLook::off);
     look.label = std::to_string(states[i]);
     const ModulePlace place{at, y, 0, std::min(kChip, pitch - 5)};
@@ -72,7 +79,7 @@ void draw_pair(const Canvas& canvas, FaceLook face, double x, double y) {
   draw_connectors(canvas, b, right);
 }
 
-void draw_faces(const Canvas& canvas, double x, double y) {
+void draw_faces(const Canvas& canvas, bool rules, double x, double y) {
   struct Entry {
     FaceLook face;
     const char* name;
@@ -82,35 +89,40 @@ void draw_faces(const Canvas& canvas, double x, double y) {
   for (const Entry& e :
        {Entry{FaceLook::free, "free", 130}, Entry{FaceLook::latched, "latched", 312},
         Entry{FaceLook::bonded, "bonded", 524}}) {
+    if (e.face == FaceLook::bonded && !rules) continue;
     draw_pair(canvas, e.face, x + e.at + 32, y);
     canvas.text(x + e.at + 78, y + 7, e.name, kText);
   }
 }
 
-void draw_marks(const Canvas& canvas, double x, double y) {
+void draw_last(const Canvas& canvas, double x, double y) {
   ModuleLook look;
   look.fill = mixed(palette::isolated, palette::paper, 0.3);
   look.faces.fill(FaceLook::off);
   look.last = 0;
-  const ModulePlace place{x + 130 + kChip / 2, y, 0, kChip};
+  const ModulePlace place{x + kChip / 2, y, 0, kChip};
   draw_module(canvas, place, look);
   draw_connectors(canvas, place, look);
   canvas.text(place.x + kChip / 2 + 14, y + 7, "engaged last", kText);
-
-  look.last = -1;
-  const ModulePlace done{x + 412, y, 0, kChip * 0.8};
-  module_path(canvas, done);
-  draw_halo(canvas);
-  draw_module(canvas, done, look);
-  canvas.text(done.x + kChip / 2 + 14, y + 7, "part of a finished copy", kText);
 }
 
-void draw_flow(const Canvas& canvas, const StoredRun& run, double x, double y) {
-  const Model& model = run.scenario.model;
+void draw_finished(const Canvas& canvas, double x, double y) {
+  ModuleLook look;
+  look.fill = mixed(palette::isolated, palette::paper, 0.3);
+  look.faces.fill(FaceLook::off);
+  const ModulePlace place{x + kChip / 2, y, 0, kChip * 0.8};
+  module_path(canvas, place);
+  draw_halo(canvas);
+  draw_module(canvas, place, look);
+  canvas.text(place.x + kChip / 2 + 14, y + 7, "part of a finished copy", kText);
+}
+
+void draw_flow(const Canvas& canvas, const Model& model, const FlowField& field, double x,
+               double y) {
   canvas.text(x, y + 7, "water", kText);
   char text[80];
   std::snprintf(text, sizeof text, "mean flow, stronger where faster, up to %.2g m/s",
-                model.flow.K_v * peak_speed(*model.field, model.tank.radius));
+                model.flow.K_v * peak_speed(field, model.tank.radius));
   for (int i = 0; i < 3; ++i) {
     const double strength = 0.22 + 0.25 * i, top = y - 10 + 10 * i;
     canvas.line(x + 130, top, x + 174, top, faded(palette::stream, strength), 1 + 0.7 * i);
@@ -118,29 +130,46 @@ void draw_flow(const Canvas& canvas, const StoredRun& run, double x, double y) {
   canvas.text(x + 188, y + 7, text, kText);
 }
 
-bool has_flow(const StoredRun& run, const FrameStyle& style) {
-  return run.scenario.model.field && style.flow != FlowStyle::none;
-}
-bool has_labels(const StoredRun& run) {
-  return !run.trajectory.markings.empty();
+// What can appear on a run's frames, and so is explained.
+struct Signs {
+  std::vector<int> states;
+  bool faces = false, last = false, finished = false, flow = false;
+  int rows() const { return !states.empty() + faces + (last || finished) + flow; }
+};
+
+Signs signs_of(const StoredRun& run, const FrameStyle& style) {
+  const Model& model = run.scenario.model;
+  Signs out;
+  out.flow = style.flow != FlowStyle::none && peak_of_all(model) > 0;
+  if (run.trajectory.modules == 0 || run.trajectory.markings.empty()) return out;
+  out.states = states_of(run);
+  // One state alone is one colour for all, which says something only by its number.
+  if (out.states.size() < 2 && !style.labels) out.states.clear();
+  out.faces = model.control.latches;
+  out.last = style.labels && out.faces && has_rules(model);
+  out.finished = out.faces && std::any_of(model.rulesets.begin(), model.rulesets.end(),
+                                          [](const Ruleset& r) { return !r.target.empty(); });
+  return out;
 }
 
 }  // namespace
 
-void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, double x,
-                 double y, double width) {
+void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, int field,
+                 double x, double y, double width) {
+  const Signs signs = signs_of(run, style);
+  const Model& model = run.scenario.model;
   double row = y + kRow / 2;
-  if (has_labels(run)) {
-    draw_states(canvas, states_of(run), x, row, width);
-    draw_faces(canvas, x, row + kRow);
-    draw_marks(canvas, x, row + 2 * kRow);
-    row += 3 * kRow;
-  }
-  if (has_flow(run, style)) draw_flow(canvas, run, x, row);
+  if (!signs.states.empty()) draw_states(canvas, signs.states, x, row, width), row += kRow;
+  if (signs.faces) draw_faces(canvas, has_rules(model), x, row), row += kRow;
+  if (signs.last) draw_last(canvas, x + 130, row);
+  if (signs.finished) draw_finished(canvas, x + (signs.last ? 390 : 130), row);
+  if (signs.last || signs.finished) row += kRow;
+  const FlowField* in_force = field_of(model, field);
+  if (signs.flow && in_force) draw_flow(canvas, model, *in_force, x, row);
 }
 
 double legend_height(const StoredRun& run, const FrameStyle& style) {
-  return kRow * ((has_labels(run) ? 3 : 0) + (has_flow(run, style) ? 1 : 0));
+  return kRow * signs_of(run, style).rows();
 }
 
 }  // namespace lilytank

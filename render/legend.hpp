@@ -6,9 +6,10 @@
 namespace lilytank {
 
 /// Draws the legend of a run with its top left corner at (x, y), `width` units wide: control
-/// states, faces, finished copies and flow, as far as the run has them.
-void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, double x,
-                 double y, double width);
+/// states, faces, marks and flow, as far as they can appear on its frames. `field`: the flow in
+/// force (pumps.hpp).
+void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, int field,
+                 double x, double y, double width);
 /// Its height (units).
 double legend_height(const StoredRun& run, const FrameStyle& style);
 

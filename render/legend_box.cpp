@@ -75,7 +75,8 @@ Names names_of(const Plot& plot) {
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     if (!plot.curves[i].name.empty()) names.shown.push_back(i);
   }
-  const auto most = static_cast<std::size_t>(std::max(2.0, (plot.height - 90) / kRow));
+  // Three are never cut: a legend that says less than it could is no help in a low plot either.
+  const auto most = static_cast<std::size_t>(std::max(3.0, (plot.height - 90) / kRow));
   if (names.shown.size() > most) {
     names.more = names.shown.size() - (most - 1);
     names.shown.resize(most - 1);

@@ -54,6 +54,11 @@ void draw_last(const Canvas& canvas, const Colour& fill, double line) {
 
 }  // namespace
 
+Colour colour_of_module(int state, bool complete) {
+  const Colour full = colour_of_state(state);
+  return complete ? full : mixed(full, palette::paper, 0.28);
+}
+
 void module_path(const Canvas& canvas, const ModulePlace& place) {
   const Saved saved(canvas);
   enter(canvas, place);

@@ -23,6 +23,8 @@ struct ModuleLook {
   std::array<FaceLook, 4> faces{FaceLook::free, FaceLook::free, FaceLook::free, FaceLook::free};
 };
 
+/// The body's colour in a control state: paler where it is not part of a finished copy.
+Colour colour_of_module(int state, bool complete);
 /// Adds the outline of a module to the path.
 void module_path(const Canvas& canvas, const ModulePlace& place);
 /// The outline that marks finished copies, around the modules in the path, which it forgets. To be

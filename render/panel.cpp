@@ -153,8 +153,12 @@ void Panel::icons(const Canvas& canvas, int copies) const {
   }
 }
 
-void Panel::draw_static(const Canvas& canvas) const {
+void Panel::draw_static(const Canvas& canvas, int field, const std::string& power) const {
   title(canvas);
+  if (!power.empty()) {
+    canvas.text(box_.x + box_.width, box_.y + kClockCaption, "pump power " + power,
+                {20, palette::muted, false, Align::right});
+  }
   caption(canvas, kClockCaption, "time (h:mm:ss)");
   if (speed_ > 0) {
     canvas.text(box_.x + box_.width, box_.y + kClock, speed_text(speed_),
@@ -168,7 +172,7 @@ void Panel::draw_static(const Canvas& canvas) const {
   }
   // Without a yield the legend follows the clock.
   const double below = has_yield() ? box_.height - legend_height(run_, style_) : kYieldCaption - 14;
-  draw_legend(canvas, run_, style_, box_.x, box_.y + below, box_.width);
+  draw_legend(canvas, run_, style_, field, box_.x, box_.y + below, box_.width);
 }
 
 void Panel::draw_moving(const Canvas& canvas, const Snapshot& now) const {

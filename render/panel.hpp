@@ -19,8 +19,9 @@ class Panel {
   /// `run` must outlive the panel. `speed`: simulated seconds per second of film, 0: a still.
   Panel(const StoredRun& run, const FrameStyle& style, const Box& box, double speed);
 
-  /// Title, captions, the whole yield curve and the legend.
-  void draw_static(const Canvas& canvas) const;
+  /// Title, captions, the whole yield curve and the legend while a flow is in force (pumps.hpp).
+  /// `power`: of the pumps, empty where it is always the same.
+  void draw_static(const Canvas& canvas, int field, const std::string& power) const;
   /// Clock, counter, icons of copies and the curve's cursor.
   void draw_moving(const Canvas& canvas, const Snapshot& now) const;
 

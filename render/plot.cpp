@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kPixels = 2;               // of a PNG, per unit
 constexpr double kMajor = 6, kMinor = 3.5;  // tick lengths
+constexpr double kMargin = 26;              // units, to the right of the area
+constexpr double kBeside = 24;              // units, around a legend beside the area
 const TextStyle kTickText{14, palette::ink, false, Align::left};
 const TextStyle kLabelText{16, palette::ink, false, Align::centre};
 const TextStyle kTitleText{17, palette::ink, true, Align::centre};
@@ -95,20 +97,61 @@ double widest_label(const Canvas& canvas, const Axis& axis) {
   return widest;
 }
 
+// What is left free at the sides of the area.
+struct Margins {
+  double left = 0, right = kMargin;  // units; the left one at least so wide
+  bool legends = false;              // they stand on the right, beside the area
+};
+
 // The area depends on the labels' widths, which depend on the area's size: two rounds settle it.
-PlotArea layout(const Canvas& canvas, const Plot& plot, double right_margin) {
+PlotArea layout(const Canvas& canvas, const Plot& plot, const Margins& margins) {
   PlotArea area;
-  area.left = 80;
+  area.left = std::max(80.0, margins.left);
   for (int round = 0; round < 2; ++round) {
     area.top = plot.title.empty() ? 22 : 50;
-    area.width = std::max(40.0, plot.width - area.left - right_margin);
+    area.width = std::max(40.0, plot.width - area.left - margins.right);
     area.height = std::max(40.0, plot.height - area.top - (plot.x_label.empty() ? 40 : 66));
     choose_axes(plot, area);
     if (!area.y.note.empty()) area.top += 14, area.height = std::max(40.0, area.height - 14);
-    area.left = widest_label(canvas, area.y) + 18 + (plot.y_label.empty() ? 8 : 32);
+    area.left =
+        std::max(margins.left, widest_label(canvas, area.y) + 18 + (plot.y_label.empty() ? 8 : 32));
   }
-  area.width = std::max(40.0, plot.width - area.left - right_margin);
+  area.width = std::max(40.0, plot.width - area.left - margins.right);
   return area;
+}
+
+bool leaves_room(const LegendBox& legend, const Plot& plot) {
+  return legend.height > 0 && legend.width < 0.45 * plot.width;
+}
+
+// What a plot alone would take.
+Margins margins_of(const Canvas& canvas, const Plot& plot) {
+  const PlotArea area = layout(canvas, plot, {});
+  Margins out{area.left, kMargin, false};
+  const LegendBox legend = legend_size(canvas, plot);
+  if (!leaves_room(legend, plot)) return out;
+  std::size_t hidden = 0;
+  place_legend(legend, plot, area, hidden);
+  const bool fits = legend.height < area.height - 20 && legend.width < 0.6 * area.width;
+  // A legend that would hide much goes beside the plot, where that leaves room for the plot.
+  out.legends = hidden > 6 || !fits;
+  return out;
+}
+
+// Plots of a page have the same margins: panels are equally large, and axes above each other agree.
+Margins margins_of(const Canvas& canvas, const PlotPage& page) {
+  Margins all;
+  for (const Plot& plot : page.plots) {
+    const Margins own = margins_of(canvas, plot);
+    all.left = std::max(all.left, own.left), all.legends = all.legends || own.legends;
+  }
+  for (const Plot& plot : page.plots) {
+    const LegendBox legend = legend_size(canvas, plot);
+    if (all.legends && leaves_room(legend, plot)) {
+      all.right = std::max(all.right, legend.width + kBeside);
+    }
+  }
+  return all;
 }
 
 void draw_grid(const Canvas& canvas, const PlotArea& area) {
@@ -189,22 +232,15 @@ void draw_points(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   }
 }
 
-void draw_all(const Canvas& canvas, const Plot& plot) {
-  constexpr double kMargin = 26;
-  PlotArea area = layout(canvas, plot, kMargin);
+void draw_all(const Canvas& canvas, const Plot& plot, const Margins& margins) {
+  const PlotArea area = layout(canvas, plot, margins);
   LegendBox legend = legend_size(canvas, plot);
-  if (legend.height > 0) {
+  if (margins.legends && leaves_room(legend, plot)) {
+    legend.x = area.right() + kBeside / 2, legend.y = area.top - 4;
+    legend.inside = false;
+  } else if (legend.height > 0) {
     std::size_t hidden = 0;
-    const LegendBox size = legend;
-    legend = place_legend(size, plot, area, hidden);
-    const bool fits = size.height < area.height - 20 && size.width < 0.6 * area.width;
-    // A legend that would hide much goes beside the plot, where that leaves room for the plot.
-    if ((hidden > 6 || !fits) && size.width < 0.45 * plot.width) {
-      area = layout(canvas, plot, size.width + 24);
-      legend = size;
-      legend.x = area.right() + 12, legend.y = area.top - 4;
-      legend.inside = false;
-    }
+    legend = place_legend(legend, plot, area, hidden);
   }
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
@@ -266,13 +302,14 @@ void draw_plots(const PlotPage& page, const std::string& file) {
   cairo_paint(canvas.get());
   canvas.text(places.width / 2.0, 30, canvas.fitted(page.title, places.width - 20, kTitleText),
               kTitleText);
+  const Margins margins = margins_of(canvas, page);
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     const Plot& plot = page.plots[i];
     const Saved saved(canvas);
     cairo_translate(canvas.get(), places.at[i].x, places.at[i].y);
     cairo_rectangle(canvas.get(), 0, 0, plot.width, plot.height);
     cairo_clip(canvas.get());
-    draw_all(canvas, plot);
+    draw_all(canvas, plot, margins);
   }
   write_atomically(file, canvas.encoded());
 }

@@ -1,6 +1,5 @@
 // Figures of sealed experiments: power, outcomes, errors.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "html_report.hpp"
@@ -12,16 +11,25 @@ namespace {
 constexpr double kUsual = 1.959964;  // deviations that a half width is
 constexpr double kFar = 3;           // half widths, where larger errors are drawn
 constexpr double kRoom = 1.2;        // of z, beside the outermost
-constexpr double kBeside = 0.05;     // of z, that curves stand beside each other
+constexpr double kApart = 0.009;     // of the axis' length, that bars are apart at least
+constexpr double kLeastZ = 0.5;      // proof_figures() gives this for all that is expected of less
 
-Curve power_curve(const std::string& name, const std::vector<ProofPower>& power, double aside) {
+// `apart`: a factor of z by which bars are to be apart from those in `taken`, or they would hide
+// them: they move to the right until they are.
+Curve power_curve(const std::string& name, const std::vector<ProofPower>& power, double apart,
+                  std::vector<double>& taken) {
   Curve out;
   out.name = name, out.markers = out.bars = true;
-  out.line = aside == 0;
   for (const ProofPower& p : power) {
-    out.x.push_back(p.z * (1 + aside)), out.y.push_back(100.0 * p.right / p.all);
+    double z = p.z;
+    std::sort(taken.begin(), taken.end());
+    for (const double other : taken) {
+      if (z > other / apart && z < other * apart) z = other * apart;
+    }
+    out.x.push_back(z), out.y.push_back(100.0 * p.right / p.all);
     out.low.push_back(100 * p.low), out.high.push_back(100 * p.high);
   }
+  taken.insert(taken.end(), out.x.begin(), out.x.end());
   return out;
 }
 
@@ -40,21 +48,25 @@ Plot power_plot(const ProofFigures& of) {
   plot.x_label = "deviations by which the effect is off (expected z)";
   plot.y_label = "told rightly (%)";
   plot.log_x = true, plot.y_low = 0, plot.y_high = 100;
-  plot.curves.push_back(power_curve("one effect", of.named, 0));
+  spread_x(of, plot);
+  const double apart = std::pow(plot.x_high / plot.x_low, kApart);
+  std::vector<double> taken;
+  plot.curves.push_back(power_curve("one effect", of.named, apart, taken));
   if (!of.two.empty()) {
-    plot.curves.push_back(power_curve("two effects: both", of.two, kBeside));
+    plot.curves.push_back(power_curve("two effects: both", of.two, apart, taken));
+    plot.curves.back().line = false;
   }
   if (!of.unnamed.empty()) {
-    plot.curves.push_back(power_curve("a law of no effect", of.unnamed, -kBeside));
+    plot.curves.push_back(power_curve("a law of no effect", of.unnamed, apart, taken));
+    plot.curves.back().line = false;
   }
-  spread_x(of, plot);
   return plot;
 }
 
 // A row an effect, a marker an experiment.
 Plot outcomes_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Every sealed experiment";
+  plot.title = "Every sealed experiment in which something was missing";
   plot.x_label = "deviations by which the effect is off (expected z)";
   plot.log_x = true;
   for (const ProofPoint& p : of.points) plot.y_names.push_back(p.row);
@@ -66,21 +78,27 @@ Plot outcomes_plot(const ProofFigures& of) {
   plot.width = 1100, plot.height = 130 + 26 * static_cast<int>(plot.y_names.size());
   spread_x(of, plot);
   using Outcome = ProofPoint::Outcome;
-  const std::array<std::pair<Outcome, const char*>, 4> kinds = {
-      {{Outcome::right, "told rightly"},
-       {Outcome::wrong_name, "a wrong name"},
-       {Outcome::silent, "told as complete"},
-       {Outcome::other, "in part, unnamed or undecided"}}};
-  for (const auto& [outcome, name] : kinds) {
+  // Places among the curves choose colour and marker, and the first lies on top: what went wrong
+  // above what is right, which is blue and round at place 0 as at place 12.
+  struct Kind {
+    Outcome outcome;
+    const char* name;
+    std::size_t place;
+  };
+  for (const Kind& kind :
+       {Kind{Outcome::wrong_name, "a wrong name", 1}, Kind{Outcome::silent, "told as complete", 2},
+        Kind{Outcome::other, "in part, unnamed or undecided", 3},
+        Kind{Outcome::right, "told rightly", 12}}) {
     Curve curve;
     curve.markers = true, curve.line = false;
     for (const ProofPoint& p : of.points) {
-      if (p.outcome != outcome) continue;
+      if (p.outcome != kind.outcome) continue;
       const auto row = std::find(plot.y_names.begin(), plot.y_names.end(), p.row);
       curve.x.push_back(p.expected_z);
       curve.y.push_back(static_cast<double>(row - plot.y_names.begin()));
     }
-    curve.name = std::string(name) + ": " + std::to_string(curve.x.size());
+    curve.name = std::string(kind.name) + ": " + std::to_string(curve.x.size());
+    plot.curves.resize(kind.place);
     plot.curves.push_back(std::move(curve));
   }
   return plot;
@@ -119,20 +137,35 @@ Plot errors_plot(const ProofFigures& of) {
   return plot;
 }
 
+std::string power_caption(const ProofFigures& of) {
+  std::string out =
+      "How often sealed experiments were told rightly. Bars: 95 % (Wilson). Below the threshold of "
+      "a few deviations silence is what false alarms cost.";
+  if (!of.two.empty()) out += " Of two effects the expected z is the weaker one's.";
+  if (!of.two.empty() || !of.unnamed.empty()) {
+    out += " Bars that would hide each other stand a little to the right of their z.";
+  }
+  return out;
+}
+
+std::string outcomes_caption(const ProofFigures& of) {
+  std::string out =
+      "What was said of every experiment in which something was missing. One that was told "
+      "rightly and has a wrong name besides counts as one with a wrong name.";
+  const bool held = std::any_of(of.points.begin(), of.points.end(),
+                                [](const ProofPoint& p) { return p.expected_z <= kLeastZ; });
+  if (held) out += " What shows next to nothing, expected z 0.5 or less, stands at the left edge.";
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> draw_proof(const ProofFigures& of, const std::string& text,
                                     const std::string& dir) {
   std::vector<ReportFigure> figures;
   if (!of.points.empty()) {
-    figures.push_back({"power",
-                       "How often sealed experiments were told rightly. Bars: 95 % (Wilson). Below "
-                       "the threshold of a few deviations silence is what false alarms cost.",
-                       {{power_plot(of)}, 1, ""}});
-    figures.push_back({"outcomes",
-                       "What was said of every experiment in which something was missing. What "
-                       "shows nothing at all stands at the left edge.",
-                       {{outcomes_plot(of)}, 1, ""}});
+    figures.push_back({"power", power_caption(of), {{power_plot(of)}, 1, ""}});
+    figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}, 1, ""}});
   }
   if (!of.baseline_errors.empty() || !of.effect_errors.empty()) {
     figures.push_back({"errors",

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/scenario_keys.hpp"
 #include "lilytank/render.hpp"
 #include "text/number.hpp"
 #include "yield.hpp"
@@ -24,6 +25,13 @@ void drop_bands(const StudySummary& summary, Curve& curve) {
   if (summary.settings.size() > kBandsUpTo) curve.low.clear(), curve.high.clear();
 }
 
+// Adds the curve of setting `number`. A colour means a setting in all figures of a study, so the
+// places of those without a curve stay empty.
+void add_of_setting(Plot& plot, std::size_t number, Curve curve) {
+  plot.curves.resize(number);
+  plot.curves.push_back(std::move(curve));
+}
+
 std::vector<double> divided(std::vector<double> values, double by) {
   for (double& v : values) v /= by;
   return values;
@@ -33,14 +41,15 @@ Plot mean_yield_plot(const StudySummary& summary, const TimeUnit& unit) {
   Plot plot = time_plot(summary, unit);
   plot.y_label = "mean copies of the target";
   int most = 1;
-  for (const SettingSummary& setting : summary.settings) {
+  for (std::size_t s = 0; s < summary.settings.size(); ++s) {
+    const SettingSummary& setting = summary.settings[s];
     if (setting.runs == 0) continue;
     most = std::max(most, setting.possible);
     const CurveBand& band = setting.yield;
     Curve curve{setting.label, divided(band.time, unit.seconds), band.mean, band.low, band.high};
     curve.steps = true;
     drop_bands(summary, curve);
-    plot.curves.push_back(std::move(curve));
+    add_of_setting(plot, s, std::move(curve));
   }
   plot.y_low = -0.03 * most, plot.y_high = 1.05 * most;
   return plot;
@@ -85,12 +94,13 @@ Plot survival_plot(const StudySummary& summary, int k, const TimeUnit& unit) {
   plot.title += ": time to copy " + std::to_string(k) + test_note(summary, k);
   plot.y_label = k == 1 ? "share of runs without a copy"
                         : "share of runs with fewer than " + std::to_string(k) + " copies";
-  for (const SettingSummary& setting : summary.settings) {
-    for (const CopyTime& time : setting.times) {
+  for (std::size_t s = 0; s < summary.settings.size(); ++s) {
+    for (const CopyTime& time : summary.settings[s].times) {
       if (time.k != k || time.survival.time.empty()) continue;
-      plot.curves.push_back(survival_curve(time.survival, summary.horizon, unit));
-      plot.curves.back().name = setting.label;
-      drop_bands(summary, plot.curves.back());
+      Curve curve = survival_curve(time.survival, summary.horizon, unit);
+      curve.name = summary.settings[s].label;
+      drop_bands(summary, curve);
+      add_of_setting(plot, s, std::move(curve));
     }
   }
   plot.y_low = -0.03, plot.y_high = 1.04;
@@ -119,6 +129,16 @@ std::vector<const SettingSummary*> along_axis(const StudySummary& summary) {
       [](const SettingSummary* a, const SettingSummary* b) { return a->values[0] < b->values[0]; });
   if (along.empty() || !(along.front()->values[0] < along.back()->values[0])) along.clear();
   return along;
+}
+
+// "flow.pump_power (%)": an axis' values are in the unit of its key.
+std::string axis_label(const std::string& path) {
+  ScenarioDraft draft;
+  for (const ScenarioKey& key : scenario_keys(draft)) {
+    const bool unit = !key.unit.empty() && key.unit != "1";
+    if (key.path == path) return unit ? path + " (" + key.unit + ")" : path;
+  }
+  return path;
 }
 
 // A horizontal axis with room at its ends, on which curves stand apart by a little.
@@ -162,7 +182,7 @@ Plot mean_time_plot(const StudySummary& summary, const std::vector<const Setting
                     const TimeUnit& unit) {
   Plot plot;
   plot.title = summary.name;
-  plot.x_label = summary.axes[0];
+  plot.x_label = axis_label(summary.axes[0]);
   plot.y_label = "restricted mean time to copy k (" + unit.name + ")";
   const ValueAxis axis = axis_along(along);
   plot.x_low = axis.low, plot.x_high = axis.high, plot.log_x = axis.log;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "palette.hpp"
+#include "pumps.hpp"
 #include "streamlines.hpp"
 
 namespace lilytank {
@@ -69,7 +70,7 @@ void arrow_head(const Canvas& canvas, const View& view, const Vec2& tip, const V
   canvas.fill(colour);
 }
 
-// Faster water is drawn stronger; the tank's peak speed gives 1.
+// Faster water is drawn stronger; the peak speed of all flows gives 1.
 Colour stream_colour(double share) {
   return faded(palette::stream, 0.16 + 0.44 * share);
 }
@@ -104,29 +105,26 @@ void draw_line(const Canvas& canvas, const View& view, const Streamline& line, d
   }
 }
 
-void draw_streamlines(const Canvas& canvas, const View& view, const Model& model) {
-  const double radius = model.tank.radius;
-  const double peak = peak_speed(*model.field, radius);
-  if (peak <= 0) return;
+void draw_streamlines(const Canvas& canvas, const View& view, double radius, const FlowField& field,
+                      double peak) {
   StreamlineSettings settings;
   settings.radius = 0.985 * radius;
   settings.separation = 0.055 * radius;
   settings.step = 0.0065 * radius;
   settings.shortest = 0.12 * radius;
-  for (const Streamline& line : streamlines(*model.field, settings)) {
+  for (const Streamline& line : streamlines(field, settings)) {
     draw_line(canvas, view, line, peak);
   }
 }
 
-void draw_arrows(const Canvas& canvas, const View& view, const Model& model) {
-  const double radius = model.tank.radius, pitch = radius / 11;
-  const double peak = peak_speed(*model.field, radius);
-  if (peak <= 0) return;
+void draw_arrows(const Canvas& canvas, const View& view, double radius, const FlowField& field,
+                 double peak) {
+  const double pitch = radius / 11;
   for (int iy = -11; iy <= 11; ++iy) {
     for (int ix = -11; ix <= 11; ++ix) {
       const Vec2 at(ix * pitch, iy * pitch);
       if (at.norm() > 0.95 * radius) continue;
-      const FlowSample f = model.field->at(at.x(), at.y());
+      const FlowSample f = field.at(at.x(), at.y());
       const Vec2 u(f.mu_x, f.mu_y);
       const double share = std::min(1.0, u.norm() / peak);
       if (share < 0.02) continue;
@@ -144,19 +142,22 @@ void draw_arrows(const Canvas& canvas, const View& view, const Model& model) {
 
 }  // namespace
 
-void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow) {
-  const double radius = model.tank.radius;
+void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow,
+               int number) {
+  const double radius = model.tank.radius, peak = peak_of_all(model);
+  const FlowField* field = field_of(model, number);
   draw_water(canvas, view, radius);
-  if (model.field && flow != FlowStyle::none) {
+  if (field && peak > 0 && flow != FlowStyle::none) {
     const Saved saved(canvas);
     canvas.circle(view.centre_x, view.centre_y, view.scale * radius);
     cairo_clip(canvas.get());
     if (flow == FlowStyle::streamlines)
-      draw_streamlines(canvas, view, model);
+      draw_streamlines(canvas, view, radius, *field, peak);
     else
-      draw_arrows(canvas, view, model);
+      draw_arrows(canvas, view, radius, *field, peak);
   }
   draw_rim(canvas, view, radius);
+  if (peak <= 0) return;
   // Measured flows come without their inlets; all are of the tank described in the paper.
   const AnalyticTank standard;
   for (int k = 0; k < standard.inlets; ++k) {

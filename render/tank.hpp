@@ -7,8 +7,11 @@
 
 namespace lilytank {
 
-/// Draws everything of the tank that does not move. The flow's colour and width tell its speed.
-void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow);
+/// Draws everything of the tank that does not move, with the flow of that number (pumps.hpp). Its
+/// colour and width tell its speed, by the fastest water of all of the model's flows. Still water
+/// has no inlets.
+void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow,
+               int number);
 
 /// A bar of 10 cm (5 cm in small tanks) with its left end at (x, y), units.
 void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, double x, double y);

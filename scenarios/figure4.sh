@@ -2,11 +2,17 @@
 # The paper's Fig. 4 with the built-in tank: mean squared displacement of 24 balls for five pump
 # powers and three water levels, as one plot (msd_all.png) with its table.
 #
-#   scenarios/figure4.sh [OUT]      LILYTANK=build/lilytank, if it is not in PATH
+#   scenarios/figure4.sh [OUT]
+#
+# Environment: LILYTANK, the program. Else it is that of the build or the installation that this file
+# belongs to, or the one in PATH.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 out=${1:-out/figure4}
-lilytank=${LILYTANK:-lilytank}
+for program in "$here/../build/lilytank" "$here/../../../bin/lilytank" lilytank; do
+  if command -v "$program" > /dev/null; then break; fi
+done
+lilytank=${LILYTANK:-$program}
 runs=()
 for level in -7 -8 -9; do
   for power in 50 60 69 80 90; do

@@ -5,12 +5,16 @@
 #
 #   scenarios/optimize/table.sh [OUT [TARGET...]]
 #
-# Environment: LILYTANK (build/lilytank), HORIZON of the searches (4 h, as of the comparison),
+# Environment: LILYTANK, the program (that of the build or the installation that this file belongs to,
+# or the one in PATH), HORIZON of the searches (4 h, as of the comparison),
 # REPLICATES of each strategy in the comparison (200), THREADS (one a core). Stopped or killed, the same command goes on.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 scenarios=$(dirname "$here")
-lilytank=${LILYTANK:-build/lilytank}
+for program in "$scenarios/../build/lilytank" "$scenarios/../../../bin/lilytank" lilytank; do
+  if command -v "$program" > /dev/null; then break; fi
+done
+lilytank=${LILYTANK:-$program}
 out=${1:-out/optimize}
 [ $# -gt 0 ] && shift
 [ $# -gt 0 ] || set -- chain5 cross5 l4 t4 o4 p5 caterpillar7

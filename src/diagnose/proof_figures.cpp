@@ -19,10 +19,11 @@ ProofPoint point_of(const ProofWorld& w) {
             : w.kind == "unnamed" ? "a law of no effect"
                                   : w.effects[0];
   out.expected_z = std::max(w.expected_z, kLeastZ);
-  if (w.right()) {
-    out.outcome = ProofPoint::Outcome::right;
-  } else if (w.wrong_name()) {
+  // A wrong name is one, whatever was told rightly beside it.
+  if (w.wrong_name()) {
     out.outcome = ProofPoint::Outcome::wrong_name;
+  } else if (w.right()) {
+    out.outcome = ProofPoint::Outcome::right;
   } else if (w.verdict == Verdict::complete) {
     out.outcome = ProofPoint::Outcome::silent;
   }

@@ -62,6 +62,15 @@ TEST(flowMaps, normalityHasARowATestAndAColumnAnAxis) {
   }
 }
 
+TEST(flowMaps, normalityTellsTheLevelThatWasAskedFor) {
+  FlowReport report = sample_report();
+  report.options.significance = 0.01;
+  const Map map = named(flow_maps(report), "normality");
+  EXPECT_EQ(map.panels[0].title, "All frames, 1 %, x axis");
+  report.options.significance = 0.05;
+  EXPECT_EQ(named(flow_maps(report), "normality").panels[0].title, "All frames, 5 %, x axis");
+}
+
 TEST(flowMaps, errorsAreDifferencesFromTheTruth) {
   const Map map = named(flow_maps(sample_report()), "errors");
   EXPECT_NEAR(map.panels[0].values[kMeasured], 0.3, 1e-12);

@@ -106,6 +106,74 @@ TEST(Plot, ALegendHidesNoMarker) {
       << "all nine, and the one in the legend";
 }
 
+// Low plots of one row or two have three curves that need their names.
+TEST(Plot, ALegendOfThreeIsNeverCut) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  Plot plot;
+  plot.height = 156, plot.title = "low", plot.x_label = "x";
+  for (int k = 0; k < 3; ++k) {
+    Curve& curve = plot.curves.emplace_back();
+    curve.x = {1.0 * k}, curve.y = {0};
+    curve.markers = true, curve.line = false;
+    if (k < 2) curve.name = "name";
+  }
+  draw_plot(plot, folder.file("two.png"));
+  plot.curves[2].name = "name";
+  draw_plot(plot, folder.file("three.png"));
+  EXPECT_GT(coloured_pixels(folder.file("three.png")),
+            coloured_pixels(folder.file("two.png")) + 30);
+}
+
+TEST(Plot, CrowdedMarkersWithoutALineAreAllDrawn) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  Plot plot;
+  Curve& curve = plot.curves.emplace_back();
+  curve.x = {0.5, 0.504}, curve.y = {0.5, 0.5};  // some three units apart
+  curve.markers = true, curve.line = false;
+  plot.x_low = plot.y_low = 0, plot.x_high = plot.y_high = 1;
+  draw_plot(plot, folder.file("two.png"));
+  curve.x = {0.5}, curve.y = {0.5};
+  draw_plot(plot, folder.file("one.png"));
+  EXPECT_GT(coloured_pixels(folder.file("two.png")), coloured_pixels(folder.file("one.png")) + 20);
+}
+
+// The last column of a frame: the longest dark line upwards in the part of the page from `left`.
+int right_frame(const std::string& file, int left, int right) {
+  const sample::Pixels pixels(file);
+  const int height = sample::png_size(file).height;
+  int best = 0, most = 0;
+  for (int x = left; pixels.read() && x < right; ++x) {
+    int dark = 0;
+    for (int y = 0; y < height; ++y) {
+      const sample::Pixel p = pixels.at(x, y);
+      dark += std::max({p.r, p.g, p.b}) < 110;
+    }
+    if (dark >= most) best = x, most = dark;
+  }
+  return best - left;
+}
+
+TEST(Plot, PanelsOfAPageAreEquallyWide) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "no ffmpeg";
+  const Folder folder;
+  PlotPage page;
+  page.columns = 2;
+  page.plots.assign(2, plot_of({0, 1}, {0, 1}));
+  for (Plot& plot : page.plots) plot.width = 500, plot.height = 360;
+  page.plots[0].curves[0].name.clear();
+  // So much ink that the legend of the second goes beside its area.
+  Curve dense;
+  for (int i = 0; i < 600; ++i) dense.x.push_back(i / 599.0), dense.y.push_back(i % 2);
+  dense.name = "dense";
+  page.plots[1].curves.push_back(dense);
+  draw_plots(page, folder.file("a.png"));
+  const int first = right_frame(folder.file("a.png"), 400, 1000);
+  EXPECT_GT(first, 100);
+  EXPECT_NEAR(first, right_frame(folder.file("a.png"), 1400, 2000), 2);
+}
+
 TEST(Plot, GivenLimitsHold) {
   const Folder folder;
   Plot plot = plot_of({0, 1}, {0, 100});

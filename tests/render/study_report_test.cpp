@@ -126,6 +126,30 @@ TEST(StudyReport, MeanTimesNeedOneAxisOfNumbers) {
   EXPECT_GT(find(wide_plots, "mean_time")->x_low, 0);
 }
 
+TEST(StudyReport, TheAxisTellsTheUnitOfItsKey) {
+  StudyTable table = exponential_study({0.01, 0.02}, 8, 100);
+  const auto label = [&](const std::string& axis) {
+    table.axes = {axis};
+    return find(study_plots(summarise(table)), "mean_time")->x_label;
+  };
+  EXPECT_EQ(label("flow.pump_power"), "flow.pump_power (%)");
+  EXPECT_EQ(label("flow.water_level"), "flow.water_level (m)");
+  EXPECT_EQ(label("flow.K_v"), "flow.K_v") << "a plain number";
+  EXPECT_EQ(label("power"), "power") << "a name that the study gave";
+}
+
+TEST(StudyReport, AColourMeansASettingInAllFigures) {
+  StudyTable table = exponential_study({0.01, 0.02, 0.04}, 8, 100);
+  std::erase_if(table.rows, [](const RunRow& row) { return row.setting == 0; });
+  const auto plots = study_plots(summarise(table));
+  for (const char* name : {"yield", "survival_1", "survival_3"}) {
+    const std::vector<Curve>& curves = find(plots, name)->curves;
+    ASSERT_EQ(curves.size(), 3u) << name;
+    EXPECT_TRUE(curves[0].x.empty() && curves[0].name.empty()) << name << ": setting 0 is not run";
+    EXPECT_EQ(curves[2].name, table.labels[2]) << name;
+  }
+}
+
 TEST(StudyReport, OfManySettingsLeavesOutBands) {
   const auto few = study_plots(summarise(exponential_study(std::vector<double>(6, 0.02), 4, 100)));
   EXPECT_FALSE(find(few, "yield")->curves[0].low.empty());

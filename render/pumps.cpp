@@ -1,0 +1,142 @@
+#include "pumps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "streamlines.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+// What the base station knows at a frame, as BaseStation of src/control does tick by tick.
+class Follower {
+ public:
+  explicit Follower(const StoredRun& run) : run_(run), model_(run.scenario.model) {
+    for (const Ruleset& rules : model_.rulesets) joins_.push_back(final_labels(rules));
+  }
+
+  // The flow in force from frame `f` on; frames are asked for in turn.
+  int field_at_frame(int f) {
+    const double time = run_.trajectory.time[static_cast<std::size_t>(f)];
+    const int copies = finished_copies(f);
+    const int rules = last(CommandKind::replace_ruleset, &Command::ruleset, time, copies);
+    const int field = last(CommandKind::pump_power, &Command::field, time, copies);
+    ruleset_ = static_cast<std::size_t>(rules);
+    return field;
+  }
+
+ private:
+  int with_label(int f, int label) const {
+    const Trajectory& t = run_.trajectory;
+    const auto stride = static_cast<std::ptrdiff_t>(t.markings.size() / t.time.size());
+    const auto first = t.markings.begin() + f * stride;
+    return static_cast<int>(std::count_if(first, first + t.modules,
+                                          [&](const Markings& m) { return m.label == label; }));
+  }
+
+  int finished_copies(int f) const {
+    if (run_.trajectory.markings.empty() || ruleset_ >= joins_.size()) return 0;
+    const auto& joins = joins_[ruleset_];
+    int fewest = joins.empty() ? 0 : run_.trajectory.modules;
+    for (const auto& [a, b] : joins) {
+      const int modules = with_label(f, a) + (a == b ? 0 : with_label(f, b));  // a join has two
+      fewest = std::min(fewest, modules / 2);
+    }
+    return fewest;
+  }
+
+  // What the last command of a kind says, those by copies after those by time; 0: none yet.
+  int last(CommandKind kind, int Command::*what, double time, int copies) const {
+    int out = 0;
+    for (const Command& c : model_.commands) {
+      if (c.kind == kind && c.at <= time) out = c.*what;
+    }
+    for (const Command& c : model_.feedback) {
+      if (c.kind == kind && c.copies <= copies) out = c.*what;
+    }
+    return out;
+  }
+
+  const StoredRun& run_;
+  const Model& model_;
+  std::vector<std::vector<std::array<int, 2>>> joins_;  // the last joins, by ruleset
+  std::size_t ruleset_ = 0;
+};
+
+bool by_copies(const Model& model) {
+  return std::any_of(model.feedback.begin(), model.feedback.end(),
+                     [](const Command& c) { return c.kind == CommandKind::pump_power; });
+}
+
+// Powers by number of the flow. A Model knows flows only; the commands of the resolved text know
+// the powers, and give each new one the next number.
+std::vector<std::string> powers_of(const Scenario& scenario) {
+  std::vector<std::string> powers;
+  for (const ScenarioEntry& entry : scenario.entries) {
+    if (entry.path == "flow.pump_power") powers.push_back(entry.value);
+  }
+  if (powers.empty()) return {};
+  std::istringstream lines(scenario.resolved);
+  bool commands = false;
+  for (std::string line; std::getline(lines, line);) {
+    commands = commands || line == "[[command]]";
+    constexpr std::string_view kKey = "power = ";
+    if (!commands || !line.starts_with(kKey)) continue;
+    const std::string value(trimmed(line.substr(kKey.size(), line.find('#') - kKey.size())));
+    const auto same = [&](const std::string& p) { return parse_number(p) == parse_number(value); };
+    if (std::none_of(powers.begin(), powers.end(), same)) powers.push_back(value);
+  }
+  if (powers.size() != 1 + scenario.model.other_fields.size()) powers.clear();
+  return powers;
+}
+
+}  // namespace
+
+const FlowField* field_of(const Model& model, int number) {
+  if (number <= 0) return model.field.get();
+  const auto i = static_cast<std::size_t>(number - 1);
+  return i < model.other_fields.size() ? model.other_fields[i].get() : nullptr;
+}
+
+double peak_of_all(const Model& model) {
+  double peak = 0;
+  for (int i = 0; i <= static_cast<int>(model.other_fields.size()); ++i) {
+    const FlowField* field = field_of(model, i);
+    if (field) peak = std::max(peak, peak_speed(*field, model.tank.radius));
+  }
+  return peak;
+}
+
+Pumps::Pumps(const StoredRun& run) : powers_(powers_of(run.scenario)) {
+  const Model& model = run.scenario.model;
+  changes_.push_back({-1, 0});
+  if (model.other_fields.empty()) return;
+  const auto add = [&](double time, int field) {
+    if (field != changes_.back().field) changes_.push_back({time, field});
+  };
+  if (by_copies(model)) {
+    Follower station(run);
+    for (int f = 0; f < run.trajectory.frames(); ++f) {
+      add(run.trajectory.time[static_cast<std::size_t>(f)], station.field_at_frame(f));
+    }
+  } else {
+    for (const Command& c : model.commands) {
+      if (c.kind == CommandKind::pump_power) add(c.at, c.field);
+    }
+  }
+}
+
+int Pumps::field_at(double time) const {
+  const auto after = std::upper_bound(changes_.begin(), changes_.end(), time,
+                                      [](double t, const Since& s) { return t < s.time; });
+  return after == changes_.begin() ? 0 : std::prev(after)->field;
+}
+
+std::string Pumps::power_of(int field) const {
+  const auto i = static_cast<std::size_t>(field);
+  return powers_.size() > 1 && i < powers_.size() ? powers_[i] + " %" : "";
+}
+
+}  // namespace lilytank

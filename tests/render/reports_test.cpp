@@ -1,0 +1,198 @@
+// Figures of reports: diagnoses, proofs, analyses, calibrations.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lilytank/render.hpp"
+#include "render/picture.hpp"
+
+namespace lilytank {
+namespace {
+
+using sample::Folder;
+
+Diagnosis found(bool tank) {
+  Diagnosis d;
+  d.name = "found", d.tank = tank, d.verdict = Verdict::missing;
+  FoundCurve curve{"pair", "outwards", "m", "N", {0.01, 0.02, 0.03}, {2, 1, 0}, {1, 1, 1}, 90};
+  DiagnosisFinding finding;
+  finding.effect = "pair_attraction", finding.z = 7, finding.curve = curve;
+  d.findings = {finding}, d.maps = {curve};
+  d.held_out = {{"contact", 30, 2}};
+  return d;
+}
+
+// The bytes of one of its files.
+std::string drawn(const Diagnosis& d, const std::string& name) {
+  const Folder folder;
+  draw_diagnosis(d, "text", folder.path());
+  return sample::bytes_of(folder.file(name));
+}
+
+TEST(DiagnosisFigures, OfBodiesDoNotSpeakOfHeldOutRecordings) {
+  const std::string tank = drawn(found(true), "report.html");
+  const std::string bodies = drawn(found(false), "report.html");
+  EXPECT_NE(tank.find("recordings that were not used"), std::string::npos);
+  EXPECT_EQ(bodies.find("not used"), std::string::npos);
+  EXPECT_EQ(bodies.find("chance alone would give"), std::string::npos);
+  EXPECT_NE(bodies.find("a quarter of a run ahead"), std::string::npos);
+  EXPECT_NE(bodies.find("fitted to all runs"), std::string::npos);
+  EXPECT_FALSE(drawn(found(true), "fit.png") == drawn(found(false), "fit.png"));
+}
+
+TEST(DiagnosisFigures, GroupsOfBodiesKeepTheirNames) {
+  Diagnosis d = found(false), other = d;
+  other.held_out[0].group = "bounces";  // what "contact" reads as in a tank
+  EXPECT_FALSE(drawn(d, "fit.png") == drawn(other, "fit.png"));
+  d.tank = other.tank = true;
+  EXPECT_TRUE(drawn(d, "fit.png") == drawn(other, "fit.png"));
+}
+
+TEST(DiagnosisFigures, TellTheFindingsOwnZ) {
+  for (const bool tank : {true, false}) {
+    const Diagnosis d = found(tank);
+    Diagnosis other = d;
+    other.findings[0].curve.z = 5;
+    EXPECT_TRUE(drawn(d, "laws.png") == drawn(other, "laws.png")) << tank;
+    other.findings[0].z = 6;
+    EXPECT_FALSE(drawn(d, "laws.png") == drawn(other, "laws.png")) << tank;
+    other = d;
+    other.maps[0].z = 5;
+    EXPECT_EQ(drawn(d, "maps.png") == drawn(other, "maps.png"), !tank) << "of bodies there is none";
+  }
+}
+
+TEST(DiagnosisFigures, OfOneGroupHaveRoomForTheirLegend) {
+  const Folder folder;
+  draw_diagnosis(found(false), "", folder.path());
+  EXPECT_GE(sample::png_size(folder.file("fit.png")).height, 400);
+}
+
+ProofWorld told(const std::string& kind, std::vector<std::string> effects, double z,
+                std::vector<std::string> names) {
+  ProofWorld w;
+  w.kind = kind, w.effects = std::move(effects), w.expected_z = z;
+  w.verdict = names.empty() ? Verdict::complete : Verdict::missing;
+  for (const std::string& name : names) w.findings.push_back({name, {}, "", 9});
+  return w;
+}
+
+std::string proof_page(const std::vector<ProofWorld>& worlds) {
+  Proof p;
+  p.worlds = worlds;
+  const Folder folder;
+  draw_proof(proof_figures({&p, 1}), "", folder.path());
+  return sample::bytes_of(folder.file("report.html"));
+}
+
+TEST(ProofFigures, AWrongNameIsOneWhateverIsRightBesideIt) {
+  Proof p;
+  p.worlds = {told("named", {"coriolis"}, 12, {"coriolis", "wall_layer"})};
+  ASSERT_TRUE(p.worlds[0].right());
+  ASSERT_TRUE(p.worlds[0].wrong_name());
+  EXPECT_EQ(proof_figures({&p, 1}).points[0].outcome, ProofPoint::Outcome::wrong_name);
+}
+
+TEST(ProofFigures, SayWhatStandsAtTheEdgeOnlyIfSomethingDoes) {
+  const ProofWorld strong = told("named", {"coriolis"}, 12, {"coriolis"});
+  EXPECT_EQ(proof_page({strong}).find("left edge"), std::string::npos);
+  EXPECT_NE(proof_page({strong, told("named", {"coriolis"}, 0, {})}).find("left edge"),
+            std::string::npos);
+}
+
+TEST(ProofFigures, SayWhoseZTwoEffectsHave) {
+  const ProofWorld one = told("named", {"coriolis"}, 12, {"coriolis"});
+  const ProofWorld two = told("two", {"coriolis", "wall_layer"}, 12, {"coriolis", "wall_layer"});
+  EXPECT_EQ(proof_page({one}).find("the weaker one's"), std::string::npos);
+  EXPECT_NE(proof_page({one, two}).find("the weaker one's"), std::string::npos);
+}
+
+int red_pixels(const std::string& file) {
+  const sample::Pixels pixels(file);
+  const sample::Size size = sample::png_size(file);
+  int count = 0;
+  for (int y = 0; pixels.read() && y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const sample::Pixel p = pixels.at(x, y);
+      count += p.r > 180 && p.g < 120 && p.b < 140;
+    }
+  }
+  return count;
+}
+
+TEST(ProofFigures, FailuresLieAboveWhatIsRight) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  const Folder folder;
+  ProofFigures f;
+  f.points.assign(1, {"coriolis", 12, ProofPoint::Outcome::wrong_name});
+  draw_proof(f, "", folder.path());
+  const int alone = red_pixels(folder.file("outcomes.png"));
+  EXPECT_GT(alone, 50);
+  f.points.insert(f.points.begin(), 40, {"coriolis", 12, ProofPoint::Outcome::right});
+  draw_proof(f, "", folder.path());
+  EXPECT_GE(red_pixels(folder.file("outcomes.png")), alone - 4);
+}
+
+// A measured and a modelled curve over the same lags, the model's band reaching up to `high`.
+Analysis compared(double high) {
+  Analysis a;
+  a.sources.resize(2);
+  a.sources[0].name = "measured", a.sources[1].name = "model";
+  AnalysisCurves set;
+  set.name = "msd_all", set.title = "MSD", set.x_name = "lag", set.x_unit = "s";
+  set.y_name = "msd", set.y_unit = "m^2", set.x = {0, 1, 2};
+  for (int s = 0; s < 2; ++s) {
+    set.sources.push_back(
+        {s, {{0, 1e-4, 2e-4}, {0, 1e-4, 2e-4}, {0, 1e-4, 2e-4}}, {3, 2, 1}, {1, 1, 1}});
+  }
+  set.sources[1].curve.high[1] = high;
+  a.curves = {set};
+  return a;
+}
+
+TEST(AnalysisFigures, PanelsShareAnAxisWithRoomForTheirBands) {
+  Analysis a = compared(9e-4);
+  a.sources[0].panel = "low", a.sources[1].panel = "high";
+  a.curves[0].sources[1].curve.value[2] = NAN;
+  const PlotPage page = analysis_plots(a).front().page;
+  ASSERT_EQ(page.plots.size(), 2u);
+  EXPECT_GE(page.plots[0].y_high, 9) << "cm^2";
+  EXPECT_EQ(page.plots[0].y_high, page.plots[1].y_high);
+  EXPECT_EQ(page.plots[0].x_high, 2);
+  EXPECT_EQ(page.plots[1].x_high, 2) << "though its curve ends before";
+}
+
+TEST(AnalysisFigures, ADifferenceHasItsOwnColourAndTheSameLags) {
+  Analysis a = compared(2e-4);
+  a.curves[0].difference = {{NAN, 1e-5, 2e-5}, {NAN, 0, 0}, {NAN, 3e-5, 4e-5}};
+  const PlotPage page = analysis_plots(a).front().page;
+  ASSERT_EQ(page.plots.size(), 3u) << "curves, difference, tracks";
+  const std::vector<Curve>& difference = page.plots[1].curves;
+  ASSERT_EQ(difference.size(), 3u) << "the third colour";
+  EXPECT_TRUE(difference[0].x.empty() && difference[1].x.empty());
+  EXPECT_EQ(difference[2].x.size(), 3u);
+  for (const Plot& plot : page.plots) {
+    EXPECT_EQ(plot.x_low, 0);
+    EXPECT_EQ(plot.x_high, 2);
+  }
+}
+
+TEST(CalibrationFigures, ReplicatesAreMarkers) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  CalibrationResult c;
+  c.parameters.resize(2);
+  c.correlation = {1, 0.5, 0.5, 1};
+  for (CalibratedParameter& p : c.parameters) {
+    p.parameter.path = "flow.K_v", p.parameter.unit = "1", p.estimate = 0.5;
+  }
+  for (int k = 0; k < 5; ++k) c.replicate_estimates.push_back({0.25 * k, 0.25 * (4 - k)});
+  const Folder folder;
+  draw_calibration(c, folder.path());
+  // Red, of the second curve: five squares and one in the legend, of 40 pixels and more each. Those
+  // outermost stand within the frame.
+  EXPECT_GT(red_pixels(folder.file("estimates.png")), 240);
+}
+
+}  // namespace
+}  // namespace lilytank
