@@ -2,8 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/motion_model.hpp"
 #include "analysis/source_summary.hpp"
 #include "lilytank/analysis.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -38,6 +40,7 @@ class Analyser {
     double rate = HUGE_VAL, longest = 0;
     for (const AnalysisSource& source : sources) {
       check(source, rate, longest);
+      if (!options.msd_only) check_window(source, options.smoothing);
       out_.tank_radius = std::max(out_.tank_radius, source.tank_radius);
       sources_.push_back(prepared(source));
     }
@@ -69,6 +72,22 @@ class Analyser {
     }
     if (!(own > 0)) throw InputError("'" + source.name + "' has no track of two frames or more");
     longest = std::max(longest, own);
+  }
+
+  // A polynomial over more frames than any track has is a fit to whole tracks, not a smoother.
+  static void check_window(const AnalysisSource& source, const SmoothingOptions& smoothing) {
+    if (smoothing.method != SmoothingMethod::polynomial) return;
+    for (const Recording& r : source.recordings) {
+      std::size_t most = 0;
+      for (const Track& t : r.tracks) most = std::max(most, t.x.size());
+      const double longest = static_cast<double>(most) / r.rate;
+      const double window = used_window(smoothing, 1 / r.rate);
+      if (most < 2 || window <= longest * (1 + 1e-9)) continue;
+      throw InputError("'" + source.name + "': a smoothing window of " +
+                       shortest(smoothing.window) + " s takes " +
+                       std::to_string(std::llround(window * r.rate)) +
+                       " frames, and its longest track has " + std::to_string(most));
+    }
   }
 
   SmoothSource prepared(const AnalysisSource& source) const {

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "analysis/csv_cells.hpp"
+#include "analysis/motion_model.hpp"
 #include "lilytank/analysis.hpp"
 
 namespace lilytank {
@@ -179,6 +180,9 @@ std::string analysis_summary_csv(const Analysis& analysis) {
   SummaryRows rows(out);
   for (const SourceSummary& s : analysis.sources) {
     rows.source(source_cells(analysis, s));
+    if (analysis.options.smoothing.method == SmoothingMethod::polynomial && !s.motion.empty()) {
+      rows.add("smoothing window used", "s", used_window(analysis.options.smoothing, 1 / s.rate));
+    }
     add_source(rows, s);
   }
   if (!analysis.compared) return out;

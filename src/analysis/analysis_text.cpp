@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "analysis/motion_model.hpp"
 #include "analysis/text_table.hpp"
 #include "lilytank/analysis.hpp"
 
@@ -91,9 +92,43 @@ double mean_of(const std::vector<MotionModel>& models, double MotionModel::*memb
   return sum / static_cast<double>(models.size());
 }
 
+// The polynomials' window that a source's rate really leads to.
+double window_of(const Analysis& analysis, const SourceSummary& s) {
+  return used_window(analysis.options.smoothing, 1 / s.rate);
+}
+
+// Where polynomials take in more of the motion than it remembers, velocities are not the bodies'.
+std::string wide_windows_text(const Analysis& analysis) {
+  std::string out;
+  for (const SourceSummary& s : analysis.sources) {
+    const double window = window_of(analysis, s);
+    if (!(s.velocity_memory > 0) || window <= 4 * s.velocity_memory) continue;
+    out += "  Of " + s.name + " a window of " + three(window) +
+           " s is longer than four memories of the velocity (" + three(s.velocity_memory) +
+           " s): it rounds off what bodies do.\n";
+  }
+  return out;
+}
+
+void add_cutoffs(Table& table) {
+  const auto cutoff = [&](const std::string& head, double TransferFunction::*member) {
+    table.add(head, [&](const SourceSummary& s) {
+      return s.motion.empty() ? "-" : three(s.transfer.*member);
+    });
+  };
+  cutoff("position kept to (Hz)", &TransferFunction::position_cutoff);
+  cutoff("velocity kept to (Hz)", &TransferFunction::velocity_cutoff);
+  cutoff("acceleration kept to (Hz)", &TransferFunction::acceleration_cutoff);
+}
+
 std::string smoothing_text(const Analysis& analysis) {
   const bool kalman = analysis.options.smoothing.method == SmoothingMethod::kalman;
   Table table(analysis);
+  if (!kalman) {
+    table.add("window used (s)", [&](const SourceSummary& s) {
+      return s.motion.empty() ? "-" : three(window_of(analysis, s));
+    });
+  }
   const auto model = [&](const std::string& head, auto models, double MotionModel::*member,
                          double unit) {
     table.add(head,
@@ -111,21 +146,15 @@ std::string smoothing_text(const Analysis& analysis) {
     const double noise = mean_of(s.turning, &MotionModel::noise);
     return s.exact && !std::isnan(noise) ? "none" : three(noise, 1e-3);
   });
-  const auto cutoff = [&](const std::string& head, double TransferFunction::*member) {
-    table.add(head, [&](const SourceSummary& s) {
-      return s.motion.empty() ? "-" : three(s.transfer.*member);
-    });
-  };
-  cutoff("position kept to (Hz)", &TransferFunction::position_cutoff);
-  cutoff("velocity kept to (Hz)", &TransferFunction::velocity_cutoff);
-  cutoff("acceleration kept to (Hz)", &TransferFunction::acceleration_cutoff);
+  add_cutoffs(table);
   const std::string text = table.text();
   if (text.empty()) return "";
   const std::string how = kalman ? "Kalman smoother, model and noise fitted to the tracks"
                                  : "polynomials of degree " +
                                        std::to_string(analysis.options.smoothing.degree) +
                                        " over " + three(analysis.options.smoothing.window) + " s";
-  return "\nSmoothing (" + how + "; kept: amplitude above 1/sqrt(2))\n" + text;
+  return "\nSmoothing (" + how + "; kept: amplitude above 1/sqrt(2))\n" + text +
+         (kalman ? "" : wide_windows_text(analysis));
 }
 
 std::string displacements_text(const Analysis& analysis) {

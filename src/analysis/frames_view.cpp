@@ -1,8 +1,18 @@
 #include "analysis/frames_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lilytank {
+namespace {
+
+// Whether a body was seen there, and the smoother says where it was: at a track's ends and beside
+// holes a polynomial may have too few frames.
+bool placed(const SmoothTrack& t, int i) {
+  return t.seen[i] && !std::isnan(t.x[i]) && (t.theta.empty() || !std::isnan(t.theta[i]));
+}
+
+}  // namespace
 
 FramesView::FramesView(const SmoothRecording& recording) {
   const BodyNumbers numbers(recording);
@@ -13,7 +23,7 @@ FramesView::FramesView(const SmoothRecording& recording) {
   const auto for_each = [&](auto&& act) {
     for (const SmoothTrack& t : recording.tracks) {
       for (int i = 0; i < t.frames(); ++i) {
-        if (t.seen[i]) act(t, i, static_cast<std::size_t>(t.first + i));
+        if (placed(t, i)) act(t, i, static_cast<std::size_t>(t.first + i));
       }
     }
   };

@@ -1,4 +1,4 @@
-// A smoothed recording frame by frame: who was seen where.
+// A smoothed recording frame by frame: who was seen where, frames without an estimate left out.
 #pragma once
 #include <map>
 #include <vector>

@@ -43,6 +43,10 @@ AxesEstimate smooth_polynomial(const Axes& axes, const SmoothingOptions& options
                                double interval);
 /// Frames on either side of a polynomial's middle.
 int half_window(const SmoothingOptions& options, double interval);
+/// The window that is really used, s: a whole, odd number of frames, enough for the polynomial.
+inline double used_window(const SmoothingOptions& options, double interval) {
+  return (2 * half_window(options, interval) + 1) * interval;
+}
 
 /// Sums over innovations: what the likelihood needs.
 struct Innovations {

@@ -24,6 +24,10 @@ bool is_metric(const std::string& name) {
   return name == "copies" || name == "full_yield" || name == "assembly_rate" || copy_of(name) > 0;
 }
 
+int copies_needed(const std::string& metric) {
+  return metric == "full_yield" ? 1 : copy_of(metric);
+}
+
 std::string metric_unit(const std::string& name) {
   if (name == "assembly_rate") return "1/s";
   return copy_of(name) > 0 ? "s" : "1";

@@ -29,6 +29,9 @@ Estimate full_yield_of(const std::vector<const RunRow*>& runs);
 /// Copies/s over the time in which there were modules left to build with; Garwood's interval.
 Estimate assembly_rate_of(const std::vector<const RunRow*>& runs);
 
+/// How many copies a run must be able to make to say anything about a metric: k for time_k.
+int copies_needed(const std::string& metric);
+
 /// Fills in `all_pairs`, `survival_tests` and `pair_tests`.
 void compare_settings(const std::vector<std::vector<const RunRow*>>& runs, StudySummary& summary);
 

@@ -27,12 +27,30 @@ void check_header(std::string_view line, const std::string& file) {
                                        "', a flow grid begins with '" + want + "'");
 }
 
+// Velocities beyond this are no tank's water, but may be cm/s or mm/s.
+constexpr double kFastest = 5;  // m/s
+
+// Columns of velocities, of cells that count.
+void check_speeds(const std::array<double, 9>& value, const std::array<int, 9>& column,
+                  const std::string& file, int number) {
+  if (value[8] == 0) return;
+  for (std::size_t i = 4; i < 8; ++i) {
+    if (std::fabs(value[i]) <= kFastest) continue;
+    throw InputError({file, number, column[i]}, std::string(kColumns[i]) + " = " +
+                                                    shortest(value[i]) +
+                                                    " m/s is faster than 5 m/s: are these "
+                                                    "velocities in cm/s or mm/s?");
+  }
+}
+
 // Splits a row and reads its nine numbers; every one is checked by itself.
 Row read_row(std::string_view line, const std::string& file, int number) {
   std::array<double, 9> value{};
+  std::array<int, 9> column{};
   std::size_t at = 0;
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    const SourcePlace place{file, number, static_cast<int>(at) + 1};
+    column[i] = static_cast<int>(at) + 1;
+    const SourcePlace place{file, number, column[i]};
     if (at > line.size())
       throw InputError(place, "the row has " + std::to_string(i) + " of 9 values");
     const std::size_t comma = std::min(line.find(',', at), line.size());
@@ -53,6 +71,7 @@ Row read_row(std::string_view line, const std::string& file, int number) {
   }
   if (at <= line.size())
     throw InputError({file, number, static_cast<int>(at) + 1}, "the row has more than 9 values");
+  check_speeds(value, column, file, number);
   return {static_cast<int>(value[0]),
           static_cast<int>(value[1]),
           value[2],
@@ -61,9 +80,22 @@ Row read_row(std::string_view line, const std::string& file, int number) {
           value[8] != 0};
 }
 
-}  // namespace
+// A grid of a camera's view is somewhat larger or smaller than the tank; ten times is another unit.
+void check_extent(double extent, double tank_radius, const std::string& file) {
+  constexpr double kMost = 5;
+  const double ratio = extent / tank_radius;
+  if (ratio <= kMost && ratio >= 1 / kMost) return;
+  std::string hint;
+  for (const auto& [unit, metres] : {std::pair{"cm", 1e-2}, {"mm", 1e-3}}) {
+    const double scaled = ratio * metres;
+    if (scaled < 2 && scaled > 0.5) hint = std::string(": are x_m and y_m in ") + unit + "?";
+  }
+  throw InputError({file}, "the flow grid reaches " + significant(extent, 3) +
+                               " m to every side of the centre of a tank of radius " +
+                               significant(tank_radius, 3) + " m" + hint);
+}
 
-FlowField read_flow_csv(const std::string& file, Interpolation interpolation) {
+std::vector<Row> read_rows(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError({file}, "the flow grid cannot be read");
   std::vector<Row> rows;
@@ -75,6 +107,13 @@ FlowField read_flow_csv(const std::string& file, Interpolation interpolation) {
     else if (!line.empty())
       rows.push_back(read_row(line, file, number));
   }
+  return rows;
+}
+
+}  // namespace
+
+FlowField read_flow_csv(const std::string& file, Interpolation interpolation, double tank_radius) {
+  const std::vector<Row> rows = read_rows(file);
   int cells = 0;
   double extent = 0;
   for (const Row& row : rows) cells = std::max({cells, row.ix + 1, row.iy + 1});
@@ -102,6 +141,7 @@ FlowField read_flow_csv(const std::string& file, Interpolation interpolation) {
                                   "are x_m and y_m in metres?");
     seen[i] = true, measured[i] = row.measured, samples[i] = row.sample;
   }
+  if (tank_radius > 0) check_extent(extent, tank_radius, file);
   return FlowField(cells, extent, std::move(samples), std::move(measured), interpolation);
 }
 

@@ -158,6 +158,23 @@ void check_name(const std::string& name, const std::string& what, const SourcePl
                               "columns");
 }
 
+namespace {
+
+/// Whether a study's tables have a column of this name besides the axes' own.
+bool is_column(const std::string& name) {
+  static const std::vector<std::string> columns{
+      "setting",    "replicate", "id",       "seed",    "status", "duration_s",
+      "possible",   "copies",    "illegal",  "note",    "label",  "metric",
+      "full_yield", "k",         "unit",     "value",   "low",    "high",
+      "runs",       "time_s",    "survival", "at_risk", "events", "censored"};
+  const bool time = name.size() > 7 && name.starts_with("time_") && name.ends_with("_s");
+  const std::string k = time ? name.substr(5, name.size() - 7) : "";
+  return std::find(columns.begin(), columns.end(), name) != columns.end() ||
+         (time && k.find_first_not_of("0123456789") == std::string::npos);
+}
+
+}  // namespace
+
 StudyAxis read_axis(const toml::table& table, const std::string& file,
                     const std::string& directory) {
   const TomlFields fields(
@@ -185,6 +202,11 @@ StudyAxis read_axis(const toml::table& table, const std::string& file,
   axis.name = fields.has("name") ? fields.text("name") : axis.path.path();
   check_name(axis.name, fields.has("name") ? "axis.name" : "axis.path",
              fields.place(fields.has("name") ? "name" : "path"));
+  if (is_column(axis.name)) {
+    fields.refuse(fields.has("name") ? "name" : "path",
+                  "axis.name = \"" + axis.name +
+                      "\" is that of another column of the study's tables: give another one");
+  }
   return axis;
 }
 

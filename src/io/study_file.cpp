@@ -94,7 +94,8 @@ class Reader {
     StoppingRule rule;
     fields.need("metric", "whose interval is to be narrow, as copies");
     rule.metric = fields.text("metric");
-    check_metric(rule.metric, fields.place("metric"));
+    out_.stop_place = fields.place("metric");
+    check_metric(rule.metric, out_.stop_place);
     fields.need("half_width", "how narrow: half of the 95 % interval");
     const std::string unit = metric_unit(rule.metric);
     rule.half_width = fields.number("half_width", unit);

@@ -38,6 +38,7 @@ struct StudyFile {
   bool until_settled = false;
   int samples = 0;  ///< of the latin hypercube; 0: no axis is latin
   std::optional<StoppingRule> stop;
+  SourcePlace stop_place;  ///< of its metric
   std::vector<StudyAxis> axes;
 };
 

@@ -40,7 +40,8 @@ class ClockFinder {
     clock_.first = instants_.front().frame;
     clock_.frames = static_cast<int>(instants_.back().frame - clock_.first) + 1;
     fit();
-    if (has_times_) check();
+    if (has_times_) check_unit();
+    if (has_times_ && !report_->refused()) check();
     return clock_;
   }
 
@@ -160,6 +161,23 @@ class ClockFinder {
   }
   double offset(const Instant& instant, double rate) const {
     return static_cast<double>(instant.frame - clock_.first) / rate;
+  }
+
+  // Nobody tracks what floats in a tank by a frame in more than two seconds. Where the user said
+  // what the times count, or how many frames there are, that is believed.
+  void check_unit() {
+    constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
+    const bool told = options_->rate > 0 || options_->time_unit != 1;
+    const bool dates = !std::isnan(s_->first_date);
+    if (told || dates || !options_->in_tank || clock_.rate >= kSlowest) return;
+    std::string hint;
+    for (const auto& [scale, name] : {std::pair{1e-3, "ms"}, {1e-6, "us"}}) {
+      if (clock_.rate >= kSlowest * scale && clock_.rate < kFastest * scale) {
+        hint = "; if times are in " + std::string(name) + ", say time_unit = \"1 " + name + "\"";
+      }
+    }
+    report_->add(Check::units, file_, -1, -1,
+                 "frames are " + time_text(1 / clock_.rate) + " apart" + hint);
   }
 
   double error(const Sighting& row) const {

@@ -58,6 +58,38 @@ double bounded(const Table& table, int column) {
   return value;
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.size() > 200 ? list.substr(0, 200) + ", ..." : list;
+}
+
+std::string in_small_letters(std::string name) {
+  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return name;
+}
+
+/// The column that differs by large and small letters alone, or the nearest word.
+std::string nearest(const std::string& wanted, const Table& table) {
+  for (const std::string& name : table.names()) {
+    if (in_small_letters(name) != in_small_letters(wanted)) continue;
+    return " - did you mean '" + name + "'?";
+  }
+  return did_you_mean(wanted, table.names());
+}
+
+/// `called`: what the column may be called; the user's one name, or all of the format's.
+[[noreturn]] void refuse_missing(const Table& table, const std::vector<std::string>& called) {
+  std::string near;
+  for (const std::string& name : called) {
+    if (near.empty()) near = nearest(name, table);
+  }
+  std::string wanted = "'" + called.front() + "'";
+  for (std::size_t i = 1; i < called.size(); ++i) wanted += " or '" + called[i] + "'";
+  throw InputError({table.file(), 1, 1}, "there is no column " + wanted + near + "; there are " +
+                                             names_text(table.names()));
+}
+
 /// Reads the rows of one table.
 class ColumnReader {
  public:
@@ -67,7 +99,7 @@ class ColumnReader {
     const ColumnNames& own = options.columns;
     at_.frame = find(own.frame, names.frame), at_.time = find(own.time, names.time);
     at_.id = find(own.id, names.id), at_.theta = find(own.theta, names.theta);
-    at_.x = needed(own.x, names.x, "x"), at_.y = needed(own.y, names.y, "y");
+    at_.x = needed(own.x, names.x), at_.y = needed(own.y, names.y);
     at_.missing = find("", names.missing);
     if (options.body != BodyKind::lily) at_.theta = -1;  // balls do not turn
     if (at_.frame < 0 && at_.time < 0) {
@@ -90,7 +122,7 @@ class ColumnReader {
     if (own == "-") return -1;
     if (!own.empty()) {
       const int found = table_->find(own);
-      if (found < 0) no_column(own);
+      if (found < 0) refuse_missing(*table_, {own});
       return found;
     }
     for (const std::string& name : names) {
@@ -99,20 +131,10 @@ class ColumnReader {
     return -1;
   }
 
-  int needed(const std::string& own, const std::vector<std::string>& names,
-             const std::string& role) const {
+  int needed(const std::string& own, const std::vector<std::string>& names) const {
     const int found = find(own, names);
-    if (found < 0) no_column(own.empty() ? role : own);
+    if (found < 0) refuse_missing(*table_, own.empty() ? names : std::vector{own});
     return found;
-  }
-
-  [[noreturn]] void no_column(const std::string& name) const {
-    const std::string near = did_you_mean(name, table_->names());
-    std::string list;
-    for (const std::string& known : table_->names()) list += (list.empty() ? "" : ", ") + known;
-    if (list.size() > 200) list = list.substr(0, 200) + ", ...";
-    throw InputError({table_->file(), 1, 1},
-                     "there is no column '" + name + "'" + near + "; there are " + list);
   }
 
   void list_unused() {
@@ -218,13 +240,14 @@ FormatUnits units_of(RecordingFormat format) {
   }
 }
 
-/// time,x1,y1,x2,y2,...: one row a frame; the numbers are the bodies.
-void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
-  struct Body {
-    std::int64_t id;
-    int x, y;
-  };
-  std::vector<Body> bodies;
+/// A body's columns in a wide table.
+struct WideBody {
+  std::int64_t id;
+  int x, y;
+};
+
+std::vector<WideBody> wide_bodies(const Table& table) {
+  std::vector<WideBody> bodies;
   for (const std::string& name : table.names()) {
     const auto id = name.starts_with('x') ? parse_whole(name.substr(1)) : std::nullopt;
     if (!id) continue;
@@ -234,15 +257,42 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
                        "there is a column '" + name + "' but no 'y" + name.substr(1) + "'");
     }
   }
-  const std::string& own = options.columns.time;
-  int time = own.empty() ? table.find("time") : table.find(own);
-  if (own.empty() && time < 0) time = table.find("seconds");
+  return bodies;
+}
+
+/// The column of times of a wide table, -1 if there is none. Rows are frames and columns bodies, so
+/// no other column can be named.
+int wide_time(const Table& table, const ColumnNames& own) {
+  for (const auto& [role, name] : {std::pair{"frame", &own.frame},
+                                   {"id", &own.id},
+                                   {"x", &own.x},
+                                   {"y", &own.y},
+                                   {"theta", &own.theta}}) {
+    if (name->empty() || *name == "-") continue;
+    throw InputError({table.file(), 1, 1},
+                     "columns." + std::string(role) + " = \"" + *name +
+                         "\": a table of x1, y1, x2, y2, ... has a column of times alone "
+                         "(columns.time)");
+  }
+  if (own.time == "-") return -1;
+  const int named = table.find(own.time.empty() ? "time" : own.time);
+  if (named < 0 && !own.time.empty()) refuse_missing(table, {own.time});
+  return named >= 0 ? named : table.find("seconds");
+}
+
+/// time,x1,y1,x2,y2,...: one row a frame; the numbers are the bodies.
+void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
+  const std::vector<WideBody> bodies = wide_bodies(table);
+  const int time = wide_time(table, options.columns);
   const auto file = static_cast<std::int32_t>(out.files.size() - 1);
   for (std::int64_t frame = 0; table.next(); ++frame) {
     Sighting s;
     s.frame = frame, s.line = table.line(), s.file = file;
     if (time >= 0) s.time = bounded(table, time) * options.time_unit;
-    for (const Body& body : bodies) {
+    if (time >= 0 && std::isnan(s.time)) {
+      table.refuse(time, table.quoted(time) + " is not a time");
+    }
+    for (const WideBody& body : bodies) {
       s.id = body.id, s.x = bounded(table, body.x), s.y = bounded(table, body.y);
       if (!std::isnan(s.x) && !std::isnan(s.y)) out.rows.push_back(s);
     }

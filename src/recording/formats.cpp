@@ -25,11 +25,28 @@ RecordingFormat format_of_header(const std::vector<std::string_view>& names) {
   if (all_of(names, {"frame", "particle", "x", "y"})) return trackpy;
   if (all_of(names, {"id", "x", "y"}) && (has(names, "frame") || has(names, "time"))) return tidy;
   if (has(names, "x1") && has(names, "y1")) return idtracker_wide;
-  const auto centroid = [](std::string_view name) {
-    return name.starts_with("X#") || name.starts_with("X (") || name == "X";
+  const auto centroid = [&](char axis) {
+    return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+      const std::string_view rest = name.substr(std::min<std::size_t>(1, name.size()));
+      return name.starts_with(axis) &&
+             (rest.empty() || rest.starts_with('#') || rest.starts_with(" ("));
+    });
   };
-  if (has(names, "frame") && std::any_of(names.begin(), names.end(), centroid)) return trex;
+  if (has(names, "frame") && centroid('X') && centroid('Y')) return trex;
   return automatic;
+}
+
+/// Names that would be those of the tidy format in small letters: "; in small letters 'X' ..."
+std::string in_small_letters(const std::vector<std::string_view>& names) {
+  std::vector<std::string> small;
+  std::string changed;
+  for (const std::string_view name : names) {
+    small.emplace_back(name);
+    for (char& c : small.back()) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (small.back() != name) changed += (changed.empty() ? "'" : ", '") + std::string(name) + "'";
+  }
+  const bool tidy = format_of_header({small.begin(), small.end()}) == RecordingFormat::tidy;
+  return tidy ? "; with " + changed + " in small letters it would be tidy" : "";
 }
 
 }  // namespace
@@ -55,7 +72,8 @@ RecordingFormat detect_format(LineSource& lines) {
   if (format == RecordingFormat::automatic) {
     throw InputError(lines.place(1),
                      "these columns are of no format that is known: name the format, or say what "
-                     "the columns mean (format = \"table\")");
+                     "the columns mean (format = \"table\")" +
+                         in_small_letters(names));
   }
   lines.again();
   return format;

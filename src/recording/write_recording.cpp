@@ -305,6 +305,23 @@ class Writer {
   int digits_ = 7;
 };
 
+/// A directory is read whole: what is there beside the new files would be taken for tracks of
+/// theirs.
+void refuse_others(const std::string& dir, const std::map<std::string, std::string>& files) {
+  std::error_code problem;
+  std::string first;
+  for (const auto& entry : fs::directory_iterator(dir, problem)) {
+    const std::string name = entry.path().filename().string();
+    const bool read = entry.is_regular_file(problem) && !name.starts_with('.');
+    if (!read || files.contains(name)) continue;
+    if (first.empty() || name < first) first = name;
+  }
+  if (first.empty()) return;
+  throw InputError("'" + dir + "' holds '" + first +
+                   "', which would be read as one of the new tracks: choose a directory without "
+                   "other files, or remove them");
+}
+
 }  // namespace
 
 void write_recording(const Recording& recording, const std::string& file, RecordingFormat format,
@@ -312,6 +329,7 @@ void write_recording(const Recording& recording, const std::string& file, Record
   const auto files = Writer(recording, format, calibration).files();
   const bool many = one_file_a_track(format);
   if (many) {
+    refuse_others(file, files);
     std::error_code problem;
     fs::create_directories(file, problem);
     if (problem) throw InputError(system_problem("cannot make", file, problem.value()));

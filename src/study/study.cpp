@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "analysis/study_rows.hpp"
 #include "io/scenario_build.hpp"
 #include "io/study_file.hpp"
 #include "study/axes.hpp"
@@ -70,6 +71,16 @@ std::string short_name(const StudyAxis& axis) {
   const auto& keys = axis.path.keys;
   const bool two = keys.size() > 2;  // of a rule or a force: its name as well
   return two ? keys[keys.size() - 2] + "." + keys.back() : keys.back();
+}
+
+/// Copies that a world can make, under whichever of its rulesets makes most.
+int most_copies(const Model& model) {
+  int most = 0;
+  for (const Ruleset& rules : model.rulesets) {
+    const auto size = static_cast<int>(rules.target.size());
+    if (size > 0) most = std::max(most, model.module.count / size);
+  }
+  return most;
 }
 
 std::string without_quotes(const std::string& toml) {
@@ -205,12 +216,25 @@ struct Study::Source {
       out.values.push_back(parse_number(out.texts.back()).value_or(choice.position));
     }
     if (out.label.empty()) out.label = plan.name;
+    check_stop(scenario.model, out.label);
     try {
       initial_state(scenario.model, plan.seed_of(0));  // do the bodies fit?
     } catch (const InputError& e) {
       throw InputError(out.label + ": " + e.what());
     }
     return out;
+  }
+
+  // A time that no world of a setting can tell would never be known well enough to stop.
+  void check_stop(const Model& model, const std::string& label) const {
+    if (!file.stop) return;
+    const int most = most_copies(model);
+    if (copies_needed(file.stop->metric) <= most) return;
+    throw InputError(file.stop_place, "stop.metric = \"" + file.stop->metric + "\", but in '" +
+                                          label + "' there are " +
+                                          std::to_string(model.module.count) +
+                                          " modules: enough for " + std::to_string(most) +
+                                          (most == 1 ? " copy" : " copies"));
   }
 
   std::string path_;

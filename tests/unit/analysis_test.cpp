@@ -109,6 +109,55 @@ TEST(Analysis, WritesATidyTableForEveryCurve) {
   EXPECT_EQ(map.substr(0, 17), "source,ix,iy,x_m,");
 }
 
+// A polynomial over 0.2 s says nothing of a track's first and last frames at 30 Hz: bodies are
+// nowhere there, and neither near to others nor in contact anew once they are somewhere.
+TEST(Analysis, FramesWithoutAnEstimateAreNoNeighbours) {
+  AnalysisOptions options;
+  options.smoothing.method = SmoothingMethod::polynomial, options.smoothing.window = 0.2;
+  const Recording pair = test::recording_of(2, 60, 30, [](int b, int f) {
+    return std::array{0.03 * b + 1e-4 * test::normal(3, f, b, 0), 0.001 * f};
+  });
+  const Analysis a = analyse({source("a", pair)}, options);
+  EXPECT_NEAR(a.sources[0].nearest.value, 0.03, 1e-3);
+  EXPECT_EQ(a.sources[0].contacts.contacts, 0);
+  EXPECT_EQ(a.sources[0].contact_share.value, 1);
+  const AnalysisCurves* nearest = a.find("nearest");
+  ASSERT_NE(nearest, nullptr);
+  double all = 0;
+  for (const double v : nearest->sources[0].curve.value) all += v * 0.2 / 100;
+  EXPECT_NEAR(all, 1, 1e-9);
+}
+
+TEST(Analysis, TellsTheWindowThatIsUsed) {
+  AnalysisOptions options;
+  options.smoothing.method = SmoothingMethod::polynomial, options.smoothing.window = 0.2;
+  const Recording r = orbits(12, 4, 200, 5);
+  const Analysis a = analyse({source("a", r)}, options);
+  const std::string text = analysis_text(a);
+  EXPECT_NE(text.find("window used (s)"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.00\n"), std::string::npos) << text;  // five frames
+  EXPECT_NE(analysis_summary_csv(a).find("a,smoothing window used,s,1,"), std::string::npos);
+  EXPECT_EQ(text.find("rounds off what bodies do"), std::string::npos) << text;
+  options.smoothing.window = 4;
+  const std::string wide = analysis_text(analyse({source("a", r)}, options));
+  EXPECT_NE(wide.find("Of a a window of 4.20 s is longer than"), std::string::npos) << wide;
+  EXPECT_EQ(analysis_text(analyse({source("a", r)})).find("window used"), std::string::npos);
+}
+
+TEST(Analysis, RefusesWindowsLongerThanTracks) {
+  AnalysisOptions options;
+  options.smoothing.method = SmoothingMethod::polynomial, options.smoothing.window = 10;
+  try {
+    analyse({source("a", orbits(12, 4, 300, 30))}, options);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "'a': a smoothing window of 10 s takes 301 frames, and its longest track has 300");
+  }
+  options.msd_only = true;  // which smooths nothing
+  EXPECT_NO_THROW(analyse({source("a", orbits(12, 4, 300, 30))}, options));
+}
+
 TEST(Analysis, OfShortAndPoorRecordingsHoldsTogether) {
   for (const int frames : {2, 3, 9, 40}) {
     const Analysis a = analyse({source("a", orbits(9, 1, frames, 30))});

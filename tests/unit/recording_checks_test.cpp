@@ -244,6 +244,35 @@ TEST_F(Checks, wrongUnitsOfLength) {
   }
 }
 
+// A body every half minute would be anywhere in the tank: the times count something else.
+TEST_F(Checks, wrongUnitsOfTime) {
+  for (const auto& [scale, hint] :
+       {std::pair{1e-3, "say time_unit = \"1 ms\""}, {1e-6, "say time_unit = \"1 us\""}}) {
+    options_ = {};
+    truth_ = circling(5, 300);
+    truth_.rate *= scale;
+    const CheckedRecording c = check();
+    expect_one(c, Check::units, -1, -1, Treatment::refuse);
+    EXPECT_NE(c.findings[0].what.find(hint), std::string::npos) << c.findings[0].what;
+    options_.time_unit = scale;
+    const CheckedRecording told = check();
+    EXPECT_EQ(of_kind(told, Check::units).size(), 0u) << all_texts(told);
+    EXPECT_NEAR(told.recording.rate, 30, 1e-3);
+  }
+  options_ = {};
+  truth_.rate = 0.1;
+  const CheckedRecording slow = check();
+  EXPECT_EQ(of_kind(slow, Check::units).at(0).what,
+            "frames are 10 s apart; if times are in ms, "
+            "say time_unit = \"1 ms\"");
+  options_.rate = 0.1;  // the user knows
+  EXPECT_EQ(of_kind(check(), Check::units).size(), 0u);
+  options_.rate = 0, options_.rules[Check::units] = Treatment::keep;
+  EXPECT_NEAR(check().recording.rate, 0.1, 1e-6);
+  options_.rules = {}, options_.in_tank = false;
+  EXPECT_EQ(of_kind(check(), Check::units).size(), 0u);
+}
+
 TEST_F(Checks, wrongOrigin) {
   for (Track& t : truth_.tracks) {
     for (std::size_t i = 0; i < t.x.size(); ++i) t.x[i] += 0.31, t.y[i] += 0.29;

@@ -282,5 +282,32 @@ TEST(RecordingFormats, ballsHaveNoHeading) {
                    .recording.has_heading());
 }
 
+// Tracks of another recording would be read along with those that are written.
+TEST(WriteRecording, doesNotMixTracksOfTwoRecordings) {
+  for (const auto& [format, left] : {std::pair{RecordingFormat::trex, "circling_id3.csv"},
+                                     {RecordingFormat::swistrack_tracks, "track00000003.csv"}}) {
+    const TemporaryDirectory here;
+    write_recording(circling(5, 20), here.path("d"), format);
+    write_recording(circling(5, 30), here.path("d"), format);  // all are replaced
+    here.write("d/.notes", "");
+    here.write("d/aside/old.csv", "");
+    const std::string before = here.read("d/" + std::string(left));
+    try {
+      write_recording(circling(3, 20), here.path("d"), format);
+      ADD_FAILURE() << left;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()), "'" + here.path("d") + "' holds '" + left +
+                                           "', which would be read as one of the new tracks: "
+                                           "choose a directory without other files, or remove "
+                                           "them");
+    }
+    EXPECT_EQ(here.read("d/" + std::string(left)), before);
+    write_recording(circling(6, 20), here.path("d"), format);
+    RecordingOptions options;
+    options.rate = 30;
+    EXPECT_EQ(read_recording(here.path("d"), options).tracks.size(), 6u);
+  }
+}
+
 }  // namespace
 }  // namespace lilytank

@@ -94,6 +94,48 @@ TEST(MalformedFiles, columnsThatAreNotThereAreNamedWithTheNearest) {
                                "'X#wcentroids'?"));
 }
 
+// Names are told as they are looked for, and none is taken for itself.
+TEST(MalformedFiles, namesInOtherLettersAreNotTheFormats) {
+  const std::string row = "\n0,0,0,1,1,1\n";
+  EXPECT_EQ(
+      complaint("frame,time,id,X,y,theta" + row),
+      "tracks.csv:1:1: these columns are of no format that is known: name the format, or say "
+      "what the columns mean (format = \"table\"); with 'X' in small letters it would be tidy");
+  RecordingOptions options;
+  options.format = RecordingFormat::trex;
+  const std::string trex = complaint("frame,time,id,X,y,theta" + row, options, "track0.csv");
+  EXPECT_EQ(trex,
+            "track0.csv:1:1: there is no column 'Y#wcentroid (cm)' or 'Y#wcentroid' or 'Y (cm)' or "
+            "'Y' or 'Y#pcentroid (cm)' or 'Y#centroid (cm)' - did you mean 'y'?; there are frame, "
+            "time, id, X, y, theta");
+  options.format = RecordingFormat::tidy;
+  EXPECT_EQ(
+      complaint("frame,time,id,X,y,theta" + row, options),
+      "tracks.csv:1:1: there is no column 'x' - did you mean 'X'?; there are frame, time, id, "
+      "X, y, theta");
+}
+
+// A wide table has no columns of ids or frames, but its times may be called anything.
+TEST(MalformedFiles, columnsOfWideTables) {
+  const std::string table = "time,x1,y1\n0,0,0\n0.04,0.01,0\n0.08,0.02,0\n";
+  RecordingOptions options;
+  options.calibration.pixel = 1;
+  EXPECT_EQ(complaint(table, options), "");
+  options.columns.time = "tme", options.rate = 25;
+  EXPECT_EQ(complaint(table, options),
+            "tracks.csv:1:1: there is no column 'tme' - did you mean 'time'?; there are time, x1, "
+            "y1");
+  options.columns.time = "-";
+  EXPECT_EQ(complaint(table, options), "");
+  options.columns.time = "", options.columns.id = "x1";
+  EXPECT_EQ(complaint(table, options),
+            "tracks.csv:1:1: columns.id = \"x1\": a table of x1, y1, x2, y2, ... has a column of "
+            "times alone (columns.time)");
+  options.columns.id = "-";
+  EXPECT_EQ(complaint(table, options), "");
+  EXPECT_EQ(complaint(table + ",0.03,0\n", options), "tracks.csv:5:1: time '' is not a time");
+}
+
 TEST(MalformedFiles, trackFilesNeedANumber) {
   RecordingOptions options;
   options.rate = 30;

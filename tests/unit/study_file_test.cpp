@@ -263,6 +263,43 @@ TEST_F(StudyFileTest, MistakesInTheStoppingRule) {
             "instead");
 }
 
+// A time that is never told never becomes narrow: the most replicates would be run for nothing.
+TEST_F(StudyFileTest, StoppingRulesAskForCopiesThatThereCanBe) {
+  const auto with = [&](const std::string& metric, const std::string& rest) {
+    return refusal("[study]\nscenario = \"pair.toml\"\n[stop]\nmetric = \"" + metric +
+                   "\"\nhalf_width = 1\nmax = 20\n" + rest);
+  };
+  const std::string axis = "[[axis]]\npath = \"module.count\"\nvalues = [6, 3]\n";
+  EXPECT_EQ(with("time_3", ""), "(accepted)");
+  EXPECT_EQ(with("time_1", axis), "(accepted)");
+  EXPECT_EQ(with("time_99", ""),
+            "study.toml:4:10: stop.metric = \"time_99\", but in 'study' there are 6 modules: "
+            "enough for 3 copies");
+  EXPECT_EQ(with("time_2", axis),
+            "study.toml:4:10: stop.metric = \"time_2\", but in 'count=3' there are 3 modules: "
+            "enough for 1 copy");
+  here.write("alone.toml", "[ruleset]\nfile = \"\"\n");
+  const std::string bare = "[[axis]]\nname = \"rules\"\noverlays = [\"alone.toml\"]\n";
+  EXPECT_EQ(with("copies", bare), "(accepted)");
+  EXPECT_EQ(with("full_yield", bare),
+            "study.toml:4:10: stop.metric = \"full_yield\", but in 'rules=alone' there are 6 "
+            "modules: enough for 0 copies");
+}
+
+// Two columns of one name cannot be told apart by who reads the tables.
+TEST_F(StudyFileTest, AxesHaveNamesOfTheirOwn) {
+  const std::string axis = "path = \"rules.part.p\"\nvalues = [0, 1]\n";
+  for (const char* name : {"seed", "setting", "status", "replicate", "id", "label", "k", "value",
+                           "time_s", "time_12_s"}) {
+    expect("[[axis]]\nname = \"" + std::string(name) + "\"\n" + axis,
+           "study.toml:5:8: axis.name = \"" + std::string(name) +
+               "\" is that of another column of the study's tables: give another one");
+  }
+  for (const char* name : {"seeds", "time__s", "time_a_s", "time_3"}) {
+    expect("[[axis]]\nname = \"" + std::string(name) + "\"\n" + axis, "(accepted)");
+  }
+}
+
 TEST_F(StudyFileTest, MistakesInAxes) {
   expect("[[axis]]\npath = \"module.cuont\"\nvalues = [3]\n",
          "study.toml:5:8: unknown key 'module.cuont' - did you mean 'count'?");

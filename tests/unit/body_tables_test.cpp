@@ -1,0 +1,59 @@
+// Tables of point bodies: which rows are refused.
+#include <gtest/gtest.h>
+
+#include "lilytank/bodies.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+// What a table with these columns and rows is refused for; "" if it is read. `keys` are the
+// recording's besides its file and time.
+std::string complaint_about(const std::string& columns, const std::string& rows,
+                            const std::string& keys) {
+  const TemporaryDirectory here;
+  std::string table = columns + "\n" + rows;
+  for (int k = 1; k < 12; ++k) {
+    std::string more = rows.substr(0, rows.find('\n') + 1);
+    table += std::to_string(k) + more.substr(1);  // as the first row, later
+  }
+  here.write("t.csv", table);
+  const std::string head = "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"t.csv\"\n";
+  try {
+    const BodyExperiment e =
+        load_body_experiment(here.write("e.toml", head + "time = \"t\"\n" + keys));
+    EXPECT_EQ(e.runs.at(0).time.size(), 12u);
+    return "";
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    return what.substr(what.find("t.csv"));
+  }
+}
+
+// A second row for one instant says the same, or one of the two would be lost.
+TEST(BodyExperiment, refusesRowsOfOneTimeThatDiffer) {
+  const std::string x = "x = \"h\"\n";
+  EXPECT_EQ(complaint_about("t,ball,h", "0,a,1\n0,b,2\n", x),
+            "t.csv:3:1: t '0' is that of line 2 too, with other values: is there no column for "
+            "recording.body or recording.run?");
+  EXPECT_EQ(complaint_about("t,ball,h", "0,a,1\n0,b,2\n", x + "together = true\n"),
+            "t.csv:3:1: t '0' is that of line 2 too, with other values: is there no column for "
+            "recording.body or recording.run?");
+  const std::string named = x + "body = \"ball\"\nrun = \"drop\"\n";
+  EXPECT_EQ(complaint_about("t,ball,drop,h", "0,a,1,1\n0,b,1,2\n0,a,1,2\n", named),
+            "t.csv:4:1: t '0' is that of line 2 too, with other values");
+  EXPECT_EQ(
+      complaint_about("t,ball,drop,h", "0,a,1,1\n0,b,1,2\n0,b,1,\n", named + "together = true\n"),
+      "t.csv:4:1: t '0' is that of line 3 too, with other values");
+  EXPECT_EQ(complaint_about("t,h,k", "0,1,1\n0,1,2\n", "x = [\"h\", \"k\"]\ntogether = true\n"),
+            "t.csv:3:1: t '0' is that of line 2 too, with other values: is there no column for "
+            "recording.run?");
+  EXPECT_EQ(complaint_about("t,h,wind", "0,1,1\n0,1,2\n", x + "drivers = [\"wind\"]\n"),
+            "t.csv:3:1: t '0' is that of line 2 too, with other values: is there no column for "
+            "recording.body or recording.run?");
+  EXPECT_EQ(complaint_about("t,ball,h", "0,a,\n0,a,\n", x + "body = \"ball\"\n"), "");
+  EXPECT_EQ(complaint_about("t,h,wind", "0,1,1\n0,1,1\n", x + "drivers = [\"wind\"]\n"), "");
+}
+
+}  // namespace
+}  // namespace lilytank
