@@ -3,6 +3,7 @@
 
 #include "cli/analyze_sources.hpp"
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -102,6 +103,7 @@ int analyze_verb(const Arguments& arguments) {
     options.refuse("of what? write lilytank analyze RUN, EXPERIMENT.toml or a recording");
   }
   const AnalysisOptions how = analysis_options(options);
+  refuse_point_bodies(options.positional());
   const auto sources = read_sources(options.positional(), source_options(options));
   const Analysis analysis = analyse(sources, how);
   const std::string dir = options.text("out", default_directory(sources));

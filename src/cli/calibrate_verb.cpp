@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
@@ -110,6 +111,11 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
 
 // --recover: no recordings are read, they are simulated.
 int recover_verb(const VerbOptions& options, CalibrationOptions job) {
+  options.refuse_given({"start", "comparisons"}, "has no effect with --recover");
+  if (job.flow == CalibrationFlow::paper) {
+    options.refuse("--flow " + options.text("flow") +
+                   " does not go with --recover: smooth or scenario");
+  }
   const Scenario scenario = load_scenario(options.positional(), options.list("set"));
   RecoveryOptions r;
   r.experiments = static_cast<int>(options.whole("recover", 10, 1, 100000));
@@ -151,6 +157,9 @@ int calibrate_verb(const Arguments& arguments) {
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank calibrate EXPERIMENT.toml");
   }
+  if (!options.has("recover"))
+    options.refuse_given({"duration", "recordings"}, "goes with --recover");
+  refuse_point_bodies(options.positional());
   CalibrationOptions job = calibration_options(options);
   if (options.has("recover")) return recover_verb(options, std::move(job));
   std::vector<std::string> files = options.positional();

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kLongest = 1e9;  // s
+
 // Worlds that were run, or what was counted elsewhere.
 struct Counted {
   RateTable table;
@@ -32,10 +34,13 @@ Scenario scenario_for(const VerbOptions& options, const Ruleset& rules, int modu
   sets.push_back("module.count=" + std::to_string(modules));
   sets.push_back("control.latches=true");
   sets.push_back("run.seed=0");
-  if (options.has("duration")) sets.push_back("run.duration='" + options.text("duration") + "'");
+  if (options.has("duration")) {
+    sets.push_back("run.duration=" + shortest(options.number("duration", 0, 1, kLongest, "s")));
+  }
   Scenario scenario = load_scenario(options.list("measure"), sets);
   scenario.model.rulesets = {rules};
   scenario.model.commands.clear();
+  scenario.model.feedback.clear();
   return scenario;
 }
 
@@ -149,7 +154,7 @@ std::string run_model(const VerbOptions& options, const Ruleset& rules, const Ki
   GillespieOptions one;
   one.modules = modules;
   one.duration =
-      counted.duration > 0 ? counted.duration : options.number("duration", 14400, 1, 1e9, "s");
+      counted.duration > 0 ? counted.duration : options.number("duration", 14400, 1, kLongest, "s");
   const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   std::vector<std::vector<double>> completion(runs);
   std::int64_t reactions = 0;
@@ -206,15 +211,24 @@ void add_kinetics_options(VerbOptions& options) {
                                                          "FILE.bngl");
 }
 
+void check_kinetics_options(const VerbOptions& options) {
+  const bool measures = options.has("measure"), reads = options.has("rates");
+  if (measures && reads) options.refuse("--measure or --rates, not both");
+  if (!measures) options.refuse_given({"worlds", "set", "threads"}, "belongs to --measure");
+  if (!measures && !reads) {
+    options.refuse_given({"gillespie", "duration", "out"},
+                         "needs rates: --measure SCENARIO or --rates RUN");
+  }
+  static_cast<void>(options.number("duration", 0, 1, kLongest, "s"));
+  std::vector<std::string> inputs = options.positional();
+  for (const std::string& file : options.list("measure")) inputs.push_back(file);
+  inputs.push_back(options.text("rates"));
+  for (const char* name : {"kappa", "bngl"}) options.spare_inputs(name, options.text(name), inputs);
+}
+
 std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,
                                         int modules) {
   const bool measures = options.has("measure"), reads = options.has("rates");
-  if (measures && reads) options.refuse("--measure or --rates, not both");
-  for (const char* name : {"worlds", "set", "threads"})
-    if (options.has(name) && !measures)
-      options.refuse(std::string("--") + name + " belongs to --measure");
-  if (options.has("gillespie") && !measures && !reads)
-    options.refuse("--gillespie needs rates: --measure SCENARIO or --rates RUN");
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
   std::string out;

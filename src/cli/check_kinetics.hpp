@@ -10,6 +10,8 @@ namespace lilytank::cli {
 
 /// Options --measure, --rates, --gillespie, --kappa, --bngl and what belongs to them.
 void add_kinetics_options(VerbOptions& options);
+/// Refuses those that would have no effect or overwrite what is read, before any work is done.
+void check_kinetics_options(const VerbOptions& options);
 /// Does what they ask for; the text for the report, or nothing if a signal stopped it. Throws
 /// InputError.
 std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,

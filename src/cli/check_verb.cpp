@@ -31,6 +31,7 @@ int check_verb(const Arguments& arguments) {
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().size() != 1)
     options.refuse("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");
+  check_kinetics_options(options);
   const Ruleset rules = read_ruleset(options.positional().front());
   CheckOptions job;
   job.modules = static_cast<int>(options.whole("modules", 15, 1, 1000));
@@ -45,9 +46,12 @@ int check_verb(const Arguments& arguments) {
     check = check_ruleset(rules, job);
     progress.clear();
   }
-  if (!stop_signal().load()) std::cout << check_text(rules, check) << std::flush;
-  const auto kinetics =
-      stop_signal().load() ? std::nullopt : run_kinetics(options, rules, job.modules);
+  if (stop_signal().load()) {
+    std::cerr << "stopped; the same command begins again, as lattice worlds are not kept\n";
+    return Exit::stopped;
+  }
+  std::cout << check_text(rules, check) << std::flush;
+  const auto kinetics = run_kinetics(options, rules, job.modules);
   if (!kinetics) {
     std::cerr << "stopped; the same command goes on with the worlds that are done\n";
     return Exit::stopped;

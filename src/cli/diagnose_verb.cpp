@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "lilytank/bodies.hpp"
@@ -38,12 +39,7 @@ std::string directory_of(const VerbOptions& options, const std::string& name) {
   return out;
 }
 
-}  // namespace
-
-int diagnose_verb(const Arguments& arguments) {
-  VerbOptions options("diagnose", "EXPERIMENT.toml...",
-                      "Says where an experiment's recordings and the model differ, which effect is "
-                      "missing, how large it is, and how much of the difference it removes.");
+void add_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("out", "directory of the results (default: out/diagnose-<name>)", text(), "DIR")(
       "seed", "of everything that is drawn (1)", text(), "N")(
@@ -53,6 +49,15 @@ int diagnose_verb(const Arguments& arguments) {
       cxxopts::value<std::vector<std::string>>(),
       "PATH=VALUE")("threads", "worlds at a time (default: one a core)", text(), "N")(
       "force", "replace another diagnosis's files")("quiet", "no progress");
+}
+
+}  // namespace
+
+int diagnose_verb(const Arguments& arguments) {
+  VerbOptions options("diagnose", "EXPERIMENT.toml...",
+                      "Says where an experiment's recordings and the model differ, which effect is "
+                      "missing, how large it is, and how much of the difference it removes.");
+  add_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank diagnose EXPERIMENT.toml");
@@ -68,10 +73,12 @@ int diagnose_verb(const Arguments& arguments) {
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   std::optional<Diagnosis> found;
   if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
+    options.refuse_given({"set", "hold-out"}, "has no effect on an experiment of point bodies");
     const BodyExperiment experiment = load_body_experiment(options.positional()[0]);
     job.out = directory_of(options, experiment.name);
     found = diagnose_bodies(experiment, job);
   } else {
+    refuse_point_bodies(options.positional());
     // Recordings have no steps: those of the simulations must be short enough not to show.
     std::vector<std::string> sets{"run.dt='5 ms'"};
     for (const std::string& one : options.list("set")) sets.push_back(one);

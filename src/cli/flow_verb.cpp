@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_report.hpp"
@@ -41,6 +42,13 @@ FlowOptions flow_options(const VerbOptions& options) {
     f.smoothing.method = SmoothingMethod::kalman;
   }
   return f;
+}
+
+Experiment balls_of(const VerbOptions& options) {
+  refuse_point_bodies(options.positional());
+  return load_experiment(
+      options.positional(), options.list("set"),
+      [](const RecordingSource& source) { return source.options.body == BodyKind::ball; });
 }
 
 // The drag coefficient as it was asked for, or as the experiment's files set it.
@@ -99,9 +107,7 @@ int flow_verb(const Arguments& arguments) {
   if (options.has("bias") && word == "paper") {
     options.refuse("--bias needs --estimator smooth or both");
   }
-  const Experiment experiment = load_experiment(
-      options.positional(), options.list("set"),
-      [](const RecordingSource& source) { return source.options.body == BodyKind::ball; });
+  const Experiment experiment = balls_of(options);
   report.name = experiment.name;
   report.ball = physics(options, experiment);
   report.truth_file = options.text("truth");

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #include "io/scenario_commands.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/run.hpp"
@@ -72,6 +73,7 @@ int info_verb(const Arguments& arguments) {
   if (options.positional().empty()) {
     options.refuse("which scenario? write lilytank info SCENARIO, as scenarios/chain5.toml");
   }
+  refuse_point_bodies(options.positional());
   const Scenario scenario = load_scenario(options.positional(), options.list("set"));
   print_entries(scenario);
   print_derived(scenario);

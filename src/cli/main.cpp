@@ -58,6 +58,10 @@ const Verb& find_verb(const std::string& name) {
   throw InputError("unknown verb '" + name + "'" + help);
 }
 
+bool asks_for_help(const std::string& word) {
+  return word == "help" || word == "--help" || word == "-h";
+}
+
 int act(const Arguments& words) {
   if (words.empty()) throw InputError("which verb? 'lilytank help' lists what there is");
   const Arguments rest(words.begin() + 1, words.end());
@@ -65,11 +69,17 @@ int act(const Arguments& words) {
     std::cout << "lilytank " LILYTANK_VERSION "\n";
     return Exit::done;
   }
-  const bool help = words[0] == "help" || words[0] == "--help" || words[0] == "-h";
-  if (help && !rest.empty()) return find_verb(rest[0]).act({"--help"});
+  const bool help = asks_for_help(words[0]);
+  if (help && !rest.empty() && !asks_for_help(rest[0])) return find_verb(rest[0]).act({"--help"});
   if (!help) return find_verb(words[0]).act(rest);
   print_help();
   return Exit::done;
+}
+
+/// What was printed counts only once it has arrived: a full disk shows here.
+int deliver(int code) {
+  if (std::cout.flush()) return code;
+  throw InputError("cannot write to standard output");
 }
 
 }  // namespace
@@ -79,7 +89,7 @@ int main(int argc, char** argv) {
   using namespace lilytank;
   std::ios::sync_with_stdio(false);
   try {
-    return cli::act({argv + std::min(1, argc), argv + argc});
+    return cli::deliver(cli::act({argv + std::min(1, argc), argv + argc}));
   } catch (const InputError& e) {
     std::cerr << e.what() << "\n";
   } catch (const std::exception& e) {

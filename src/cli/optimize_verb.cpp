@@ -2,10 +2,12 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
 #include "lilytank/optimize.hpp"
+#include "optimize/search_directory.hpp"
 #include "text/number.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
@@ -134,6 +136,8 @@ int optimize_verb(const Arguments& arguments) {
   job.out = study_directory(options, what.plan().name);
   job.threads = static_cast<int>(options.whole("threads", 0, 1, kMostThreads));
   job.force = options.has("force");
+  check_directory_can_be(job.out);
+  check_search_directory(what.source(), job.out, job.force);
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
   job.stop = &stop_signal();
   const bool quiet = options.has("quiet");

@@ -1,6 +1,7 @@
 #include "cli/options.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "io/units.hpp"
@@ -8,6 +9,21 @@
 #include "text/number.hpp"
 
 namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool among(const std::string& word, const std::vector<std::string>& words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Whether both are there and one file, by whatever names.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code absent;
+  return fs::equivalent(a, b, absent) && !absent;
+}
+
+}  // namespace
 
 VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
                          const std::string& summary)
@@ -36,18 +52,34 @@ bool VerbOptions::parse(const Arguments& arguments) {
   return false;
 }
 
-void VerbOptions::check_names(const Arguments& arguments) const {
+void VerbOptions::check_names(const Arguments& arguments) {
   std::vector<std::string> known;
   for (const cxxopts::HelpOptionDetails& option : options_.group_help("").options) {
-    for (const std::string& name : option.l) known.push_back("--" + name);
+    for (const std::string& name : option.l) {
+      known.push_back("--" + name);
+      if (option.is_boolean) switches_.push_back(name);
+    }
   }
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
     if (!argument.starts_with("--")) continue;
     const std::string name = argument.substr(0, argument.find('='));
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    refuse("unknown option '" + name + "'" + did_you_mean(name, known));
+    if (!among(name, known)) refuse("unknown option '" + name + "'" + did_you_mean(name, known));
+    if (name != argument && among(name.substr(2), switches_)) {
+      check_switch(name, argument.substr(name.size() + 1));
+    }
   }
+}
+
+// The library would not say whose value is neither.
+void VerbOptions::check_switch(const std::string& name, const std::string& value) const {
+  if (value == "true" || value == "false") return;
+  refuse(name + " is true or false, not '" + value + "'");
+}
+
+bool VerbOptions::has(const std::string& name) const {
+  if (result_.count(name) == 0) return false;
+  return !among(name, switches_) || result_[name].as<bool>();
 }
 
 std::string VerbOptions::text(const std::string& name, const std::string& otherwise) const {
@@ -85,6 +117,21 @@ std::int64_t VerbOptions::whole(const std::string& name, std::int64_t otherwise,
            std::to_string(high));
   }
   return *value;
+}
+
+void VerbOptions::refuse_given(const std::vector<std::string>& names,
+                               const std::string& why) const {
+  for (const std::string& name : names) {
+    if (has(name)) refuse("--" + name + " " + why);
+  }
+}
+
+void VerbOptions::spare_inputs(const std::string& option, const std::string& file,
+                               const std::vector<std::string>& inputs) const {
+  for (const std::string& input : inputs) {
+    if (!same_file(file, input)) continue;
+    refuse("--" + option + " would overwrite '" + input + "', which is read; choose another name");
+  }
 }
 
 void VerbOptions::refuse(const std::string& message) const {

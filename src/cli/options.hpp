@@ -25,7 +25,8 @@ class VerbOptions {
   /// InputError on an unknown option or a missing value.
   bool parse(const Arguments& arguments);
 
-  bool has(const std::string& name) const { return result_.count(name) > 0; }
+  /// Whether an option was given; a switch given as --force=false was not.
+  bool has(const std::string& name) const;
   /// The value of a text option, or `otherwise`.
   std::string text(const std::string& name, const std::string& otherwise = "") const;
   std::vector<std::string> list(const std::string& name) const;
@@ -37,15 +38,22 @@ class VerbOptions {
                      std::int64_t high) const;
   const std::vector<std::string>& positional() const { return positional_; }
 
+  /// Refuses these options, which would have no effect, if one is given: "--NAME " + why.
+  void refuse_given(const std::vector<std::string>& names, const std::string& why) const;
+  /// Refuses to write to `file`, which --`option` asks for, if it is one of the `inputs`.
+  void spare_inputs(const std::string& option, const std::string& file,
+                    const std::vector<std::string>& inputs) const;
   /// An InputError that begins with the verb.
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:
-  void check_names(const Arguments& arguments) const;
+  void check_names(const Arguments& arguments);
+  void check_switch(const std::string& name, const std::string& value) const;
   std::string verb_;
   cxxopts::Options options_;
   cxxopts::ParseResult result_;
   std::vector<std::string> positional_;
+  std::vector<std::string> switches_;  ///< names of options without a value
 };
 
 }  // namespace lilytank::cli

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/point_bodies.hpp"
 #include "io/experiment_file.hpp"
 #include "io/recording_keys.hpp"
 #include "lilytank/experiment.hpp"
+#include "recording/files.hpp"
 #include "recording/formats.hpp"
 
 namespace lilytank::cli {
@@ -59,6 +61,7 @@ void add_reading_options(VerbOptions& options) {
 std::vector<NamedRecording> named_recordings(const VerbOptions& options,
                                              const std::vector<std::string>& arguments) {
   if (arguments.empty()) options.refuse("which recording? write a file or an experiment file");
+  refuse_point_bodies(arguments);
   std::vector<NamedRecording> out;
   const RecordingOptions reading =
       with_options(options, load_scenario({}, options.list("set")).model, {});
@@ -85,6 +88,20 @@ std::vector<NamedRecording> named_recordings(const VerbOptions& options,
       out.push_back({file, {file}, reading});
     }
     together = track;
+  }
+  return out;
+}
+
+std::vector<std::string> files_read(const std::vector<NamedRecording>& recordings,
+                                    const std::vector<std::string>& arguments) {
+  std::vector<std::string> out = arguments;
+  for (const NamedRecording& named : recordings) {
+    for (const std::string& name : named.files) {
+      try {
+        for (std::string& file : files_of(name)) out.push_back(std::move(file));
+      } catch (const InputError&) {  // complained about when its turn comes
+      }
+    }
   }
   return out;
 }

@@ -22,6 +22,9 @@ struct NamedRecording {
 /// files of a format with one file a track are one recording. Throws InputError.
 std::vector<NamedRecording> named_recordings(const VerbOptions& options,
                                              const std::vector<std::string>& arguments);
+/// All files that reading these, as named by `arguments`, opens: none of them is to be written to.
+std::vector<std::string> files_read(const std::vector<NamedRecording>& recordings,
+                                    const std::vector<std::string>& arguments);
 
 int recording_info(const Arguments& arguments);
 int recording_check(const Arguments& arguments);

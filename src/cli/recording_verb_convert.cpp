@@ -1,7 +1,7 @@
 // Recordings in other formats, and simulated runs as a camera would have recorded them.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <set>
 
 #include "cli/recording_verb.hpp"
 #include "io/recording_keys.hpp"
@@ -113,22 +113,63 @@ RecordingFormat format_to_write(const VerbOptions& options) {
   return format;
 }
 
-void convert_files(const VerbOptions& options, const std::string& out, RecordingFormat format) {
-  const std::vector<NamedRecording> all = named_recordings(options, options.positional());
-  std::set<std::string> written;
+/// Whether a file lies where those of single tracks are to be written, and is named as they are.
+bool is_among_tracks(const std::string& file, const std::string& folder, RecordingFormat format) {
+  const fs::path path(file);
+  std::error_code absent;
+  if (!fs::equivalent(path.has_parent_path() ? path.parent_path() : ".", folder, absent) || absent)
+    return false;
+  const std::string name = path.filename().string();
+  return format == RecordingFormat::trex ? name.find("_id") != std::string::npos
+                                         : name.starts_with("track");
+}
+
+/// The file to write for each recording; none of them is read, and none is written twice.
+std::vector<std::string> files_to_write(const VerbOptions& options,
+                                        const std::vector<NamedRecording>& all,
+                                        const std::string& out, RecordingFormat format) {
+  const std::vector<std::string> inputs = files_read(all, options.positional());
+  std::vector<std::string> files;
   for (const NamedRecording& named : all) {
     const std::string file = all.size() == 1 ? out : file_in(out, named.files.front(), format);
-    if (!written.insert(file).second) {
+    if (std::find(files.begin(), files.end(), file) != files.end()) {
       options.refuse("two recordings would be written to '" + file + "': convert them one by one");
     }
+    options.spare_inputs("out", file, inputs);
+    for (const std::string& input : inputs) {
+      const bool risky = one_file_a_track(format) && is_among_tracks(input, file, format);
+      if (risky) options.spare_inputs("out", input, {input});
+    }
+    files.push_back(file);
+  }
+  return files;
+}
+
+void convert_files(const VerbOptions& options, const std::string& out, RecordingFormat format) {
+  const std::vector<NamedRecording> all = named_recordings(options, options.positional());
+  const std::vector<std::string> files = files_to_write(options, all, out, format);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const NamedRecording& named = all[i];
     const CheckedRecording checked = check_recording(named.files, named.options);
     checked.throw_if_refused();
     if (!checked.findings.empty()) {
       std::cerr << named.name << ": " << checked.findings.size()
                 << " findings; lilytank recording check names them\n";
     }
-    write_one(checked.recording, file, format, calibration_of(options, named.options.tank_radius));
+    write_one(checked.recording, files[i], format,
+              calibration_of(options, named.options.tank_radius));
   }
+}
+
+void convert_run(const VerbOptions& options, const std::string& dir, const std::string& out,
+                 RecordingFormat format) {
+  std::vector<std::string> inputs;
+  for (const char* name : {"resolved.toml", "trajectory.bin", "trajectory.csv"}) {
+    inputs.push_back((fs::path(dir) / name).string());
+  }
+  options.spare_inputs("out", out, inputs);
+  const double radius = load_scenario({inputs.front()}, {}).model.tank.radius;
+  write_one(filmed(dir, options), out, format, calibration_of(options, radius));
 }
 
 }  // namespace
@@ -148,9 +189,7 @@ int recording_convert(const Arguments& arguments) {
   const std::string out = options.text("out");
   const auto& words = options.positional();
   if (words.size() == 1 && is_run(words[0])) {
-    const double radius =
-        load_scenario({(fs::path(words[0]) / "resolved.toml").string()}, {}).model.tank.radius;
-    write_one(filmed(words[0], options), out, format, calibration_of(options, radius));
+    convert_run(options, words[0], out, format);
     return Exit::done;
   }
   if (options.has("camera")) options.refuse("--camera goes with the directory of one run");

@@ -168,6 +168,8 @@ int recording_check(const Arguments& arguments) {
   options.add()("all", "show every finding, not ten of a kind")(
       "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE");
   if (!options.parse(arguments)) return Exit::done;
+  const std::vector<NamedRecording> all = named_recordings(options, options.positional());
+  options.spare_inputs("csv", options.text("csv"), files_read(all, options.positional()));
   std::string csv = "file,line,frame,id,check,treatment,what\n";
   const auto act = [&](const NamedRecording& named, const CheckedRecording& checked) {
     print_findings(checked.findings, options.has("all"));
@@ -181,7 +183,7 @@ int recording_check(const Arguments& arguments) {
     }
     for (const Finding& finding : checked.findings) csv += csv_row(finding);
   };
-  const int code = for_each(named_recordings(options, options.positional()), act);
+  const int code = for_each(all, act);
   if (options.has("csv")) write_atomically(options.text("csv"), csv);
   return code;
 }

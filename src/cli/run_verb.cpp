@@ -2,7 +2,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/dry_run.hpp"
 #include "cli/options.hpp"
+#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
@@ -71,8 +73,10 @@ bool draw(const std::string& out, bool quiet) {
   return true;
 }
 
-int dry_run(const Scenario& scenario, const std::string& out) {
+int dry_run(const Scenario& scenario, const std::string& out, bool force) {
   initial_state(scenario.model, scenario.seed);  // do the bodies fit?
+  check_directory_can_be(out);
+  static_cast<void>(RunDirectory(out, scenario, force));  // only looks, and refuses
   std::cout << "would simulate " << shortest(scenario.duration) << " s of "
             << scenario.model.module.count << " modules and " << scenario.model.ball.count
             << " balls with seed " << scenario.seed << "\nwould write to " << out << "\nscenario "
@@ -141,14 +145,15 @@ int run_verb(const Arguments& arguments) {
   if (options.has("seed")) {
     sets.push_back("run.seed=" + std::to_string(options.whole("seed", 1, 0, 1000000000000000000)));
   }
+  refuse_point_bodies(options.positional());
   const Scenario scenario = load_scenario(options.positional(), sets);
   const bool video = options.has("video"), quiet = options.has("quiet");
   if (video) check_video(options, scenario);
   RunOptions job;
   job.out = options.text("out", default_out(scenario, options.positional().back()));
   if (job.out.empty()) options.refuse("--out is empty");
-  if (options.has("dry-run")) return dry_run(scenario, job.out);
   job.force = options.has("force");
+  if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
   job.stop = &stop_signal();
   return finish(scenario, run_with_progress(scenario, job, quiet), job.out, video, quiet);
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
@@ -42,6 +43,7 @@ std::string plan_line(const StudyPlan& plan, const StudyOptions& job) {
 }
 
 int dry_run(const StudyPlan& plan, const StudyOptions& job) {
+  check_study_directory(job.out, plan, job.force);
   std::cout << "would run " << plan_line(plan, job) << "\n";
   for (std::size_t s = 0; s < plan.settings.size(); ++s) {
     int here = 0;

@@ -124,6 +124,19 @@ Arguments with_long_name(Arguments arguments) {
   return arguments;
 }
 
+// Nothing asked for is left undone, and no drawing is overwritten.
+void check_outputs(const VerbOptions& options) {
+  if (options.has("all")) {
+    options.refuse_given({"out", "figure"}, "is of one plan; --all writes all into its directory");
+    options.refuse_given({"algorithm", "order"}, "chooses a plan, and --all makes all of them");
+  }
+  std::vector<std::string> drawings = options.positional();
+  for (const char* option : {"tree", "order"}) drawings.push_back(options.text(option));
+  for (const char* option : {"out", "figure"}) {
+    options.spare_inputs(option, options.text(option), drawings);
+  }
+}
+
 }  // namespace
 
 int synthesize_verb(const Arguments& arguments) {
@@ -134,6 +147,7 @@ int synthesize_verb(const Arguments& arguments) {
   if (!options.parse(with_long_name(arguments))) return Exit::done;
   if (options.positional().size() != 1)
     options.refuse("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
+  check_outputs(options);
   Target target = read_target(options.positional().front());
   if (options.has("name")) {
     // The same rule for names as in a drawing.

@@ -45,6 +45,37 @@ void sync_directory(const std::filesystem::path& directory) {
   if (opened.number() >= 0) ::fsync(opened.number());
 }
 
+/// The file that a name stands for: links are followed, as a shell's > does, also to one that is
+/// yet to be made. The links of /proc (where /dev/stdout leads) stand for open files that may have
+/// no name.
+std::filesystem::path file_behind(std::filesystem::path file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  for (int links = 0; links < 40; ++links) {
+    if (!fs::is_symlink(file, ignored) || file.native().starts_with("/proc/")) break;
+    file = file.parent_path() / fs::read_symlink(file, ignored);
+  }
+  return file;
+}
+
+/// Whether a name is of no file that another could take the place of: a device, a pipe, an open
+/// file. Throws InputError where nothing can be written.
+bool is_written_through(const std::string& file) {
+  struct stat there {};
+  if (::stat(file.c_str(), &there) != 0) {
+    if (errno == ENOENT) return false;
+    throw InputError(system_problem("cannot write", file, errno));
+  }
+  if (S_ISDIR(there.st_mode)) throw InputError(system_problem("cannot write", file, EISDIR));
+  return !S_ISREG(there.st_mode) || file_behind(file).native().starts_with("/proc/");
+}
+
+void write_through(const std::string& file, std::string_view content) {
+  const Descriptor opened(::open(file.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC));
+  const int problem = opened.number() < 0 ? errno : write_all(opened.number(), content);
+  if (problem != 0) throw InputError(system_problem("cannot write", file, problem));
+}
+
 }  // namespace
 
 std::string system_problem(const std::string& what, const std::string& file, int number) {
@@ -52,7 +83,9 @@ std::string system_problem(const std::string& what, const std::string& file, int
 }
 
 void write_atomically(const std::string& file, std::string_view content) {
-  const std::string temporary = file + ".tmp";
+  if (is_written_through(file)) return write_through(file, content);
+  const std::filesystem::path target = file_behind(file);
+  const std::string temporary = target.string() + ".tmp";
   int problem = 0;
   {
     const Descriptor opened(
@@ -61,12 +94,12 @@ void write_atomically(const std::string& file, std::string_view content) {
     problem = write_all(opened.number(), content);
     if (problem == 0 && ::fsync(opened.number()) != 0) problem = errno;
   }
-  if (problem == 0 && std::rename(temporary.c_str(), file.c_str()) != 0) problem = errno;
+  if (problem == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) problem = errno;
   if (problem != 0) {
     ::unlink(temporary.c_str());
     throw InputError(system_problem("cannot write", file, problem));
   }
-  sync_directory(std::filesystem::path(file).parent_path());
+  sync_directory(target.parent_path());
 }
 
 void make_directory(const std::string& dir) {

@@ -10,7 +10,8 @@
 namespace lilytank {
 
 /// Writes `content` under a temporary name beside `file`, hands it to the disk, renames it. Throws
-/// InputError with the system's reason; the file is then as it was before.
+/// InputError with the system's reason; the file is then as it was before. A link is followed and
+/// stays a link; what is no regular file (a device, a pipe) is written to and stays what it is.
 void write_atomically(const std::string& file, std::string_view content);
 
 /// Makes a directory and those it lies in, where they are absent. Throws InputError.

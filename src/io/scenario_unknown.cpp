@@ -28,6 +28,21 @@ std::string same_name_elsewhere(const std::string& name, const std::vector<Scena
   return "";
 }
 
+/// Whether a path is that of a file's own lines: only there are tables that are no keys' tables.
+/// (Those of --set and of axes are named in one piece.)
+bool is_in_file(const Assignment& from) {
+  const SourcePlace& key = from.key_places.front();
+  return key.line != from.place.line || key.column != from.place.column;
+}
+
+/// What a file is that has a table of this name and is no scenario, and the verb that takes it.
+std::string other_file(const std::string& table) {
+  if (table == "study" || table == "axis") return "the file of a study: for lilytank study";
+  if (table == "optimize" || table == "parameter")
+    return "the file of an optimisation: for lilytank optimize";
+  return "";
+}
+
 std::string listed(const std::vector<std::string>& words, const std::string& between) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
@@ -47,7 +62,13 @@ InputError unknown_key(const Assignment& from, const std::vector<ScenarioKey>& k
       return {from.key_places[i + 1],
               "'" + here + "' is a value and has no '" + from.keys[i + 1] + "'"};
     }
-    const std::vector<std::string> names = names_after(prefix, keys);
+    std::vector<std::string> names = names_after(prefix, keys);
+    if (i == 0 && is_in_file(from)) {
+      if (const std::string what = other_file(name); !what.empty()) {
+        return {from.key_places[i], "[" + name + "] is not of a scenario, but of " + what};
+      }
+      names.insert(names.end(), {"base", "command", "experiment", "recording"});
+    }
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       std::string help = did_you_mean(name, names);
       if (help.empty()) help = same_name_elsewhere(from.keys.back(), keys);

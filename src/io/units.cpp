@@ -191,17 +191,18 @@ double read_quantity(std::string_view text, std::string_view unit, std::string_v
   const std::string quoted = "\"" + std::string(text) + "\"", name(path);
   std::string_view rest = trimmed(text);
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
-  double ignored = 0;
-  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), ignored);
+  double plain = 0;
+  const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), plain);
   const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data()));
-  const bool number = problem == std::errc() && std::isfinite(ignored);
+  const bool number = problem == std::errc() && std::isfinite(plain);
   if (!number) {
     throw InputError(
         place, name + " = " + quoted + " is not a number; " + name + " is " + described(unit));
   }
   const std::string_view given = trimmed(rest.substr(digits.size()));
   if (given.empty()) {
-    throw InputError(place, name + " = " + quoted + " has no unit - write " + std::string(digits) +
+    // As TOML takes it: not ".3" or "3.".
+    throw InputError(place, name + " = " + quoted + " has no unit - write " + shortest(plain) +
                                 " without quotes for SI units, or name the unit");
   }
   const auto wanted = parse_unit(unit), found = parse_unit(given);

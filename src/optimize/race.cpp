@@ -9,6 +9,7 @@
 #include "lilytank/search_run.hpp"
 #include "lilytank/synthesis.hpp"
 #include "optimize/repeats.hpp"
+#include "optimize/search_directory.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 
@@ -69,24 +70,15 @@ class Race {
     return out;
   }
 
-  /// Another race's files are not mixed with this one's.
+  /// Another race's files are not mixed with this one's; without --force they were refused before.
   void claim() const {
-    const fs::path file = dir_ / "race" / "identity.txt";
-    const std::string text = source_->identity() + " " +
-                             std::to_string(source_->file.race->rulesets) + " " +
-                             std::to_string(source_->file.race->evaluations) + " " +
-                             std::to_string(source_->plan.seed) + "\n";
+    const std::string file = race_identity_file(options_->out), text = race_identity(*source_);
     std::error_code ignored;
-    if (fs::exists(file, ignored) && read_whole(file.string()) != text) {
-      if (!options_->force) {
-        throw InputError("'" + options_->out +
-                         "' holds another race; choose another directory, or --force to replace "
-                         "it");
-      }
+    if (fs::exists(file, ignored) && read_whole(file) != text) {
       fs::remove_all(dir_ / "race", ignored);
     }
-    fs::create_directories(file.parent_path(), ignored);
-    write_atomically(file.string(), text);
+    fs::create_directories(dir_ / "race", ignored);
+    write_atomically(file, text);
   }
 
   void enter() {

@@ -6,6 +6,7 @@
 #include "lilytank/search_run.hpp"
 #include "optimize/race.hpp"
 #include "optimize/repeats.hpp"
+#include "optimize/search_directory.hpp"
 #include "optimize/source.hpp"
 #include "text/number.hpp"
 
@@ -84,11 +85,21 @@ bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& so
   return true;
 }
 
+/// The best point as an overlay, with its rulesets; the overlay's path.
+std::string write_optimum(const Optimization::Source& source, const Incumbent& best,
+                          const std::string& dir) {
+  for (const auto& file : source.overlay(best.point, "optimum", comment_of(source.plan, best))) {
+    write_atomically((fs::path(dir) / file.name).string(), file.content);
+  }
+  return (fs::path(dir) / "optimum.toml").string();
+}
+
 }  // namespace
 
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options) {
   OptimizationResult result;
   const Optimization::Source* source = &what.source();
+  check_search_directory(*source, options.out, options.force);
   std::unique_ptr<Search> search = source->search();
   std::string before;  // of the progress
   const RaceOutcome race = run_race(*source, options);
@@ -116,12 +127,7 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
   result.history = found.search->history();
   result.stopped = found.stopped || !keep_own_if_better(race, source, result, options);
   if (result.stopped) return result;
-  for (const auto& file :
-       source->overlay(result.best.point, "optimum", comment_of(source->plan, result.best))) {
-    const std::string path = (fs::path(options.out) / file.name).string();
-    write_atomically(path, file.content);
-    if (file.name == "optimum.toml") result.optimum = path;
-  }
+  result.optimum = write_optimum(*source, result.best, options.out);
   if (source->plan.replicates == 0) return result;
   result.compare = (fs::path(options.out) / "compare.toml").string();
   write_atomically(result.compare, compare_text(*source, options.out));

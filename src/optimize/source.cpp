@@ -47,6 +47,17 @@ std::optional<double> value_of(const Scenario& scenario, const std::string& path
   return std::nullopt;
 }
 
+/// Where a file has the first of these keys of [optimize] that it has; else the file.
+SourcePlace place_in(const std::string& file, const std::vector<std::string>& keys) {
+  const Layer layer = read_layers({file}, {}).front();
+  for (const std::string& key : keys) {
+    for (const Assignment& value : layer.values) {
+      if (value.path() == "optimize." + key) return value.place;
+    }
+  }
+  return {file, 0, 0};
+}
+
 int possible_copies(const Model& model) {
   if (model.rulesets.empty() || model.rulesets.front().target.empty()) return 0;
   return model.module.count / static_cast<int>(model.rulesets.front().target.size());
@@ -124,13 +135,14 @@ void Optimization::Source::prepare() {
   }
   for (const Assignment& value : overrides_.values) {
     for (const SearchAxis& axis : plan.space) {
-      if (axis.name == value.path()) {
-        throw InputError(value.place, "'" + axis.name + "' is searched");
+      const bool power = axis.name == "power.0" && value.path() == "flow.pump_power";
+      if (axis.name == value.path() || power) {
+        throw InputError(value.place, "'" + value.path() + "' is searched");
       }
     }
   }
   check_corners();
-  plan.budget = search()->budget();
+  plan.budget = checked_budget();
 }
 
 void Optimization::Source::check_base(const Model& model) const {
@@ -236,6 +248,24 @@ void Optimization::Source::check_corners() const {
   for (const auto& point : {plan.start, low, high}) {
     const Scenario at = scenario(point);
     if (point == plan.start) static_cast<void>(initial_state(at.model, 0));  // do they fit?
+  }
+}
+
+// What a search refuses of its numbers is told where the file has them.
+std::int64_t Optimization::Source::checked_budget() const {
+  const std::string& where = file.hybrid_place.file;
+  const CmaEsOptions& o = file.cma_es;
+  if (file.method == SearchMethod::cma_es && o.final_evaluations > o.budget) {
+    throw InputError(place_in(where, {"final_evaluations"}),
+                     "optimize.final_evaluations = " + std::to_string(o.final_evaluations) +
+                         " is more than optimize.evaluations = " + std::to_string(o.budget));
+  }
+  try {
+    return search()->budget();
+  } catch (const InputError& e) {
+    const std::vector<std::string> keys{"final_evaluations", "evaluations", "population", "sigma",
+                                        "particles",         "iterations"};
+    throw InputError(place_in(where, keys), e.what());
   }
 }
 

@@ -58,6 +58,7 @@ struct Optimization::Source {
   void add_second_set();
   void add_agitation(double power);
   void check_corners() const;
+  std::int64_t checked_budget() const;
   std::vector<Layer> layers() const;
   Scenario built(Layer point) const;
   Meaning meaning(const std::vector<double>& point) const;

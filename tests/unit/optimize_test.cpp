@@ -121,6 +121,31 @@ TEST(Optimize, ASettledWorldHasTheRowOfTheWholeOne) {
   }
 }
 
+// A target that is still to come begins its copies anew.
+TEST(Optimize, AWorldThatAwaitsAnotherTargetIsNotSettled) {
+  const OptimizeRig rig;
+  Scenario scenario = rig.read(kHead + kPart, {"run.duration=60"}).scenario({0});
+  Ruleset other = scenario.model.rulesets.front();
+  other.target = {{0, 0}, {1, 0}, {2, 0}};
+  scenario.model.rulesets.push_back(other);
+  Command change;
+  change.at = 59, change.kind = CommandKind::replace_ruleset, change.ruleset = 1;
+  const bool feedback[] = {false, true};
+  for (const bool by_copies : feedback) {
+    change.copies = by_copies ? 3 : 0;
+    scenario.model.commands.clear(), scenario.model.feedback.clear();
+    (by_copies ? scenario.model.feedback : scenario.model.commands).push_back(change);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const auto whole = run_world(scenario, seed, EarlyEnd::never, nullptr, [](double) {});
+      for (const EarlyEnd early : {EarlyEnd::settled, EarlyEnd::completed}) {
+        const auto other_row = run_world(scenario, seed, early, nullptr, [](double) {});
+        EXPECT_EQ(whole->row.completion, other_row->row.completion) << seed;
+        EXPECT_EQ(whole->row.copies, other_row->row.copies) << seed;
+      }
+    }
+  }
+}
+
 TEST(Optimize, AStudyUntilSettledHasTheSameTable) {
   const OptimizeRig rig;
   const std::string study =
@@ -332,6 +357,11 @@ TEST(Optimize, WhatMakesNoSenseIsRefused) {
          "not in order within 0 .. 100 %");
   expect(kHead + kPart + "[compare]\nreplicates = 3\noverlays = [\"stiky.toml\"]\n",
          "optimize.toml:9:13: cannot read");
+  expect(
+      kHead + "evaluations = 3\nfinal_evaluations = 4\n" + kPart,
+      "optimize.toml:4:21: optimize.final_evaluations = 4 is more than optimize.evaluations = 3");
+  expect(kHead + "hybrid = false\nevaluations = 3\n" + kPart,
+         "optimize.toml:4:15: a budget of 3 evaluations does not hold one generation");
   EXPECT_NE(rig.refused(kHead + kPart, {"rules.part.p=0.1"}).find("'rules.part.p' is searched"),
             std::string::npos);
   EXPECT_NE(rig.refused(kHead + kPart, {"module.count=1"}).find("1 modules make no copy of 2"),

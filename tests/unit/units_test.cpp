@@ -72,6 +72,12 @@ TEST(Units, RefusesWhatIsNoQuantity) {
   EXPECT_EQ(refusal("0.3", "m"),
             "t.toml:3:10: tank.radius = \"0.3\" has no unit - write 0.3 without quotes for SI "
             "units, or name the unit");
+  // The number as TOML takes it.
+  for (const auto& [text, plain] : {std::pair(".3", "0.3"), {"3.", "3"}, {"-.3", "-0.3"}}) {
+    EXPECT_NE(refusal(text, "m").find(std::string("write ") + plain + " without"),
+              std::string::npos)
+        << refusal(text, "m");
+  }
   EXPECT_NE(refusal("1e308 km", "m"), "(accepted)");
 }
 

@@ -1,0 +1,137 @@
+// Options and files that a verb cannot do anything with: refused by name, with what would be right.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "cli/program.hpp"
+#include "support/study_rig.hpp"
+
+namespace lilytank {
+namespace {
+
+const std::string kDrops =
+    "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"drops.csv\"\ntime = \"t\"\n"
+    "x = \"y\"\n";
+
+class OptionsTest : public testing::Test {
+ protected:
+  OptionsTest() {
+    lilytank_.here.write("tiny.toml", kTiny);
+    lilytank_.here.write("pair.rules", test::kPairRulesText);
+    lilytank_.here.write("pair.toml", test::kPairScenario);
+    lilytank_.here.write("drops.toml", kDrops);
+    lilytank_.here.write("study.toml", "\n[study]\nscenario = \"pair.toml\"\n");
+    lilytank_.here.write("search.toml", "[optimize]\nscenario = \"pair.toml\"\n");
+    lilytank_.here.write("t.txt", "###\n");
+  }
+  /// One line, exit code 2, no file other than before.
+  void refused(const std::string& arguments, const std::string& message) const {
+    const auto before = lilytank_.files();
+    const Answer a = lilytank_(arguments);
+    EXPECT_EQ(a.code, 2) << arguments;
+    EXPECT_EQ(a.out, "") << arguments;
+    EXPECT_EQ(a.err, message + "\n") << arguments;
+    EXPECT_EQ(lilytank_.files(), before) << arguments;
+  }
+  Program lilytank_;
+};
+
+TEST_F(OptionsTest, ASwitchThatIsFalseIsOff) {
+  ASSERT_EQ(lilytank_("run pair.toml --out a --quiet").code, 0);
+  const Answer forced = lilytank_("run tiny.toml --out a --force=false");
+  EXPECT_EQ(forced.code, 2);
+  EXPECT_TRUE(forced.err.starts_with("'a' holds another run")) << forced.err;
+  EXPECT_NE(lilytank_("run pair.toml --out a --quiet=false").err, "");
+  EXPECT_EQ(lilytank_("run pair.toml --out a --quiet=true").err, "");
+  EXPECT_EQ(lilytank_("run tiny.toml --out b --dry-run=false --quiet").code, 0);
+  EXPECT_TRUE(lilytank_.here.has("b/summary.txt"));
+  EXPECT_EQ(lilytank_("run tiny.toml --out a --force=true --quiet").code, 0);
+  refused("run tiny.toml --quiet=banana", "lilytank run: --quiet is true or false, not 'banana'");
+  refused("run tiny.toml --force=", "lilytank run: --force is true or false, not ''");
+}
+
+TEST_F(OptionsTest, WithoutEffectTheyAreRefused) {
+  const std::string bodies = " has no effect on an experiment of point bodies";
+  refused("diagnose drops.toml --set x=y", "lilytank diagnose: --set" + bodies);
+  refused("diagnose drops.toml --hold-out 7", "lilytank diagnose: --hold-out" + bodies);
+  refused("calibrate tiny.toml --duration 1min",
+          "lilytank calibrate: --duration goes with --recover");
+  refused("calibrate tiny.toml --recordings 7",
+          "lilytank calibrate: --recordings goes with --recover");
+  refused("calibrate tiny.toml --recover 1 --start x.toml",
+          "lilytank calibrate: --start has no effect with --recover");
+  refused("calibrate tiny.toml --recover 1 --flow paper",
+          "lilytank calibrate: --flow paper does not go with --recover: smooth or scenario");
+  refused("synthesize t.txt --all D --out q",
+          "lilytank synthesize: --out is of one plan; --all writes all into its directory");
+  refused("synthesize t.txt --all D --algorithm balanced",
+          "lilytank synthesize: --algorithm chooses a plan, and --all makes all of them");
+  const std::string rates = " needs rates: --measure SCENARIO or --rates RUN";
+  refused("check pair.rules --duration '5 min'", "lilytank check: --duration" + rates);
+  refused("check pair.rules --out o", "lilytank check: --out" + rates);
+  refused("check pair.rules --measure pair.toml --duration 5m",
+          "lilytank check: --duration is a time in s; 'm' is not");
+  refused("check pair.rules --measure pair.toml --duration=-5",
+          "lilytank check: --duration -5 is outside 1 .. 1e+09 s");
+}
+
+TEST_F(OptionsTest, TimesArePlainSecondsOrHaveAUnit) {
+  const std::string check =
+      "check pair.rules --modules 4 --lattice 0 --measure pair.toml --worlds 1 --gillespie 2 ";
+  const Answer plain = lilytank_(check + "--duration 120 --out a --quiet");
+  const Answer unit = lilytank_(check + "--duration '2 min' --out b --quiet");
+  EXPECT_EQ(plain.code, 0) << plain.err;
+  EXPECT_EQ(plain.out, unit.out);
+  EXPECT_EQ(lilytank_.files("a"), lilytank_.files("b"));
+  refused(
+      "run tiny.toml --set tank.radius=.3",
+      "--set tank.radius=.3: tank.radius = \".3\" has no unit - write 0.3 without quotes for SI "
+      "units, or name the unit");
+}
+
+TEST_F(OptionsTest, FilesOfOtherVerbsAreCalledWhatTheyAre) {
+  for (const char* verb : {"run", "info", "flow", "analyze", "calibrate", "recording info",
+                           "recording convert --out o", "diagnose tiny.toml"}) {
+    refused(std::string(verb) + " drops.toml",
+            "drops.toml:2:8: this is an experiment of point bodies: for lilytank diagnose, one at "
+            "a time");
+  }
+  for (const char* verb : {"run", "info", "calibrate"}) {
+    refused(std::string(verb) + " study.toml",
+            "study.toml:2:2: [study] is not of a scenario, but of the file of a study: for "
+            "lilytank study");
+    refused(std::string(verb) + " search.toml",
+            "search.toml:1:2: [optimize] is not of a scenario, but of the file of an optimisation: "
+            "for lilytank optimize");
+  }
+}
+
+// Recordings of a tank may be of points, too.
+TEST_F(OptionsTest, PointsInATankAreNotRefused) {
+  lilytank_.here.write("p.csv", "frame,time,id,x,y\n0,0,0,0,0\n1,0.1,0,0.001,0\n");
+  lilytank_.here.write("p.toml",
+                       "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"p.csv\"\n");
+  const Answer a = lilytank_("recording info p.toml");
+  EXPECT_EQ(a.code, 0) << a.err;
+}
+
+TEST_F(OptionsTest, HelpOfHelpIsHelp) {
+  const Answer a = lilytank_("help help");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out, lilytank_("help").out);
+  EXPECT_EQ(lilytank_("help --help").out, a.out);
+}
+
+TEST_F(OptionsTest, AnInterruptedCheckDoesNotPromiseWhatIsNotKept) {
+  const std::string command =
+      "cd '" + lilytank_.here.path() +
+      "' && timeout --preserve-status -s INT 1 '" LILYTANK_PROGRAM "' check '" LILYTANK_SOURCE_DIR
+      "/scenarios/rulesets/caterpillar7.rules' --lattice 100000 --quiet 2>err >out";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
+  EXPECT_EQ(lilytank_.here.read("err"),
+            "stopped; the same command begins again, as lattice worlds are not kept\n");
+  EXPECT_EQ(lilytank_.here.read("out"), "");
+}
+
+}  // namespace
+}  // namespace lilytank
