@@ -10,6 +10,6 @@ namespace lilytank::cli {
 /// file.
 void check_directory_can_be(const std::string& dir);
 /// Throws InputError where run_study would refuse the directory, in the same words.
-void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
+void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force);
 
 }  // namespace lilytank::cli

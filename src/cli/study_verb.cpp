@@ -43,7 +43,7 @@ std::string plan_line(const StudyPlan& plan, const StudyOptions& job) {
 }
 
 int dry_run(const StudyPlan& plan, const StudyOptions& job) {
-  check_study_directory(job.out, plan, job.force);
+  check_directory_of(plan, job.out, job.force);
   std::cout << "would run " << plan_line(plan, job) << "\n";
   for (std::size_t s = 0; s < plan.settings.size(); ++s) {
     int here = 0;

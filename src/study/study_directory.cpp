@@ -145,17 +145,19 @@ std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std
   return rows;
 }
 
-void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
-  std::error_code problem;
-  if (fs::exists(dir, problem) && !fs::is_directory(dir, problem)) {
+void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
+  std::error_code ignored;
+  if (fs::exists(dir, ignored) && !fs::is_directory(dir, ignored)) {
     throw InputError("'" + dir + "' is a file; the results need a directory");
   }
   spare_study_file(dir);
-  if (force) {
-    remove_other(dir, plan);
-  } else {
-    refuse_other(dir, plan);
-  }
+  if (!force) refuse_other(dir, plan);
+}
+
+void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
+  check_study_directory(dir, plan, force);
+  if (force) remove_other(dir, plan);
+  std::error_code problem;
   fs::create_directories(dir, problem);
   if (problem) throw InputError("cannot make directory '" + dir + "': " + problem.message());
   const std::string file = file_in(dir, study_file::plan), text = plan_text(plan);

@@ -26,6 +26,10 @@ inline constexpr const char* rows_prefix = "rows-";  ///< "rows-0001.csv"
 /// `foreign`: the name of a file with rows of another study, or "".
 std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std::string& foreign);
 
+/// Looks into a directory, changing nothing. Throws InputError if it is a file, or another study's,
+/// unless `force`, or if it holds a study file of the user's.
+void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
+
 /// Makes the directory and says whose it is. Throws InputError if it is another study's, unless
 /// `force`: then the other study's files are removed.
 void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force);

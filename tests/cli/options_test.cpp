@@ -1,8 +1,7 @@
 // Options and files that a verb cannot do anything with: refused by name, with what would be right.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "cli/process.hpp"
 #include "cli/program.hpp"
 #include "support/study_rig.hpp"
 
@@ -123,14 +122,14 @@ TEST_F(OptionsTest, HelpOfHelpIsHelp) {
 }
 
 TEST_F(OptionsTest, AnInterruptedCheckDoesNotPromiseWhatIsNotKept) {
-  const std::string command =
-      "cd '" + lilytank_.here.path() +
-      "' && timeout --preserve-status -s INT 1 '" LILYTANK_PROGRAM "' check '" LILYTANK_SOURCE_DIR
-      "/scenarios/rulesets/caterpillar7.rules' --lattice 100000 --quiet 2>err >out";
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 3);
-  EXPECT_EQ(lilytank_.here.read("err"),
+  Process check(lilytank_.here.path(),
+                {"check", LILYTANK_SOURCE_DIR "/scenarios/rulesets/caterpillar7.rules", "--lattice",
+                 "100000", "--quiet"},
+                "said");
+  check.await([&] { return check.catches(SIGINT); });
+  EXPECT_EQ(check.end(SIGINT), 3);
+  EXPECT_EQ(lilytank_.here.read("said"),
             "stopped; the same command begins again, as lattice worlds are not kept\n");
-  EXPECT_EQ(lilytank_.here.read("out"), "");
 }
 
 }  // namespace

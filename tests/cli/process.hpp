@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <thread>
@@ -15,16 +16,17 @@ namespace lilytank {
 
 class Process {
  public:
-  /// Starts the program in `directory`; what it says is thrown away.
-  Process(const std::string& directory, const std::vector<std::string>& arguments)
+  /// Starts the program in `directory`; what it says goes to a file there, or is thrown away.
+  Process(const std::string& directory, const std::vector<std::string>& arguments,
+          const std::string& says = "/dev/null")
       : child_(::fork()) {
     if (child_ != 0) return;
     if (::chdir(directory.c_str()) != 0) ::_exit(99);
     std::vector<char*> words{const_cast<char*>("lilytank")};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
-    const int null = ::open("/dev/null", O_WRONLY);
-    ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
+    const int out = ::open(says.c_str(), O_WRONLY | O_CREAT, 0666);
+    ::dup2(out, STDOUT_FILENO), ::dup2(out, STDERR_FILENO);
     ::execv(LILYTANK_PROGRAM, words.data());
     ::_exit(98);
   }
@@ -44,6 +46,16 @@ class Process {
     siginfo_t info{};
     ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
     return info.si_pid != 0;
+  }
+
+  /// Whether it would answer a signal rather than end by it.
+  bool catches(int signal) const {
+    std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+    for (std::string word; status >> word;) {
+      if (word != "SigCgt:" || !(status >> word)) continue;
+      return (std::stoull(word, nullptr, 16) >> (signal - 1) & 1) != 0;
+    }
+    return false;
   }
 
   /// Waits until `enough` says so or the process has ended.
