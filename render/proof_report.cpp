@@ -12,7 +12,6 @@ constexpr double kUsual = 1.959964;  // deviations that a half width is
 constexpr double kFar = 3;           // half widths, where larger errors are drawn
 constexpr double kRoom = 1.2;        // of z, beside the outermost
 constexpr double kApart = 0.009;     // of the axis' length, that bars are apart at least
-constexpr double kLeastZ = 0.5;      // proof_figures() gives this for all that is expected of less
 
 // `apart`: a factor of z by which bars are to be apart from those in `taken`, or they would hide
 // them: they move to the right until they are.
@@ -152,8 +151,9 @@ std::string outcomes_caption(const ProofFigures& of) {
   std::string out =
       "What was said of every experiment in which something was missing. One that was told "
       "rightly and has a wrong name besides counts as one with a wrong name.";
-  const bool held = std::any_of(of.points.begin(), of.points.end(),
-                                [](const ProofPoint& p) { return p.expected_z <= kLeastZ; });
+  const bool held = std::any_of(of.points.begin(), of.points.end(), [](const ProofPoint& p) {
+    return p.expected_z <= ProofFigures::kLeastZ;
+  });
   if (held) out += " What shows next to nothing, expected z 0.5 or less, stands at the left edge.";
   return out;
 }

@@ -10,7 +10,7 @@
 namespace lilytank {
 namespace {
 
-// What the base station knows at a frame, as BaseStation of src/control does tick by tick.
+// What the base station of src/control knew at a frame, told by what is stored.
 class Follower {
  public:
   explicit Follower(const StoredRun& run) : run_(run), model_(run.scenario.model) {
@@ -20,7 +20,7 @@ class Follower {
   // The flow in force from frame `f` on; frames are asked for in turn.
   int field_at_frame(int f) {
     const double time = run_.trajectory.time[static_cast<std::size_t>(f)];
-    const int copies = finished_copies(f);
+    const int copies = copies_at(f);
     const int rules = last(CommandKind::replace_ruleset, &Command::ruleset, time, copies);
     const int field = last(CommandKind::pump_power, &Command::field, time, copies);
     ruleset_ = static_cast<std::size_t>(rules);
@@ -28,23 +28,13 @@ class Follower {
   }
 
  private:
-  int with_label(int f, int label) const {
+  int copies_at(int f) const {
     const Trajectory& t = run_.trajectory;
-    const auto stride = static_cast<std::ptrdiff_t>(t.markings.size() / t.time.size());
-    const auto first = t.markings.begin() + f * stride;
-    return static_cast<int>(std::count_if(first, first + t.modules,
-                                          [&](const Markings& m) { return m.label == label; }));
-  }
-
-  int finished_copies(int f) const {
-    if (run_.trajectory.markings.empty() || ruleset_ >= joins_.size()) return 0;
-    const auto& joins = joins_[ruleset_];
-    int fewest = joins.empty() ? 0 : run_.trajectory.modules;
-    for (const auto& [a, b] : joins) {
-      const int modules = with_label(f, a) + (a == b ? 0 : with_label(f, b));  // a join has two
-      fewest = std::min(fewest, modules / 2);
-    }
-    return fewest;
+    if (t.markings.empty() || ruleset_ >= joins_.size()) return 0;
+    const std::size_t first = static_cast<std::size_t>(f) * (t.markings.size() / t.time.size());
+    return finished_copies(joins_[ruleset_], t.modules, [&](int i) {
+      return t.markings[first + static_cast<std::size_t>(i)].label;
+    });
   }
 
   // What the last command of a kind says, those by copies after those by time; 0: none yet.

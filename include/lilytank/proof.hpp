@@ -106,6 +106,7 @@ struct ProofPower {
 };
 /// What figures show of a proof.
 struct ProofFigures {
+  static constexpr double kLeastZ = 0.5;  ///< what is expected of less stands here
   std::vector<ProofPoint> points;
   std::vector<ProofPower> named, two, unnamed;  ///< by rising z
   /// Errors of parameters in half widths of their 95 % intervals, sorted: the baseline's, and those

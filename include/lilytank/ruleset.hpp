@@ -77,10 +77,25 @@ Match match(const Ruleset& rules, Label initiator, Label responder, bool standin
 /// update rule goes on from. A finished copy holds one module of each.
 std::vector<std::array<int, 2>> final_labels(const Ruleset& rules);
 
+/// Finished copies by the labels of `modules` modules, label_of(i), and by those that final joins
+/// leave: a join has two modules; of several joins the one that was made least often counts.
+template <class LabelOf>
+int finished_copies(const std::vector<std::array<int, 2>>& joins, int modules, LabelOf&& label_of) {
+  int fewest = joins.empty() ? 0 : modules;
+  for (const auto& [a, b] : joins) {
+    int with = 0;
+    for (int i = 0; i < modules; ++i) with += label_of(i) == a || label_of(i) == b ? 1 : 0;
+    fewest = fewest < with / 2 ? fewest : with / 2;
+  }
+  return fewest;
+}
+
 /// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file,
 /// line, column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
 Ruleset read_ruleset(const std::string& file);
+/// Copies of the target that so many modules can make; 0 without a target.
+int possible_copies(const Ruleset& rules, int modules);
 /// How often a link rule fires of all dockings that fire one with its left side, in either order:
 /// its p as a share of all of theirs, 0 where that is 0.
 double docking_share(const Ruleset& rules, const Rule& rule);

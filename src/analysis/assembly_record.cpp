@@ -31,7 +31,7 @@ void AssemblyRecord::build_table() {
   if (model_->rulesets.empty()) return;
   const Ruleset& rules = model_->rulesets[static_cast<std::size_t>(ruleset_)];
   target_ = canonical_shape(rules.target);
-  if (!target_.empty()) possible_ = model_->module.count / static_cast<int>(target_.size());
+  possible_ = lilytank::possible_copies(rules, model_->module.count);
   std::vector<Pattern> seeds;
   for (const std::string& key : seeds_) seeds.push_back(pattern_of(key));
   table_ = species_from(rules, seeds, kMostSpecies, std::max(1, model_->module.count));

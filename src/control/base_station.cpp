@@ -72,15 +72,8 @@ void BaseStation::obey(Tick& tick, int index) const {
 int BaseStation::finished_copies(const State& state) const {
   if (final_labels_.empty()) return 0;
   const auto& joins = final_labels_[static_cast<std::size_t>(state.ruleset)];
-  int fewest = joins.empty() ? 0 : model_->module.count;
-  for (const auto& [a, b] : joins) {
-    int modules = 0;  // a join has two
-    for (const Firmware& firmware : state.firmware) {
-      if (firmware.label == a || firmware.label == b) ++modules;
-    }
-    fewest = std::min(fewest, modules / 2);
-  }
-  return fewest;
+  const auto label_of = [&](int i) { return state.firmware[static_cast<std::size_t>(i)].label; };
+  return lilytank::finished_copies(joins, model_->module.count, label_of);
 }
 
 // Index of the command of a kind that holds, those of feedback counted after those of time; -1:

@@ -53,6 +53,10 @@ Match match(const Ruleset& rules, Label initiator, Label responder, bool standin
   return found;
 }
 
+int possible_copies(const Ruleset& rules, int modules) {
+  return rules.target.empty() ? 0 : modules / static_cast<int>(rules.target.size());
+}
+
 double docking_share(const Ruleset& rules, const Rule& rule) {
   double sum = 0;
   for (const Rule& other : rules.rules) {

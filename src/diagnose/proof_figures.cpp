@@ -11,14 +11,13 @@ namespace lilytank {
 namespace {
 
 constexpr std::array<double, 5> kEdges = {0, 5, 10, 20, 1e300};  // of expected z
-constexpr double kLeastZ = 0.5;  // what is expected of less is drawn here
 
 ProofPoint point_of(const ProofWorld& w) {
   ProofPoint out;
   out.row = w.kind == "two"       ? "two effects"
             : w.kind == "unnamed" ? "a law of no effect"
                                   : w.effects[0];
-  out.expected_z = std::max(w.expected_z, kLeastZ);
+  out.expected_z = std::max(w.expected_z, ProofFigures::kLeastZ);
   // A wrong name is one, whatever was told rightly beside it.
   if (w.wrong_name()) {
     out.outcome = ProofPoint::Outcome::wrong_name;
@@ -38,7 +37,7 @@ std::vector<ProofPower> power_of(std::span<const Proof> proofs, const std::strin
       const auto above = std::upper_bound(kEdges.begin() + 1, kEdges.end() - 1, w.expected_z);
       ProofPower& of = ranges[static_cast<std::size_t>(above - kEdges.begin() - 1)];
       of.all += 1, of.right += w.right() ? 1 : 0;
-      of.z += std::log(std::max(w.expected_z, kLeastZ));
+      of.z += std::log(std::max(w.expected_z, ProofFigures::kLeastZ));
     }
   }
   std::vector<ProofPower> out;

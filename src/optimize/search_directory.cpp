@@ -1,12 +1,10 @@
 #include "optimize/search_directory.hpp"
 
 #include <filesystem>
-#include <sstream>
 
 #include "io/atomic_file.hpp"
 #include "lilytank/search_run.hpp"
 #include "study/search_store.hpp"
-#include "text/fnv.hpp"
 
 namespace lilytank {
 namespace {
@@ -18,15 +16,6 @@ const std::string kAdvice = "; choose another directory, or --force to replace i
 bool is_there(const fs::path& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
-}
-
-/// Whether a checkpoint is of the search that `source` begins.
-bool is_search_of(const Optimization::Source& source, const std::string& state) {
-  Fnv hash;
-  hash.add(source.identity()), hash.add(source.search()->save());
-  std::ostringstream line;
-  line << "\nidentity " << std::hex << hash.value() << "\n";
-  return state.find(line.str()) != std::string::npos;
 }
 
 }  // namespace
@@ -51,7 +40,9 @@ void check_search_directory(const Optimization::Source& source, const std::strin
   }
   const fs::path state = fs::path(dir) / search_file::state;
   if (is_there(state)) {
-    if (!source.file.race && is_search_of(source, read_whole(state.string()))) return;
+    if (!source.file.race &&
+        is_search_of(read_whole(state.string()), source.identity(), *source.search()))
+      return;
     throw InputError("'" + dir + "' holds another search" + kAdvice);
   }
   for (const char* name : {search_file::evaluations, search_file::history}) {

@@ -58,11 +58,6 @@ SourcePlace place_in(const std::string& file, const std::vector<std::string>& ke
   return {file, 0, 0};
 }
 
-int possible_copies(const Model& model) {
-  if (model.rulesets.empty() || model.rulesets.front().target.empty()) return 0;
-  return model.module.count / static_cast<int>(model.rulesets.front().target.size());
-}
-
 }  // namespace
 
 Optimization::Source::Source(OptimizeFile what, std::vector<std::string> overlays,
@@ -123,7 +118,9 @@ void Optimization::Source::prepare() {
   plan.name = file.name, plan.scenarios = files_;
   plan.seed = file.seed, plan.fitness = file.fitness;
   plan.horizon = base.duration;
-  plan.possible = possible_copies(base.model);
+  plan.possible = base.model.rulesets.empty()
+                      ? 0
+                      : possible_copies(base.model.rulesets.front(), base.model.module.count);
   plan.hybrid = file.hybrid, plan.agitation = file.agitation.kind;
   plan.method = file.method == SearchMethod::swarm ? "swarm" : "cma_es";
   plan.replicates = file.compare.replicates;

@@ -6,6 +6,7 @@
 
 #include "recording/table.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -62,11 +63,6 @@ std::string names_text(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list.size() > 200 ? list.substr(0, 200) + ", ..." : list;
-}
-
-std::string in_small_letters(std::string name) {
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return name;
 }
 
 /// The column that differs by large and small letters alone, or the nearest word.

@@ -5,6 +5,7 @@
 #include "recording/columns.hpp"
 #include "recording/table.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -37,12 +38,11 @@ RecordingFormat format_of_header(const std::vector<std::string_view>& names) {
 }
 
 /// Names that would be those of the tidy format in small letters: "; in small letters 'X' ..."
-std::string in_small_letters(const std::vector<std::string_view>& names) {
+std::string tidy_if_small(const std::vector<std::string_view>& names) {
   std::vector<std::string> small;
   std::string changed;
   for (const std::string_view name : names) {
-    small.emplace_back(name);
-    for (char& c : small.back()) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    small.push_back(in_small_letters(name));
     if (small.back() != name) changed += (changed.empty() ? "'" : ", '") + std::string(name) + "'";
   }
   const bool tidy = format_of_header({small.begin(), small.end()}) == RecordingFormat::tidy;
@@ -73,7 +73,7 @@ RecordingFormat detect_format(LineSource& lines) {
     throw InputError(lines.place(1),
                      "these columns are of no format that is known: name the format, or say what "
                      "the columns mean (format = \"table\")" +
-                         in_small_letters(names));
+                         tidy_if_small(names));
   }
   lines.again();
   return format;

@@ -45,25 +45,36 @@ std::string beginning(std::int64_t batch, std::int64_t number, const Trial& tria
   return out;
 }
 
-/// The first three lines of a checkpoint.
+/// The first two lines of a checkpoint.
+std::string first_lines(std::uint64_t identity) {
+  return std::string(kMagic) + "\nidentity " + hex(identity) + "\n";
+}
+
+/// The first three.
 std::string head_of(std::uint64_t identity, std::int64_t batches, bool finished) {
-  return std::string(kMagic) + "\nidentity " + hex(identity) + "\nbatches " +
-         std::to_string(batches) + (finished ? " finished\n" : " begun\n");
+  return first_lines(identity) + "batches " + std::to_string(batches) +
+         (finished ? " finished\n" : " begun\n");
+}
+
+std::uint64_t identity_of(const std::string& what, const Search& fresh) {
+  Fnv hash;
+  hash.add(what), hash.add(fresh.save());
+  return hash.value();
 }
 
 }  // namespace
 
+bool is_search_of(const std::string& state, const std::string& what, const Search& fresh) {
+  return state.starts_with(first_lines(identity_of(what, fresh)));
+}
+
 SearchStore::SearchStore(std::string dir, const std::string& what, const Search& fresh, bool force)
-    : dir_(std::move(dir)) {
-  Fnv hash;
-  hash.add(what), hash.add(fresh.save());
-  identity_ = hash.value();
+    : dir_(std::move(dir)), identity_(identity_of(what, fresh)) {
   for (const SearchAxis& axis : fresh.space()) axes_.push_back(axis.name);
   lock_.take(dir_);
   const bool begun = exists(path(search_file::state));
   const std::string state = begun ? read_whole(path(search_file::state)) : "";
-  const bool ours = state.starts_with(std::string(kMagic) + "\nidentity " + hex(identity_) + "\n");
-  if (ours) {
+  if (state.starts_with(first_lines(identity_))) {
     resume(state);
     return;
   }

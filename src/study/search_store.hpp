@@ -25,6 +25,10 @@ inline constexpr const char* evaluations = "evaluations.csv";
 inline constexpr const char* history = "history.csv";
 }  // namespace search_file
 
+/// Whether the text of a checkpoint is of the search that begins as `fresh`. `what`: names it
+/// beside its own options.
+bool is_search_of(const std::string& state, const std::string& what, const Search& fresh);
+
 class SearchStore {
  public:
   /// Takes the directory. `what`: names the search beside its own options. Throws InputError if the

@@ -77,8 +77,7 @@ std::string short_name(const StudyAxis& axis) {
 int most_copies(const Model& model) {
   int most = 0;
   for (const Ruleset& rules : model.rulesets) {
-    const auto size = static_cast<int>(rules.target.size());
-    if (size > 0) most = std::max(most, model.module.count / size);
+    most = std::max(most, possible_copies(rules, model.module.count));
   }
   return most;
 }

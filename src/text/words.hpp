@@ -15,6 +15,13 @@ inline std::string listed(const std::vector<std::string>& names) {
   return out;
 }
 
+/// ASCII letters alone.
+inline std::string in_small_letters(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
 /// "K_F" of "forces.face_drag.K_F".
 inline std::string own_name(const std::string& path) {
   return path.substr(path.rfind('.') + 1);

@@ -1,9 +1,6 @@
 // Options and files that a verb cannot do anything with: refused by name, with what would be right.
-#include <gtest/gtest.h>
-
 #include "cli/process.hpp"
-#include "cli/program.hpp"
-#include "support/study_rig.hpp"
+#include "cli/refusals.hpp"
 
 namespace lilytank {
 namespace {
@@ -12,27 +9,14 @@ const std::string kDrops =
     "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"drops.csv\"\ntime = \"t\"\n"
     "x = \"y\"\n";
 
-class OptionsTest : public testing::Test {
+class OptionsTest : public RefusalTest {
  protected:
   OptionsTest() {
-    lilytank_.here.write("tiny.toml", kTiny);
-    lilytank_.here.write("pair.rules", test::kPairRulesText);
-    lilytank_.here.write("pair.toml", test::kPairScenario);
     lilytank_.here.write("drops.toml", kDrops);
     lilytank_.here.write("study.toml", "\n[study]\nscenario = \"pair.toml\"\n");
     lilytank_.here.write("search.toml", "[optimize]\nscenario = \"pair.toml\"\n");
     lilytank_.here.write("t.txt", "###\n");
   }
-  /// One line, exit code 2, no file other than before.
-  void refused(const std::string& arguments, const std::string& message) const {
-    const auto before = lilytank_.files();
-    const Answer a = lilytank_(arguments);
-    EXPECT_EQ(a.code, 2) << arguments;
-    EXPECT_EQ(a.out, "") << arguments;
-    EXPECT_EQ(a.err, message + "\n") << arguments;
-    EXPECT_EQ(lilytank_.files(), before) << arguments;
-  }
-  Program lilytank_;
 };
 
 TEST_F(OptionsTest, ASwitchThatIsFalseIsOff) {

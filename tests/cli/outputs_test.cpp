@@ -5,8 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/program.hpp"
-#include "support/study_rig.hpp"
+#include "cli/refusals.hpp"
 
 namespace lilytank {
 namespace {
@@ -19,12 +18,9 @@ const std::string kSearch =
     "[optimize]\nscenario = \"pair.toml\"\nevaluations = 12\npopulation = 4\n"
     "final_evaluations = 4\n[[parameter]]\npath = \"rules.part.p\"\nlow = 0.001\nhigh = 1\n";
 
-class OutputsTest : public testing::Test {
+class OutputsTest : public RefusalTest {
  protected:
   OutputsTest() {
-    lilytank_.here.write("tiny.toml", kTiny);
-    lilytank_.here.write("pair.rules", test::kPairRulesText);
-    lilytank_.here.write("pair.toml", test::kPairScenario);
     lilytank_.here.write("a.csv", kTable);
     lilytank_.here.write("lab/a.csv", kTable);
     lilytank_.here.write("lab/b.csv", kTable);
@@ -34,15 +30,6 @@ class OutputsTest : public testing::Test {
     fs::create_symlink("a.csv", lilytank_.here.path("link.csv"));
   }
 
-  /// One line, exit code 2, no file other than before.
-  void refused(const std::string& arguments, const std::string& message) const {
-    const auto before = lilytank_.files();
-    const Answer a = lilytank_(arguments);
-    EXPECT_EQ(a.code, 2) << arguments;
-    EXPECT_EQ(a.out, "") << arguments;
-    EXPECT_EQ(a.err, message + "\n") << arguments;
-    EXPECT_EQ(lilytank_.files(), before) << arguments;
-  }
   /// Whether a dry run refuses just what the run itself does, in the same words.
   void refused_dry_as_well(const std::string& arguments) const {
     const auto before = lilytank_.files();
@@ -54,7 +41,6 @@ class OutputsTest : public testing::Test {
     EXPECT_EQ(dry.err, real.err) << arguments;
     EXPECT_EQ(dry.out, "") << arguments;
   }
-  Program lilytank_;
 };
 
 TEST_F(OutputsTest, WhatIsReadIsNotOverwritten) {

@@ -110,4 +110,16 @@ class Pixels {
   std::string data_;
 };
 
+/// Pixels of a PNG that `is` says yes to.
+template <class Is>
+int count_pixels(const std::string& file, const Is& is) {
+  const Pixels pixels(file);
+  const Size size = png_size(file);
+  int count = 0;
+  for (int y = 0; pixels.read() && y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) count += is(pixels.at(x, y)) ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace lilytank::sample

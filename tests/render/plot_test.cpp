@@ -72,16 +72,9 @@ TEST(Plot, TakesOddNumbers) {
 
 // Pixels of a clear colour, as curves and markers have.
 int coloured_pixels(const std::string& file) {
-  const sample::Pixels pixels(file);
-  const sample::Size size = sample::png_size(file);
-  int count = 0;
-  for (int y = 0; pixels.read() && y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const sample::Pixel p = pixels.at(x, y);
-      count += std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 100;
-    }
-  }
-  return count;
+  return sample::count_pixels(file, [](const sample::Pixel& p) {
+    return std::max({p.r, p.g, p.b}) - std::min({p.r, p.g, p.b}) > 100;
+  });
 }
 
 TEST(Plot, ALegendHidesNoMarker) {

@@ -109,16 +109,8 @@ TEST(ProofFigures, SayWhoseZTwoEffectsHave) {
 }
 
 int red_pixels(const std::string& file) {
-  const sample::Pixels pixels(file);
-  const sample::Size size = sample::png_size(file);
-  int count = 0;
-  for (int y = 0; pixels.read() && y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const sample::Pixel p = pixels.at(x, y);
-      count += p.r > 180 && p.g < 120 && p.b < 140;
-    }
-  }
-  return count;
+  return sample::count_pixels(
+      file, [](const sample::Pixel& p) { return p.r > 180 && p.g < 120 && p.b < 140; });
 }
 
 TEST(ProofFigures, FailuresLieAboveWhatIsRight) {

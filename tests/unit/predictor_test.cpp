@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "diagnose/nuisances.hpp"
 #include "diagnose/scan.hpp"
@@ -15,40 +14,17 @@
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/world.hpp"
+#include "support/filmed.hpp"
 #include "support/moving_bodies.hpp"
 #include "support/worlds.hpp"
 
 namespace lilytank {
 namespace {
 
+using test::drifting;
+using test::filmed;
 using test::MovingBodies;
-
-// Modules far from each other in the built-in tank, without latches.
-Model drifting(int modules) {
-  Model model = standard_model();
-  model.module.count = modules;
-  model.control.latches = false;
-  model.steps_per_tick = 5, model.dt = kTick / 5;
-  return model;
-}
-
-std::vector<Recording> filmed(const Model& model, double seconds, std::uint64_t seed) {
-  RecordingShape shape;
-  shape.name = "simulated", shape.bodies = model.module.count;
-  shape.frames = static_cast<int>(30 * seconds) + 1;
-  const Emulator emulator(model, {}, {shape}, {});
-  return *emulator.record({}, seed);
-}
-
-ScorePlan plan_for(const Model& model, const std::vector<Recording>& recordings) {
-  ScorePlan plan;
-  plan.model = model;
-  plan.predictor = predictor_options(model, recordings);
-  plan.effects = effect_catalogue(model);
-  plan.shapes = shape_catalogue(model, 60);
-  plan.modules = model.module.count;
-  return plan;
-}
+using test::plan_for;
 
 std::size_t entry_named(const ScorePlan& plan, const std::string& name) {
   const std::vector<ScoreEntry> entries = plan.entries();
@@ -126,54 +102,6 @@ TEST(Predictor, RefusesTracksWithoutHeadings) {
   auto recordings = filmed(model, 2, 1);
   for (Track& t : recordings[0].tracks) t.theta.clear();
   EXPECT_THROW(predict(model, recordings, {}, [](const PredictedFrame&) {}), InputError);
-}
-
-// A piece of a track that goes on takes its body along: it is not carried twice.
-TEST(Predictor, ABodyIsCarriedOnceWhereItsTrackIsInPieces) {
-  const Model model = drifting(4);
-  auto recordings = filmed(model, 6, 1);
-  Track late = recordings[0].tracks[1];
-  Track& first = recordings[0].tracks[1];
-  for (auto* of : {&first.x, &first.y, &first.theta}) of->resize(60);
-  late.first = 69;  // 0.3 s unseen
-  for (auto* of : {&late.x, &late.y, &late.theta}) of->erase(of->begin(), of->begin() + 69);
-  recordings[0].tracks.push_back(late);
-  std::size_t most = 0;
-  predict(model, recordings, predictor_options(model, recordings), [&](const PredictedFrame& f) {
-    most = std::max(most, f.dx.size());
-    const std::set<int> once(f.module.begin(), f.module.end());
-    EXPECT_EQ(once.size(), f.module.size());
-  });
-  EXPECT_EQ(most, 4u);
-}
-
-// More identities than bodies: what modules differ in is not told, and the rest is as before.
-TEST(Scores, DoWithoutIdentities) {
-  const Model model = drifting(4);
-  auto recordings = filmed(model, 20, 1);
-  ScorePlan plan = plan_for(model, recordings);
-  const std::size_t all = plan.entries().size();
-  Track late = recordings[0].tracks[1];
-  Track& first = recordings[0].tracks[1];
-  for (auto* of : {&first.x, &first.y, &first.theta}) of->resize(300);
-  late.first = 300, late.id = 40;
-  for (auto* of : {&late.x, &late.y, &late.theta}) of->erase(of->begin(), of->begin() + 300);
-  recordings[0].tracks.push_back(late);
-  plan.modules = 5, plan.identities = false;
-  EXPECT_EQ(plan.entries().size(), all - 12);
-  const std::vector<double> of = score(plan, recordings);
-  EXPECT_EQ(of.size(), plan.entries().size());
-  EXPECT_TRUE(std::all_of(of.begin(), of.end(), [](double v) { return std::isfinite(v); }));
-}
-
-// A module of which nothing is told has no part in what modules differ in.
-TEST(Scores, AModuleThatIsNotThereIsNotTheLeast) {
-  const Model model = drifting(4);
-  const auto recordings = filmed(model, 20, 1);
-  ScorePlan plan = plan_for(model, recordings);
-  const std::vector<double> before = score(plan, recordings);
-  plan.modules = 6;
-  EXPECT_EQ(score(plan, recordings), before);
 }
 
 // A push that the model lacks shows in its own score, at its size; without it the score is small.
