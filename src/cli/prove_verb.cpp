@@ -51,15 +51,7 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
   return Exit::done;
 }
 
-}  // namespace
-
-int prove_verb(const Arguments& arguments) {
-  VerbOptions options(
-      "prove", "[PROOF...]",
-      "Seals experiments with known effects, none, or odd ones, diagnoses them "
-      "blind, opens the key, and tells how often the diagnosis was right. With "
-      "the directories of finished proofs: tells it of all their experiments, with --out "
-      "as a report.");
+void add_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "only", "null, named, two or unnamed: leave out those of another kind", text(), "KIND")(
@@ -72,14 +64,9 @@ int prove_verb(const Arguments& arguments) {
       "out", "directory of the results (out/proof)", text(), "DIR")(
       "threads", "worlds at a time (default: one a core)", text(), "N")(
       "force", "replace another proof's files")("quiet", "no progress");
-  if (!options.parse(arguments)) return Exit::done;
-  if (!options.positional().empty()) {
-    for (const char* other : {"worlds", "only", "minutes", "known-flow", "drawn-tank", "modelled",
-                              "budget", "seed", "threads"}) {
-      if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
-    }
-    return tell_together(options.positional(), options.text("out", ""), options.has("force"));
-  }
+}
+
+ProofOptions proof_options(VerbOptions& options) {
   ProofOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
   job.only = options.text("only", "");
@@ -97,22 +84,46 @@ int prove_verb(const Arguments& arguments) {
   job.diagnosis.force = options.has("force");
   job.diagnosis.out = options.text("out", (std::filesystem::path("out") / "proof").string());
   if (job.diagnosis.out.empty()) options.refuse("--out is empty");
-  job.diagnosis.stop = &stop_signal();
+  return job;
+}
+
+// The key is not among them: it stays closed until the last world is judged.
+void keep(const Proof& so_far, const std::filesystem::path& dir) {
+  write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
+  write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
+  write_atomically((dir / "tank.txt").string(), so_far.tank + "\n");
+  write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
+}
+
+}  // namespace
+
+int prove_verb(const Arguments& arguments) {
+  VerbOptions options(
+      "prove", "[PROOF...]",
+      "Seals experiments with known effects, none, or odd ones, diagnoses them "
+      "blind, opens the key, and tells how often the diagnosis was right. With "
+      "the directories of finished proofs: tells it of all their experiments, with --out "
+      "as a report.");
+  add_options(options);
+  if (!options.parse(arguments)) return Exit::done;
+  if (!options.positional().empty()) {
+    for (const char* other : {"worlds", "only", "minutes", "known-flow", "drawn-tank", "modelled",
+                              "budget", "seed", "threads"}) {
+      if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
+    }
+    return tell_together(options.positional(), options.text("out", ""), options.has("force"));
+  }
+  ProofOptions job = proof_options(options);
+  const std::filesystem::path dir(job.diagnosis.out);
   Progress progress(options.has("quiet"));
+  job.diagnosis.stop = &stop_signal();
   job.diagnosis.progress = [&](double done, const std::string& stage) {
     progress.tell(done, stage);
   };
   job.sealed = [](const std::string& hash) {
     std::cout << "sealed; SHA-256 of the key: " << hash << std::endl;
   };
-  const std::filesystem::path dir(job.diagnosis.out);
-  // The key stays closed until the last world is judged.
-  job.judged = [&](const Proof& so_far) {
-    write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
-    write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
-    write_atomically((dir / "tank.txt").string(), so_far.tank + "\n");
-    write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
-  };
+  job.judged = [&](const Proof& so_far) { keep(so_far, dir); };
   const auto proof = prove(job);
   progress.clear();
   if (!proof) {
