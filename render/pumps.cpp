@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "control/commands.hpp"
 #include "streamlines.hpp"
 #include "text/number.hpp"
 
@@ -20,9 +21,15 @@ class Follower {
   // The flow in force from frame `f` on; frames are asked for in turn.
   int field_at_frame(int f) {
     const double time = run_.trajectory.time[static_cast<std::size_t>(f)];
+    const auto& commands = model_.commands;  // in order of time
+    const auto given = static_cast<int>(std::count_if(
+        commands.begin(), commands.end(), [&](const Command& c) { return c.at <= time; }));
     const int copies = copies_at(f);
-    const int rules = last(CommandKind::replace_ruleset, &Command::ruleset, time, copies);
-    const int field = last(CommandKind::pump_power, &Command::field, time, copies);
+    const auto holds = [&](CommandKind kind, int Command::*what) {
+      return said_by(model_, last_command(model_, kind, given, copies), what);
+    };
+    const int rules = holds(CommandKind::replace_ruleset, &Command::ruleset);
+    const int field = holds(CommandKind::pump_power, &Command::field);
     ruleset_ = static_cast<std::size_t>(rules);
     return field;
   }
@@ -35,18 +42,6 @@ class Follower {
     return finished_copies(joins_[ruleset_], t.modules, [&](int i) {
       return t.markings[first + static_cast<std::size_t>(i)].label;
     });
-  }
-
-  // What the last command of a kind says, those by copies after those by time; 0: none yet.
-  int last(CommandKind kind, int Command::*what, double time, int copies) const {
-    int out = 0;
-    for (const Command& c : model_.commands) {
-      if (c.kind == kind && c.at <= time) out = c.*what;
-    }
-    for (const Command& c : model_.feedback) {
-      if (c.kind == kind && c.copies <= copies) out = c.*what;
-    }
-    return out;
   }
 
   const StoredRun& run_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "control/commands.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -76,35 +78,15 @@ int BaseStation::finished_copies(const State& state) const {
   return lilytank::finished_copies(joins, model_->module.count, label_of);
 }
 
-// Index of the command of a kind that holds, those of feedback counted after those of time; -1:
-// none was given yet.
-int BaseStation::last_of(CommandKind kind, const State& state, int copies) const {
-  int last = -1;
-  for (int i = 0; i < state.next_command; ++i) {
-    if (model_->commands[i].kind == kind) last = i;
-  }
-  const int timed = static_cast<int>(model_->commands.size());
-  for (int i = 0; i < static_cast<int>(model_->feedback.size()); ++i) {
-    const Command& command = model_->feedback[i];
-    if (command.kind == kind && command.copies <= copies) last = timed + i;
-  }
-  return last;
-}
-
 void BaseStation::follow_copies(Tick& tick) const {
   State& state = tick.state;
   const int copies = finished_copies(state);
-  const auto timed = static_cast<int>(model_->commands.size());
   const auto choose = [&](CommandKind kind, int Command::*what, std::int32_t& now) {
-    const int index = last_of(kind, state, copies);
-    int wanted = 0;
-    if (index >= timed)
-      wanted = model_->feedback[index - timed].*what;
-    else if (index >= 0)
-      wanted = model_->commands[index].*what;
+    const int place = last_command(*model_, kind, state.next_command, copies);
+    const int wanted = said_by(*model_, place, what);
     if (wanted == now) return;
     now = wanted;
-    announce(tick, index);
+    announce(tick, place);
   };
   if (sets_ruleset_) choose(CommandKind::replace_ruleset, &Command::ruleset, state.ruleset);
   if (sets_pumps_) choose(CommandKind::pump_power, &Command::field, state.field);

@@ -22,7 +22,6 @@ class BaseStation {
  private:
   void obey(Tick& tick, int index) const;
   void follow_copies(Tick& tick) const;
-  int last_of(CommandKind kind, const State& state, int copies) const;
 
   const Model* model_;
   bool sets_ruleset_ = false, sets_pumps_ = false;             // by feedback
