@@ -198,16 +198,13 @@ EffectFit Naming::fit_shape(int shape, const Vector& knots) const {
   return out;
 }
 
-// Scales and thresholds by nulls that had no part in the covariance they are judged by.
-void Naming::calibrate(const Matrix& nulls, double false_alarms) {
+// What effects and knots gain in each null, by the covariance of nulls that it had no part in.
+Naming::NullGains Naming::gains_of(const Matrix& nulls) {
   const Eigen::Index n = nulls.rows();
   const Matrix whitener = whitener_;
-  struct Gains {
-    double named, all;
-  };
-  std::vector<std::vector<Gains>> gains(known_.size());  // of each null
-  Matrix knots(n, static_cast<Eigen::Index>(root_.size()));
-  std::vector<double> misfits;
+  NullGains out;
+  out.effects.resize(known_.size());
+  out.knots.resize(n, static_cast<Eigen::Index>(root_.size()));
   for (int fold = 0; fold < kFolds; ++fold) {
     Matrix others(n - (n - fold + kFolds - 1) / kFolds, nulls.cols());
     Eigen::Index at = 0;
@@ -219,21 +216,28 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
     for (Known& k : known) renew(k, Fingerprint(k.source));
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const Vector all = whitened(nulls.row(i).transpose() - centre_);
-      misfits.push_back(all.head(named_).squaredNorm());
+      out.misfits.push_back(all.head(named_).squaredNorm());
       for (std::size_t k = 0; k < known.size(); ++k) {
-        gains[k].push_back({fitted(known[k], known[k].named, all.head(named_)).gain,
-                            fitted(known[k], known[k].all, all).gain});
+        out.effects[k].push_back({fitted(known[k], known[k].named, all.head(named_)).gain,
+                                  fitted(known[k], known[k].all, all).gain});
       }
-      for (Eigen::Index s = 0; s < knots.cols(); ++s) {
-        knots(i, s) = all.segment(named_ + s * kKnots, kKnots).squaredNorm();
+      for (Eigen::Index s = 0; s < out.knots.cols(); ++s) {
+        out.knots(i, s) = all.segment(named_ + s * kKnots, kKnots).squaredNorm();
       }
     }
   }
   whitener_ = whitener;
+  return out;
+}
+
+// Scales and thresholds by what nulls gain.
+void Naming::calibrate(const Matrix& nulls, double false_alarms) {
+  const Eigen::Index n = nulls.rows();
+  const NullGains gains = gains_of(nulls);
   std::vector<double> largest_effect(static_cast<std::size_t>(n)), largest_shape = largest_effect;
   for (std::size_t k = 0; k < known_.size(); ++k) {
-    Gains mean{0, 0};
-    for (const Gains& g : gains[k]) {
+    Gains mean;
+    for (const Gains& g : gains.effects[k]) {
       mean.named += g.named / static_cast<double>(n), mean.all += g.all / static_cast<double>(n);
     }
     const Eigen::Index m = known_[k].named.first.cols();
@@ -241,19 +245,21 @@ void Naming::calibrate(const Matrix& nulls, double false_alarms) {
     const double freedom = static_cast<double>(m) * (known_[k].named.two_sided ? 1 : 0.5);
     known_[k].scale = std::max(0.5, mean.named / freedom);
     known_[k].scale_all = std::max(0.5, mean.all / freedom);
-    for (std::size_t i = 0; i < gains[k].size(); ++i) {
-      largest_effect[i] = std::max({largest_effect[i], z_of(gains[k][i].named, known_[k].scale, m),
-                                    z_of(gains[k][i].all, known_[k].scale_all, m)});
+    for (std::size_t i = 0; i < gains.effects[k].size(); ++i) {
+      const Gains& g = gains.effects[k][i];
+      largest_effect[i] = std::max({largest_effect[i], z_of(g.named, known_[k].scale, m),
+                                    z_of(g.all, known_[k].scale_all, m)});
     }
   }
   for (std::size_t s = 0; s < shape_scale_.size(); ++s) {
-    const auto of = knots.col(static_cast<Eigen::Index>(s));
+    const auto of = gains.knots.col(static_cast<Eigen::Index>(s));
     shape_scale_[s] = std::max(0.5, of.mean() / kKnots);
     for (std::size_t i = 0; i < largest_shape.size(); ++i) {
       largest_shape[i] = std::max(largest_shape[i],
                                   z_of(of(static_cast<Eigen::Index>(i)), shape_scale_[s], kKnots));
     }
   }
+  const std::vector<double>& misfits = gains.misfits;
   largest_effect_ = ExtremeLaw(largest_effect), largest_shape_ = ExtremeLaw(largest_shape);
   effect_threshold_ = largest_effect_.exceeded_with(0.5 * false_alarms);
   shape_threshold_ = largest_shape_.exceeded_with(0.3 * false_alarms);

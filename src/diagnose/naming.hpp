@@ -132,6 +132,16 @@ class Naming {
   EffectFit fit_shape(int shape, const Eigen::VectorXd& knots) const;
   double length(const Known& of, const Eigen::VectorXd& residual, double noise) const;
   double z_of(double gain, double scale, Eigen::Index freedom) const;
+  /// Of one effect in one null.
+  struct Gains {
+    double named = 0, all = 0;
+  };
+  struct NullGains {
+    std::vector<std::vector<Gains>> effects;  ///< [known][null]
+    Eigen::MatrixXd knots;                    ///< a row each null, a column each shape
+    std::vector<double> misfits;              ///< squared distance of the named numbers
+  };
+  NullGains gains_of(const Eigen::MatrixXd& nulls);
   void calibrate(const Eigen::MatrixXd& nulls, double false_alarms);
   /// Effects at once: places in the list of known ones, amplitudes, and what they leave.
   struct Together {
