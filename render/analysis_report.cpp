@@ -67,6 +67,13 @@ bool is_correlation(const AnalysisCurves& set) {
   return set.name == "velocity_acf" || set.name == "spin_acf";
 }
 
+// What the sources' names are values of; empty where they differ in that.
+std::string shared_key(const Analysis& analysis) {
+  const std::string& key = analysis.sources[0].key;
+  const auto same = [&](const SourceSummary& s) { return s.key == key; };
+  return std::all_of(analysis.sources.begin(), analysis.sources.end(), same) ? key : "";
+}
+
 Plot empty_plot(const AnalysisCurves& set, const Shown& x, const Shown& y) {
   Plot plot;
   plot.x_label = label(set.x_name, x), plot.y_label = y_label(set, y);
@@ -103,7 +110,8 @@ void share_y(std::vector<Plot>& plots) {
   for (Plot& plot : plots) plot.y_low = low, plot.y_high = low + 1.06 * (high - low);
 }
 
-// Plots above each other, too: an x is at one place in all of them.
+// Plots above each other, too: an x is at one place in all of them. What begins above 0 is lags and
+// distances: their axis begins at 0, or a first point on its left frame would pass for one there.
 void share_x(std::vector<Plot>& plots) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const Plot& plot : plots) {
@@ -116,6 +124,7 @@ void share_x(std::vector<Plot>& plots) {
       }
     }
   }
+  if (!plots.empty() && !plots[0].log_x) low = std::min(low, 0.0);
   if (!is_given(low, high)) return;
   for (Plot& plot : plots) plot.x_low = low, plot.x_high = high;
 }
@@ -140,6 +149,7 @@ std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, 
       plot.curves.push_back(
           curve_of(name, set.x, of->curve, x.size, y.size, in.size() <= kBandsUpTo));
     }
+    plot.legend_title = shared_key(analysis);
     if (!plot.curves.empty()) plots.push_back(std::move(plot));
   }
   share_y(plots);
@@ -162,7 +172,7 @@ Plot difference_plot(const Analysis& analysis, const AnalysisCurves& set, const 
 bool add_track_numbers(const Analysis& analysis, const AnalysisCurves& set, PlotPage& page) {
   Plot plot = empty_plot(set, {"s", 1}, {"", 1});
   plot.height = kLowHeight;
-  plot.y_label = "tracks";
+  plot.y_label = "tracks", plot.legend_title = shared_key(analysis);
   bool varies = false;
   for (const auto& of : set.sources) {
     Curve curve;
@@ -222,6 +232,7 @@ AnalysisPlot contact_plot(const Analysis& analysis) {
     plot.curves.push_back(std::move(curve));
   }
   plot.x_low = 0, plot.x_high = longest;
+  plot.legend_title = shared_key(analysis);
   return {"contact_times", {{plot}, 1}};
 }
 
@@ -241,9 +252,12 @@ AnalysisPlot transfer_plot(const Analysis& analysis) {
     add("acceleration", t, t.acceleration);
   } else {
     plot.title = "transfer function of the smoother: velocity";
+    plot.legend_title = shared_key(analysis);
     for (const SourceSummary& s : analysis.sources) add(s.name, s.transfer, s.transfer.velocity);
   }
-  return {"transfer", {{plot}, 1}};
+  AnalysisPlot made{"transfer", {{plot}, 1}};
+  share_x(made.page.plots);
+  return made;
 }
 
 MapPanel panel_of(const VelocityMap& map, const std::vector<double>& values,

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "colour_scale.hpp"
 #include "palette.hpp"
 #include "plot_area.hpp"
 
@@ -11,18 +12,26 @@ namespace {
 constexpr double kLine = 2.2, kMarker = 4.2;  // units
 constexpr double kCap = 4.5, kMark = 6;       // half widths of bars' ends, half heights of marks
 
+// The lightest end of the scale would not be seen on paper.
+Colour colour_of(const Curve& curve, int index) {
+  constexpr double kLightest = 0.88;
+  if (std::isnan(curve.shade)) return colour_of_curve(index);
+  return colour_on(ColourScale::rising, kLightest * std::clamp(curve.shade, 0.0, 1.0));
+}
+
 // After one round of colours the dashes change, so that curves stay apart in print.
-void set_dashes(const Canvas& canvas, int index) {
+void set_dashes(const Canvas& canvas, const Curve& curve, int index) {
+  if (!std::isnan(curve.shade)) return;
   static constexpr std::array<std::array<double, 4>, 4> kDashes = {
       {{0, 0, 0, 0}, {9, 5, 9, 5}, {2.2, 4, 2.2, 4}, {10, 4, 2.2, 4}}};
   const auto& d = kDashes[static_cast<std::size_t>(index / 6) % kDashes.size()];
   cairo_set_dash(canvas.get(), d.data(), d[0] > 0 ? 4 : 0, 0);
 }
 
-void marker_path(const Canvas& canvas, int index, double x, double y) {
+void marker_path(const Canvas& canvas, const Curve& curve, int index, double x, double y) {
   cairo_t* c = canvas.get();
   const double r = kMarker;
-  switch (index % 4) {
+  switch (std::isnan(curve.shade) ? index % 4 : 0) {
     case 0:
       canvas.circle(x, y, r);
       break;
@@ -130,7 +139,7 @@ void draw_band(const Canvas& canvas, const PlotArea& area, const Curve& curve, i
       low.clear(), high.clear();
     }
   }
-  canvas.fill(faded(colour_of_curve(index), 0.18));
+  canvas.fill(faded(colour_of(curve, index), 0.18));
 }
 
 void draw_bars(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
@@ -145,7 +154,7 @@ void draw_bars(const Canvas& canvas, const PlotArea& area, const Curve& curve, i
     if (!high.known() || !std::isfinite(curve.low[i])) continue;
     const bool cut = !low.known();  // a log axis does not reach down to it
     const double bottom = cut ? area.bottom() + 10 : low.y;
-    const Colour colour = colour_of_curve(index);
+    const Colour colour = colour_of(curve, index);
     canvas.line(high.x, bottom, high.x, high.y, colour, 1.5);
     canvas.line(high.x - kCap, high.y, high.x + kCap, high.y, colour, 1.5);
     if (!cut) canvas.line(low.x - kCap, low.y, low.x + kCap, low.y, colour, 1.5);
@@ -163,8 +172,8 @@ void draw_curve(const Canvas& canvas, const PlotArea& area, const Curve& curve, 
   Pen pen(canvas, curve.steps);
   for (std::size_t i = 0; i < n; ++i) pen.to(page_point(area, curve.x[i], curve.y[i]));
   pen.lift();
-  set_dashes(canvas, index);
-  canvas.stroke(colour_of_curve(index), kLine);
+  set_dashes(canvas, curve, index);
+  canvas.stroke(colour_of(curve, index), kLine);
 }
 
 void draw_marks(const Canvas& canvas, const PlotArea& area, const Curve& curve, int index) {
@@ -183,7 +192,7 @@ void draw_marks(const Canvas& canvas, const PlotArea& area, const Curve& curve, 
     }
     const PagePoint p = page_point(area, mark, y);
     if (!p.known() || !area.holds(p) || std::fabs(p.x - drawn) < 2) continue;
-    canvas.line(p.x, p.y - kMark, p.x, p.y + kMark, colour_of_curve(index), 1.5);
+    canvas.line(p.x, p.y - kMark, p.x, p.y + kMark, colour_of(curve, index), 1.5);
     drawn = p.x;
   }
 }
@@ -199,11 +208,11 @@ void draw_markers(const Canvas& canvas, const PlotArea& area, const Curve& curve
     const bool crowded =
         before.known() && std::hypot(p.x - before.x, p.y - before.y) < 1.2 * kMarker;
     if (curve.line && crowded) continue;
-    marker_path(canvas, index, p.x, p.y);
+    marker_path(canvas, curve, index, p.x, p.y);
     before = p;
   }
-  canvas.fill_keep(mixed(colour_of_curve(index), palette::paper, 0.72));
-  canvas.stroke(colour_of_curve(index), 1.5);
+  canvas.fill_keep(mixed(colour_of(curve, index), palette::paper, 0.72));
+  canvas.stroke(colour_of(curve, index), 1.5);
 }
 
 void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, double y,
@@ -211,15 +220,15 @@ void draw_sample(const Canvas& canvas, const Curve& curve, int index, double x, 
   const Saved saved(canvas);
   if (!curve.bars && !curve.low.empty() && !curve.high.empty()) {
     cairo_rectangle(canvas.get(), x, y - 6, width, 12);
-    canvas.fill(faded(colour_of_curve(index), 0.18));
+    canvas.fill(faded(colour_of(curve, index), 0.18));
   }
-  set_dashes(canvas, index);
-  if (curve.line) canvas.line(x, y, x + width, y, colour_of_curve(index), kLine);
+  set_dashes(canvas, curve, index);
+  if (curve.line) canvas.line(x, y, x + width, y, colour_of(curve, index), kLine);
   cairo_set_dash(canvas.get(), nullptr, 0, 0);
   if (!curve.markers) return;
-  marker_path(canvas, index, x + width / 2, y);
-  canvas.fill_keep(mixed(colour_of_curve(index), palette::paper, 0.72));
-  canvas.stroke(colour_of_curve(index), 1.5);
+  marker_path(canvas, curve, index, x + width / 2, y);
+  canvas.fill_keep(mixed(colour_of(curve, index), palette::paper, 0.72));
+  canvas.stroke(colour_of(curve, index), 1.5);
 }
 
 }  // namespace lilytank

@@ -88,6 +88,7 @@ PlotPage laws_page(const Diagnosis& d) {
     if (f.curve.at.empty()) continue;
     Plot plot = curve_plot(f.curve, d.tank, false);
     plot.title = f.effect + ": " + plot.title + with_z(f.z);
+    if (!d.tank) plot.title += ", all bodies together";
     page.plots.push_back(std::move(plot));
   }
   return page;

@@ -97,6 +97,13 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
   publish(unfinished, file);
 }
 
+std::vector<double> film_times(const StoredRun& run, const FilmOptions& options) {
+  const Schedule when = schedule(run, options);
+  std::vector<double> times;
+  for (int k = 0; k < when.frames; ++k) times.push_back(when.time(k));
+  return times;
+}
+
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
   const Schedule when = schedule(run, options);
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size);

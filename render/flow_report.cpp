@@ -11,6 +11,7 @@
 namespace lilytank {
 namespace {
 
+const std::string kHatching = "filled from the measured cells around";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool in_tank(const FlowEstimate& e, std::size_t i) {
@@ -44,6 +45,7 @@ Map flow_map(const FlowReport& report, const FlowEstimate& e) {
   Map map;
   map.title = "Flow of " + report.name + ", " + e.name + " estimate";
   map.tank_radius = report.ball.tank_radius, map.columns = 2;
+  map.hatching = kHatching;
   const auto& cell = e.cell;
   map.panels.push_back(panel(e, "Mean velocity", "speed (m/s)", [&](std::size_t i) {
     return std::hypot(cell[i].flow.mu_x, cell[i].flow.mu_y);
@@ -71,7 +73,7 @@ MapPanel rejections(const FlowEstimate& e, const std::string& title, const std::
     return std::isnan(p[i]) ? kNone : rejected[i] ? 1.0 : 0.0;
   });
   out.hatched.clear();
-  out.classes = {"not rejected", "rejected"};
+  out.classes = {"not rejected", "rejected"}, out.no_data = "not tested";
   return out;
 }
 
@@ -119,6 +121,7 @@ double scale_of(const std::vector<MapPanel>& panels) {
 Map error_map(const FlowReport& report) {
   Map map;
   map.title = "Errors of the flow of " + report.name;
+  map.hatching = kHatching;
   map.tank_radius = report.ball.tank_radius;
   map.columns = static_cast<int>(report.estimates.size());
   const std::vector<FlowSample>& truth = report.truth->sample;

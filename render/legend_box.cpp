@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "legend_texts.hpp"
 #include "palette.hpp"
 
 namespace lilytank {
@@ -11,6 +12,7 @@ namespace {
 constexpr double kRow = 23, kPad = 9, kSample = 30, kGap = 9, kMargin = 10;
 constexpr double kWidest = 320;  // longer names are cut
 const TextStyle kName{14, palette::ink, false, Align::left};
+const TextStyle kTitle{14, palette::ink, true, Align::left};
 
 bool within(const LegendBox& box, const PagePoint& p) {
   constexpr double kRoom = 4;
@@ -68,19 +70,29 @@ std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
 struct Names {
   std::vector<std::size_t> shown;
   std::size_t more = 0;
+  std::vector<std::string> texts;  // of those shown, no wider than a legend may be
 };
 
-Names names_of(const Plot& plot) {
+Names names_of(const Canvas& canvas, const Plot& plot) {
   Names names;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     if (!plot.curves[i].name.empty()) names.shown.push_back(i);
   }
+  // Shades are named in their order.
+  std::stable_sort(names.shown.begin(), names.shown.end(), [&](std::size_t a, std::size_t b) {
+    const auto place = [](double shade) { return std::isnan(shade) ? -1 : shade; };
+    return place(plot.curves[a].shade) < place(plot.curves[b].shade);
+  });
   // Three are never cut: a legend that says less than it could is no help in a low plot either.
   const auto most = static_cast<std::size_t>(std::max(3.0, (plot.height - 90) / kRow));
   if (names.shown.size() > most) {
     names.more = names.shown.size() - (most - 1);
     names.shown.resize(most - 1);
   }
+  std::vector<std::string> whole;
+  for (const std::size_t i : names.shown) whole.push_back(plot.curves[i].name);
+  names.texts = cut_apart(whole, kWidest + 1,
+                          [&](const std::string& text) { return canvas.width_of(text, kName); });
   return names;
 }
 
@@ -88,14 +100,16 @@ Names names_of(const Plot& plot) {
 
 LegendBox legend_size(const Canvas& canvas, const Plot& plot) {
   LegendBox box;
-  const Names names = names_of(plot);
+  const Names names = names_of(canvas, plot);
   if (names.shown.empty()) return box;
-  for (const std::size_t i : names.shown) {
-    const double width = canvas.width_of(plot.curves[i].name, kName);
-    box.width = std::max(box.width, std::min(kWidest, width));
+  for (const std::string& text : names.texts) {
+    box.width = std::max(box.width, std::min(kWidest, canvas.width_of(text, kName)));
   }
-  const auto rows = static_cast<double>(names.shown.size() + (names.more > 0 ? 1 : 0));
-  box.width += 2 * kPad + kSample + kGap;
+  const bool titled = !plot.legend_title.empty();
+  const double title = std::min(kWidest, canvas.width_of(plot.legend_title, kTitle));
+  const auto rows =
+      static_cast<double>(names.shown.size() + (names.more > 0 ? 1 : 0) + (titled ? 1 : 0));
+  box.width = std::max(box.width + kSample + kGap, title) + 2 * kPad;
   box.height = rows * kRow + 2 * kPad - 6;
   return box;
 }
@@ -136,10 +150,15 @@ void draw_legend_box(const Canvas& canvas, const LegendBox& box, const Plot& plo
   }
   double y = box.y + kPad - 3 + kRow / 2;
   const double x = box.x + kPad + kSample + kGap;
-  const Names names = names_of(plot);
-  for (const std::size_t i : names.shown) {
+  if (!plot.legend_title.empty()) {
+    canvas.text(box.x + kPad, y + 5, canvas.fitted(plot.legend_title, kWidest + 1, kTitle), kTitle);
+    y += kRow;
+  }
+  const Names names = names_of(canvas, plot);
+  for (std::size_t k = 0; k < names.shown.size(); ++k) {
+    const std::size_t i = names.shown[k];
     draw_sample(canvas, plot.curves[i], static_cast<int>(i), box.x + kPad, y, kSample);
-    canvas.text(x, y + 5, canvas.fitted(plot.curves[i].name, kWidest + 1, kName), kName);
+    canvas.text(x, y + 5, names.texts[k], kName);
     y += kRow;
   }
   if (names.more > 0) canvas.text(x, y + 5, "… " + std::to_string(names.more) + " more", kName);

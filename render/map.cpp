@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPixels = 2;                              // of a PNG, per unit
 constexpr double kLeft = 62, kTop = 40, kBottom = 54;      // room around a panel, units
+constexpr double kKey = 30;                                // below all panels, units
 constexpr double kScale = 116, kClasses = 170, kGap = 12;  // to its right: bar, legend, nothing
 
 // The panels on the page, and which of them show a scale.
@@ -17,7 +18,12 @@ struct MapPage {
   double width = 0, height = 0;
   std::vector<PanelPlace> places;
   std::vector<bool> scales;
+  bool key = false;  ///< of the hatching
 };
+
+bool is_hatched(const MapPanel& panel) {
+  return std::find(panel.hatched.begin(), panel.hatched.end(), true) != panel.hatched.end();
+}
 
 MapPage page_of(const Map& map) {
   MapPage page;
@@ -44,7 +50,8 @@ MapPage page_of(const Map& map) {
     page.width = std::max(page.width, x);
     y += kTop + size + kBottom;
   }
-  page.height = std::max(y, 100.0);
+  page.key = !map.hatching.empty() && std::any_of(map.panels.begin(), map.panels.end(), is_hatched);
+  page.height = std::max(y + (page.key ? kKey : 0), 100.0);
   page.width = std::max(page.width, 100.0);
   return page;
 }
@@ -77,6 +84,7 @@ void draw_map(const Map& map, const std::string& file) {
     draw_panel(canvas, map.panels[i], map.tank_radius, page.places[i]);
     if (page.scales[i]) draw_scale(canvas, map.panels[i], page.places[i]);
   }
+  if (page.key) draw_hatching_key(canvas, map.hatching, kLeft, page.height - 15);
   write_atomically(file, canvas.encoded());
 }
 

@@ -85,6 +85,15 @@ void stroke_on_any(const Canvas& canvas, double width, double opacity) {
   canvas.stroke(faded(palette::ink, std::min(1.0, opacity + 0.2)), width);
 }
 
+// Oblique lines over a square whose lower left is (left, bottom).
+void hatch_lines(const Canvas& canvas, double left, double bottom, double size) {
+  for (double d = 0; d < 2 * size; d += 5) {
+    cairo_move_to(canvas.get(), left + d - size, bottom);
+    cairo_line_to(canvas.get(), left + d, bottom - size);
+  }
+  stroke_on_any(canvas, 0.7, 0.6);
+}
+
 void hatch(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place) {
   const std::size_t n = std::min(panel.hatched.size(), panel.values.size());
   const double h = place.size / panel.cells;
@@ -98,11 +107,7 @@ void hatch(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place)
   }
   if (!any) return;
   cairo_clip(canvas.get());
-  for (double d = 0; d < 2 * place.size; d += 5) {
-    cairo_move_to(canvas.get(), place.left + d - place.size, place.bottom());
-    cairo_line_to(canvas.get(), place.left + d, place.top);
-  }
-  stroke_on_any(canvas, 0.7, 0.6);
+  hatch_lines(canvas, place.left, place.bottom(), place.size);
 }
 
 struct Arrow {
@@ -257,14 +262,18 @@ void draw_classes(const Canvas& canvas, const MapPanel& panel, const PanelPlace&
   const double x = place.right() + kBarGap;
   double y = place.top + 4;
   canvas.text(x, y + 8, canvas.fitted(panel.label, 130, {13, palette::ink}), {13, palette::ink});
-  for (std::size_t i = 0; i < panel.classes.size(); ++i) {
+  const auto entry = [&](const Colour& colour, const std::string& name) {
     y += 24;
     cairo_rectangle(canvas.get(), x, y, kBarWidth, 14);
-    canvas.fill_keep(colour_of_class(static_cast<int>(i)));
+    canvas.fill_keep(colour);
     canvas.stroke(palette::rim_line, 1);
     const TextStyle text{13, palette::ink, false, Align::left};
-    canvas.text(x + kBarWidth + 7, y + 12, canvas.fitted(panel.classes[i], 110, text), text);
+    canvas.text(x + kBarWidth + 7, y + 12, canvas.fitted(name, 110, text), text);
+  };
+  for (std::size_t i = 0; i < panel.classes.size(); ++i) {
+    entry(colour_of_class(static_cast<int>(i)), panel.classes[i]);
   }
+  if (!panel.no_data.empty()) entry(kNoData, panel.no_data);
 }
 
 }  // namespace
@@ -318,9 +327,24 @@ void draw_scale(const Canvas& canvas, const MapPanel& panel, const PanelPlace& p
   (panel.classes.empty() ? draw_bar : draw_classes)(canvas, panel, place);
 }
 
+void draw_hatching_key(const Canvas& canvas, const std::string& meaning, double x, double y) {
+  constexpr double kWidth = 26, kHeight = 16;
+  {
+    const Saved saved(canvas);
+    cairo_rectangle(canvas.get(), x, y - kHeight, kWidth, kHeight);
+    cairo_clip_preserve(canvas.get());
+    canvas.fill(kNoData);
+    hatch_lines(canvas, x, y, kWidth);
+  }
+  cairo_rectangle(canvas.get(), x, y - kHeight, kWidth, kHeight);
+  canvas.stroke(palette::rim_line, 1);
+  canvas.text(x + kWidth + 9, y - 3, meaning, {14, palette::ink, false, Align::left});
+}
+
 bool same_scale(const MapPanel& a, const MapPanel& b) {
   const ColourRange p = colour_range(a), q = colour_range(b);
   return a.scale == b.scale && a.label == b.label && a.classes == b.classes &&
+         a.no_data == b.no_data &&
          (!a.classes.empty() ||
           (std::equal_to<double>()(p.low, q.low) && std::equal_to<double>()(p.high, q.high)));
 }

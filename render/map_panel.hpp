@@ -25,6 +25,8 @@ void draw_panel(const Canvas& canvas, const MapPanel& panel, double tank_radius,
                 const PanelPlace& place);
 /// Its colour bar, or the legend of its classes, right of `place`.
 void draw_scale(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place);
+/// A hatched sample at (x, y), its lower left, and what it means beside it.
+void draw_hatching_key(const Canvas& canvas, const std::string& meaning, double x, double y);
 /// Whether one colour bar can serve both.
 bool same_scale(const MapPanel& a, const MapPanel& b);
 

@@ -92,12 +92,11 @@ double Panel::plot_y(double copies) const {
 
 void Panel::curve_axes(const Canvas& canvas) const {
   const double left = plot_.x, right = plot_.x + plot_.width;
-  const Axis up = make_axis(0, 1.08 * most_, false, 3, true);
-  for (const AxisTick& tick : up.ticks) {
-    if (!tick.major) continue;
-    const double y = plot_y(tick.value);
-    canvas.line(left, y, right, y, tick.value == 0 ? palette::muted : palette::hairline, 1.5);
-    canvas.text(left - 12, y + 7, tick.label, {20, palette::muted, false, Align::right});
+  for (const int copies : copy_ticks(most_)) {
+    const double y = plot_y(copies);
+    canvas.line(left, y, right, y, copies == 0 ? palette::muted : palette::hairline, 1.5);
+    canvas.text(left - 12, y + 7, std::to_string(copies),
+                {20, palette::muted, false, Align::right});
   }
   const Axis along = make_axis(0, end_ / unit_.seconds, false, 6, false);
   const double base = plot_y(0);

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <map>
 
-#include "io/scenario_keys.hpp"
 #include "lilytank/render.hpp"
-#include "text/number.hpp"
+#include "study_names.hpp"
 #include "yield.hpp"
 
 namespace lilytank {
@@ -27,7 +27,9 @@ void drop_bands(const StudySummary& summary, Curve& curve) {
 
 // Adds the curve of setting `number`. A colour means a setting in all figures of a study, so the
 // places of those without a curve stay empty.
-void add_of_setting(Plot& plot, std::size_t number, Curve curve) {
+void add_of_setting(Plot& plot, std::size_t number, const SettingNames& names, Curve curve) {
+  curve.name = names.names[number], curve.shade = names.shades[number];
+  plot.legend_title = names.title;
   plot.curves.resize(number);
   plot.curves.push_back(std::move(curve));
 }
@@ -37,7 +39,7 @@ std::vector<double> divided(std::vector<double> values, double by) {
   return values;
 }
 
-Plot mean_yield_plot(const StudySummary& summary, const TimeUnit& unit) {
+Plot mean_yield_plot(const StudySummary& summary, const SettingNames& names, const TimeUnit& unit) {
   Plot plot = time_plot(summary, unit);
   plot.y_label = "mean copies of the target";
   int most = 1;
@@ -46,10 +48,10 @@ Plot mean_yield_plot(const StudySummary& summary, const TimeUnit& unit) {
     if (setting.runs == 0) continue;
     most = std::max(most, setting.possible);
     const CurveBand& band = setting.yield;
-    Curve curve{setting.label, divided(band.time, unit.seconds), band.mean, band.low, band.high};
+    Curve curve{"", divided(band.time, unit.seconds), band.mean, band.low, band.high};
     curve.steps = true;
     drop_bands(summary, curve);
-    add_of_setting(plot, s, std::move(curve));
+    add_of_setting(plot, s, names, std::move(curve));
   }
   plot.y_low = -0.03 * most, plot.y_high = 1.05 * most;
   return plot;
@@ -89,7 +91,8 @@ std::string test_note(const StudySummary& summary, int k) {
   return "";
 }
 
-Plot survival_plot(const StudySummary& summary, int k, const TimeUnit& unit) {
+Plot survival_plot(const StudySummary& summary, const SettingNames& names, int k,
+                   const TimeUnit& unit) {
   Plot plot = time_plot(summary, unit);
   plot.title += ": time to copy " + std::to_string(k) + test_note(summary, k);
   plot.y_label = k == 1 ? "share of runs without a copy"
@@ -98,9 +101,8 @@ Plot survival_plot(const StudySummary& summary, int k, const TimeUnit& unit) {
     for (const CopyTime& time : summary.settings[s].times) {
       if (time.k != k || time.survival.time.empty()) continue;
       Curve curve = survival_curve(time.survival, summary.horizon, unit);
-      curve.name = summary.settings[s].label;
       drop_bands(summary, curve);
-      add_of_setting(plot, s, std::move(curve));
+      add_of_setting(plot, s, names, std::move(curve));
     }
   }
   plot.y_low = -0.03, plot.y_high = 1.04;
@@ -109,55 +111,17 @@ Plot survival_plot(const StudySummary& summary, int k, const TimeUnit& unit) {
   return plot;
 }
 
-// Positions of words are no numbers: a label such as "flow.pump_power=80 %" shows one.
-bool shows_number(const std::string& label) {
-  const std::string_view value = trimmed(std::string_view(label).substr(label.rfind('=') + 1));
-  return parse_number(value.substr(0, value.find(' '))).has_value();
-}
-
 // Settings with runs, by rising value of the only axis; none if that is not of numbers.
 std::vector<const SettingSummary*> along_axis(const StudySummary& summary) {
   std::vector<const SettingSummary*> along;
-  if (summary.axes.size() != 1) return along;
+  if (summary.axes.size() != 1 || number_axes(summary).empty()) return along;
   for (const SettingSummary& setting : summary.settings) {
-    if (setting.runs == 0) continue;
-    if (setting.values.size() != 1 || !shows_number(setting.label)) return {};
-    along.push_back(&setting);
+    if (setting.runs > 0) along.push_back(&setting);
   }
   std::stable_sort(
       along.begin(), along.end(),
       [](const SettingSummary* a, const SettingSummary* b) { return a->values[0] < b->values[0]; });
-  if (along.empty() || !(along.front()->values[0] < along.back()->values[0])) along.clear();
   return along;
-}
-
-// "flow.pump_power (%)": an axis' values are in the unit of its key.
-std::string axis_label(const std::string& path) {
-  ScenarioDraft draft;
-  for (const ScenarioKey& key : scenario_keys(draft)) {
-    const bool unit = !key.unit.empty() && key.unit != "1";
-    if (key.path == path) return unit ? path + " (" + key.unit + ")" : path;
-  }
-  return path;
-}
-
-// A horizontal axis with room at its ends, on which curves stand apart by a little.
-struct ValueAxis {
-  double low = 0, high = 1;
-  bool log = false;
-  /// The place that is `share` of the axis' length to the right of a value.
-  double beside(double value, double share) const {
-    return log ? value * std::pow(high / low, share) : value + share * (high - low);
-  }
-};
-
-ValueAxis axis_along(const std::vector<const SettingSummary*>& along) {
-  ValueAxis axis{along.front()->values[0], along.back()->values[0], false};
-  // Values over more than one and a half decades would crowd at the left.
-  axis.log = along.size() > 2 && axis.low > 0 && axis.high / axis.low > 30;
-  const double low = axis.beside(axis.low, -0.06), high = axis.beside(axis.high, 0.06);
-  axis.low = low, axis.high = high;
-  return axis;
 }
 
 Curve mean_time_curve(const std::vector<const SettingSummary*>& along, int k, const TimeUnit& unit,
@@ -184,7 +148,7 @@ Plot mean_time_plot(const StudySummary& summary, const std::vector<const Setting
   plot.title = summary.name;
   plot.x_label = axis_label(summary.axes[0]);
   plot.y_label = "restricted mean time to copy k (" + unit.name + ")";
-  const ValueAxis axis = axis_along(along);
+  const ValueAxis axis = value_axis(summary, 0);
   plot.x_low = axis.low, plot.x_high = axis.high, plot.log_x = axis.log;
   constexpr double kApart = 0.008;  // of the axis, so that bars do not cover each other
   const double middle = 0.5 * static_cast<double>(summary.copies.size() - 1);
@@ -201,6 +165,41 @@ Plot mean_time_plot(const StudySummary& summary, const std::vector<const Setting
   return plot;
 }
 
+// Copies at the end over one axis, a dot a setting, in the colours of another axis if there is one.
+// Dots of one value stand beside each other.
+Plot copies_plot(const StudySummary& summary, std::size_t along,
+                 const std::vector<std::size_t>& axes) {
+  Plot plot;
+  plot.title = summary.name;
+  plot.x_label = axis_label(summary.axes[along]), plot.y_label = "copies at the end, mean";
+  SettingNames names = shades_by(summary, along == axes[0] ? axes.back() : axes[0]);
+  if (axes.size() == 1) {
+    names = {"", std::vector<std::string>(summary.settings.size()),
+             std::vector<double>(summary.settings.size(), 0.2)};
+  }
+  const ValueAxis axis = value_axis(summary, along);
+  plot.x_low = axis.low, plot.x_high = axis.high, plot.log_x = axis.log;
+  std::map<double, int> at, done;
+  for (const SettingSummary& s : summary.settings) {
+    if (s.runs > 0) ++at[s.values[along]];
+  }
+  int most = 1;
+  for (std::size_t s = 0; s < summary.settings.size(); ++s) {
+    const SettingSummary& setting = summary.settings[s];
+    if (setting.runs == 0) continue;
+    most = std::max(most, setting.possible);
+    const double value = setting.values[along];
+    const double apart = std::min(0.012, 0.1 / at[value]);  // of the axis
+    const double x = axis.beside(value, apart * (done[value]++ - 0.5 * (at[value] - 1)));
+    const Estimate& copies = setting.copies;
+    Curve dot{"", {x}, {copies.value}, {copies.low}, {copies.high}};
+    dot.markers = dot.bars = true, dot.line = false;
+    add_of_setting(plot, s, names, std::move(dot));
+  }
+  plot.y_low = -0.03 * most, plot.y_high = 1.05 * most;
+  return plot;
+}
+
 }  // namespace
 
 std::vector<StudyPlot> study_plots(const StudySummary& summary) {
@@ -209,12 +208,18 @@ std::vector<StudyPlot> study_plots(const StudySummary& summary) {
   const bool any = std::any_of(summary.settings.begin(), summary.settings.end(),
                                [](const SettingSummary& s) { return s.runs > 0; });
   if (!any || summary.copies.empty()) return plots;
-  plots.push_back({"yield", mean_yield_plot(summary, unit)});
+  const SettingNames names = names_of(summary);
+  plots.push_back({"yield", mean_yield_plot(summary, names, unit)});
   for (const int k : summary.copies) {
-    plots.push_back({"survival_" + std::to_string(k), survival_plot(summary, k, unit)});
+    plots.push_back({"survival_" + std::to_string(k), survival_plot(summary, names, k, unit)});
   }
   const std::vector<const SettingSummary*> along = along_axis(summary);
   if (!along.empty()) plots.push_back({"mean_time", mean_time_plot(summary, along, unit)});
+  if (settings_with_runs(summary) <= kNamedUpTo) return plots;
+  const std::vector<std::size_t> axes = number_axes(summary);
+  for (const std::size_t axis : axes) {
+    plots.push_back({"copies_over_" + summary.axes[axis], copies_plot(summary, axis, axes)});
+  }
   return plots;
 }
 

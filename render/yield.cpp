@@ -47,6 +47,18 @@ YieldCurve yield_of(const StoredRun& run) {
   return curve;
 }
 
+std::vector<int> copy_ticks(int most) {
+  constexpr int kMostSteps = 5;
+  int step = 1;
+  while (most % step != 0 || most / step > kMostSteps) ++step;
+  // Of a prime nothing is left but its ends: round steps then, and the last one shorter or longer.
+  if (step == most && most > kMostSteps) step = (most + 3) / 4;
+  std::vector<int> ticks{0};
+  for (int k = step; k < most && 2 * (most - k) > step; k += step) ticks.push_back(k);
+  if (most > 0) ticks.push_back(most);
+  return ticks;
+}
+
 TimeUnit unit_for(double length) {
   if (length > 3 * 3600) return {3600, "h"};
   if (length > 180) return {60, "min"};

@@ -21,6 +21,10 @@ struct YieldCurve {
 /// of the metrics.
 YieldCurve yield_of(const StoredRun& run);
 
+/// Numbers of copies for an axis up to `most`: few, rising from 0, the last is `most`; evenly
+/// spaced where that can be.
+std::vector<int> copy_ticks(int most);
+
 /// A unit of time that suits a length, and the seconds in it.
 struct TimeUnit {
   double seconds = 1;

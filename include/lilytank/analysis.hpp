@@ -18,6 +18,7 @@ struct AnalysisSource {
   double tank_radius = 0.30;          ///< m
   double body_size = 0.035;           ///< m, side of squares or diameter of balls
   bool exact = false;  ///< places without noise, as a simulation's own: none is estimated
+  std::string key;     ///< what the name is a value of, "pump power", for legends; empty: nothing
 };
 
 struct AnalysisOptions {
@@ -56,7 +57,7 @@ struct ContactTimes {
 
 /// Numbers of one source; NaN where it does not have them.
 struct SourceSummary {
-  std::string name, panel;
+  std::string name, panel, key;  ///< as in AnalysisSource
   BodyKind body = BodyKind::lily;
   int recordings = 0, bodies = 0, tracks = 0;
   std::int64_t sightings = 0;
@@ -79,6 +80,11 @@ struct SourceSummary {
   ContactTimes contacts;
   Estimate nearest;  ///< m, mean distance to the nearest neighbour
 };
+
+/// Whether frames are further apart than a quarter of the velocity's memory. Speeds, spins and the
+/// number of contacts are then too low, contacts too long, and the memory itself is coarse.
+/// False where nothing moves or velocities were not asked for.
+bool frames_too_far_apart(const SourceSummary& source);
 
 /// Two sources against each other, second less first.
 struct SourceComparison {

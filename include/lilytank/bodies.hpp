@@ -50,7 +50,8 @@ struct BodyExperiment {
 };
 
 /// Whether a file is an experiment of point bodies: [experiment] body = "point". False for files
-/// that cannot be read or are no TOML, which other readers refuse.
+/// that cannot be read or are no TOML, which other readers refuse. Throws InputError where there is
+/// a [baseline] but another body, or none.
 bool is_body_experiment(const std::string& file);
 
 /// Reads an experiment and its tables. Throws InputError with file, line, column and value.

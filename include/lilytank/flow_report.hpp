@@ -17,6 +17,7 @@ struct FlowBiasRow {
   std::string what;       ///< "as recorded", "no tracking noise", ...
   std::string estimator;  ///< "paper" or "smooth"
   FlowError error;        ///< over the measured cells
+  std::string missing;    ///< why there is no error, as too little data; empty: there is one
 };
 
 struct FlowReport {
@@ -31,14 +32,17 @@ struct FlowReport {
 
 /// Simulates recordings like those given (bodies, frames, rate) in the flow of a smooth estimate,
 /// with its noise budget, and extracts the flow from them again: as recorded, and with one cause of
-/// error after the other left out. The truth of each row is the simulated field. `progress` is
-/// called with the share done. Throws InputError if the estimate has no noise budget.
+/// error after the other left out. The truth of each row is the simulated field. Recordings that
+/// are too short for an estimate leave its row without an error. `progress` is called with the
+/// share done. Throws InputError if the estimate has no noise budget.
 std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
                                            const FlowEstimate& smooth, const BallPhysics& ball,
                                            const FlowOptions& options, std::uint64_t seed,
                                            const std::function<void(double)>& progress = {});
 
-/// The report as text.
+/// Number of the grid's cells whose centres lie in the tank.
+int cells_in_tank(const FlowEstimate& estimate);
+/// The report as text, with a warning where less than a fifth of the tank's cells were measured.
 std::string flow_text(const FlowReport& report);
 /// Writes into a directory, made if absent: flow_<estimator>.csv (the grid that a run reads),
 /// cells_<estimator>.csv, balls_<estimator>.toml (an overlay for scenarios that simulates these

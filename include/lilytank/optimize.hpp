@@ -127,6 +127,7 @@ struct OptimizationResult {
   bool stopped = false;
   Incumbent best;
   std::vector<IterationRecord> history;  ///< of the (last) search
+  bool selected = false;                 ///< the last record is that of its final selection
   std::vector<RaceEntry> race;           ///< by its rulesets' numbers; empty without one
   std::string optimum;                   ///< path of the overlay
   std::string compare;                   ///< path of the study file that compares; "" if none

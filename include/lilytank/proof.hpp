@@ -75,6 +75,7 @@ struct Proof {
   std::string hash;  ///< SHA-256 of the key
   /// Which tank, balls and nulls they share, in words: the same text, the same tank. "": not told.
   std::string tank;
+  std::string dir;                 ///< that it was read from; "" of one that was just asked
   std::size_t sealed = 0;          ///< worlds of the key
   std::vector<ProofWorld> worlds;  ///< those that were judged, from the first
 };

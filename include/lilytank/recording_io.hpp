@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,11 +105,11 @@ struct RecordingOptions {
   bool latches = true, held_out = false;
   ColumnNames columns;
   Calibration calibration;
-  double rate = 0;            ///< frames per second; 0: from the file's times
-  double time_unit = 1;       ///< s per unit of the file's times
-  bool in_tank = true;        ///< false: places are not checked against a tank
-  double tank_radius = 0.30;  ///< m
-  double body_radius = 0;     ///< m, of the body's inscribed circle
+  double rate = 0;                  ///< frames per second; 0: from the file's times
+  std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
+  bool in_tank = true;              ///< false: places are not checked against a tank
+  double tank_radius = 0.30;        ///< m
+  double body_radius = 0;           ///< m, of the body's inscribed circle
   CheckRules rules;
 };
 

@@ -1,5 +1,6 @@
 // Pictures of stored runs and studies: frames, films, curves. Only files in render/ know Cairo.
 #pragma once
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ void require_film_program();
 /// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
 /// the file appears whole or not at all. Throws InputError if ffmpeg is missing or fails.
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file);
+/// When the film's frames are (s of simulated time). Throws InputError as draw_film.
+std::vector<double> film_times(const StoredRun& run, const FilmOptions& options);
 /// The same frames as numbered PNG files in a directory.
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir);
 
@@ -55,10 +58,14 @@ struct Curve {
   std::vector<double> marks;  ///< x of short upright strokes on the curve, such as censored times
   bool bars = false;          ///< `low` and `high` as bars at the points instead of a band
   bool line = true;           ///< false: markers alone
+  /// 0 .. 1: a colour from dark to light, for a number that curves are told apart by; NaN: one of
+  /// the curve's own, by its place.
+  double shade = NAN;
 };
 /// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
 struct Plot {
   std::string title, x_label, y_label;
+  std::string legend_title;  ///< what the curves' names are values of, as "pump power"; or empty
   std::vector<Curve> curves;
   bool log_x = false, log_y = false;
   bool zero_line = false;        ///< a thin line at y = 0
@@ -96,6 +103,7 @@ struct MapPanel {
   std::vector<bool> hatched;             ///< cells to mark, as filled or doubtful; may be empty
   std::vector<double> arrow_x, arrow_y;  ///< a vector a cell, NaN: none; may be empty
   std::string arrow_unit = "m/s";        ///< beside the arrow that shows the scale
+  std::string no_data;  ///< what grey cells are, for a legend of classes; empty: not named
 };
 /// Maps of one tank side by side, `columns` in a row; panels of a row with equal scales share a
 /// colour bar.
@@ -105,6 +113,8 @@ struct Map {
   int columns = 1;
   std::vector<MapPanel> panels;
   int panel_size = 340;  ///< pixels, of one map (PNG: twice that)
+  /// What hatched cells are, told below the panels if there are any; empty: not told.
+  std::string hatching;
 };
 /// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.
 void draw_map(const Map& map, const std::string& file);
@@ -121,7 +131,9 @@ struct StudyPlot {
 /// of the time to the k-th copy, with their intervals and censored times; "mean_time": restricted
 /// mean times over the axis' values, where there is one axis and its labels show numbers; curves
 /// stand a little beside each other there. Bands are left out where there are more than six
-/// settings. Nothing for a study without finished runs.
+/// settings. Of more than twelve, colours tell the first axis of numbers, and
+/// "copies_over_<axis>" shows the copies at the end over each such axis, a dot with its interval a
+/// setting. Nothing for a study without finished runs.
 std::vector<StudyPlot> study_plots(const StudySummary& summary);
 
 /// A page of an analysis, and the name of its files without ending.
@@ -161,9 +173,10 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
                  const std::string& file);
 
 /// How a search came along: the best point's mean so far and the median of each iteration's new
-/// points, over evaluations [paper, Figs. 10 (a) and 12 (a)].
-Plot search_plot(const std::vector<IterationRecord>& history, const std::string& title,
-                 const std::string& y_label);
+/// points, over evaluations [paper, Figs. 10 (a) and 12 (a)]. `selected`: the last record is that
+/// of a final selection, whose new values of the best point stand alone.
+Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
+                 const std::string& title, const std::string& y_label);
 
 /// Plots of a calibration in a directory, each as .png and .svg: "convergence" of the search
 /// [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity" maps [Fig. 7], "profiles"

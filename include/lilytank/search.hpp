@@ -73,6 +73,8 @@ class Search {
   virtual Incumbent best() const = 0;
   /// One record for each iteration that is over.
   virtual const std::vector<IterationRecord>& history() const = 0;
+  /// Whether a final selection is over: the last record is then its own, and no iteration's.
+  virtual bool selected() const = 0;
   /// Trials told so far, and how many there will be in all. A search whose budget does not divide
   /// into whole iterations may end a little below it.
   virtual std::int64_t evaluations() const = 0;

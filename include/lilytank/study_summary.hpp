@@ -24,7 +24,8 @@ struct SettingSummary {
   int diverged = 0, stopped = 0;
   std::int64_t illegal = 0;     ///< assemblies that the rules cannot make, in all runs
   int possible = 0;             ///< copies that the modules could make
-  Estimate copies;              ///< standing at the end, mean with Student's interval
+  Estimate copies;              ///< standing at the end, mean with Student's interval, cut to what
+                                ///< is possible
   Estimate full_yield;          ///< share of runs that had all possible copies, Wilson's
   Estimate rate;                ///< copies/s up to the end or to full yield, Garwood's
   std::vector<CopyTime> times;  ///< for each k of StudySummary::copies up to `possible`
@@ -44,6 +45,7 @@ struct PairTest {
   int k = 0;  ///< restricted time to the k-th copy (s); 0: copies standing at the end
   int a = 0, b = 0;
   int pairs = 0;
+  bool reached = true;  ///< a run had the k-th copy in time; else the rest says nothing
   PairedComparison result;
   double adjusted_p = 1;  ///< after Holm, over the pairs of settings tested for this k
 };

@@ -102,6 +102,8 @@ void add_source(SummaryRows& rows, const SourceSummary& s) {
   rows.add("circulation", "rad/s", s.circulation);
   rows.add("velocity memory", "s", s.motion.empty() ? NAN : s.velocity_memory);
   rows.add("independent velocity samples", "1", s.motion.empty() ? NAN : s.independent_samples);
+  rows.add("frames too far apart for velocities", "1",
+           s.motion.empty() ? NAN : frames_too_far_apart(s));
   rows.add("msd first maximum", "m^2", s.first_maximum);
   rows.add("msd first maximum lag", "s", s.first_maximum_lag);
   rows.add("msd plateau", "m^2", s.plateau);

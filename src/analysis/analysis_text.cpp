@@ -56,7 +56,8 @@ class Table {
 
  private:
   std::string by_row() const {
-    std::vector<std::string> head{"source"};
+    const std::string& key = analysis_.sources[0].key;
+    std::vector<std::string> head{key.empty() ? "source" : key};
     head.insert(head.end(), heads_.begin(), heads_.end());
     TextTable table(head);
     for (std::size_t s = 0; s < analysis_.sources.size(); ++s) {
@@ -72,6 +73,21 @@ class Table {
   std::vector<std::string> heads_;
   std::vector<std::vector<std::string>> cells_;
 };
+
+// One line, where frames say too little of velocities; it names the sources.
+std::string rate_warning(const Analysis& analysis) {
+  std::string which;
+  for (const SourceSummary& s : analysis.sources) {
+    if (!frames_too_far_apart(s)) continue;
+    which += (which.empty() ? "" : ", ") + s.name + (s.panel.empty() ? "" : " at " + s.panel) +
+             " (" + three(1 / s.rate) + " s, memory " + three(s.velocity_memory) + " s)";
+  }
+  if (which.empty()) return "";
+  return "Warning: frames are further apart than a quarter of the velocity's memory: " + which +
+         ". Speeds, spins and the number of contacts are then too low, contacts too long and the "
+         "memory coarse; displacements and density are not affected. Store a run more often: "
+         "--set output.rate=40\n";
+}
 
 std::string tracks_text(const Analysis& analysis) {
   Table table(analysis);
@@ -244,9 +260,9 @@ std::string analysis_text(const Analysis& analysis) {
     title = std::to_string(analysis.sources.size()) + " sources";
   }
   const std::string level = fixed(100 * analysis.options.bootstrap.level, 0);
-  return title + "\nIntervals: " + level + " %, bootstrap over bodies\n\n" + tracks_text(analysis) +
-         smoothing_text(analysis) + displacements_text(analysis) + motion_text(analysis) +
-         neighbours_text(analysis) + comparison_text(analysis);
+  return title + "\nIntervals: " + level + " %, bootstrap over bodies\n" + rate_warning(analysis) +
+         "\n" + tracks_text(analysis) + smoothing_text(analysis) + displacements_text(analysis) +
+         motion_text(analysis) + neighbours_text(analysis) + comparison_text(analysis);
 }
 
 }  // namespace lilytank

@@ -51,7 +51,7 @@ double plateau(const Values& lags, const Values& curve) {
 }
 
 void add_counts(const AnalysisSource& source, SourceSummary& s) {
-  s.name = source.name, s.panel = source.panel, s.exact = source.exact;
+  s.name = source.name, s.panel = source.panel, s.key = source.key, s.exact = source.exact;
   s.recordings = static_cast<int>(source.recordings.size());
   std::int64_t frames = 0;
   for (const Recording& recording : source.recordings) {
@@ -173,6 +173,11 @@ SourceSummary summarise_source(const SmoothSource& source, const BodySums& msd,
         nearest, [](const Values& v) { return v[0]; }, options.bootstrap);
   }
   return s;
+}
+
+bool frames_too_far_apart(const SourceSummary& source) {
+  const bool moves = !source.motion.empty() && source.rms_speed.value > 0;
+  return moves && source.velocity_memory * source.rate < 4;
 }
 
 SourceComparison compare_sources(const Analysis& analysis) {

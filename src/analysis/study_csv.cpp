@@ -120,14 +120,19 @@ std::string comparisons_csv(const StudySummary& s) {
   };
   for (const SurvivalTest& t : s.survival_tests) {
     out += "log_rank," + std::to_string(t.k) + "," + settings(t.a, t.b) + ",,,,,," +
-           cell(t.result.statistic) + "," + cell(t.result.degrees) + "," + cell(t.result.p) + "," +
-           cell(t.adjusted_p) + ",\n";
+           (t.result.degrees > 0 ? cell(t.result.statistic) + "," + cell(t.result.degrees) + "," +
+                                       cell(t.result.p) + "," + cell(t.adjusted_p)
+                                 : std::string(",,,")) +
+           ",\n";
   }
   for (const PairTest& t : s.pair_tests) {
     const std::string name = t.k == 0 ? "paired_copies," : "paired_time," + std::to_string(t.k);
     out += name + "," + settings(t.a, t.b) + "," + std::to_string(t.pairs) + "," +
-           (t.k == 0 ? "1" : "s") + "," + cells(t.result.difference) + ",,," + cell(t.result.p) +
-           "," + cell(t.adjusted_p) + "," + cell(t.result.saving) + "\n";
+           (t.k == 0 ? "1" : "s") + ",";
+    out += (t.reached ? cells(t.result.difference) + ",,," + cell(t.result.p) + "," +
+                            cell(t.adjusted_p) + "," + cell(t.result.saving)
+                      : std::string(",,,,,,,")) +
+           "\n";
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include "lilytank/study_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/study_rows.hpp"
 
@@ -65,6 +66,15 @@ void count_rows(const StudyTable& table, int setting, SettingSummary& summary) {
   }
 }
 
+// Student's interval reaches beyond what can be built where few runs differ. (A stopping rule goes
+// by the whole interval.)
+Estimate within(Estimate copies, int possible) {
+  if (!std::isfinite(copies.low) || !std::isfinite(copies.high)) return copies;
+  copies.low = std::max(copies.low, 0.0);
+  if (possible > 0) copies.high = std::max(copies.value, std::min<double>(copies.high, possible));
+  return copies;
+}
+
 SettingSummary summarise_setting(const StudyTable& table, int setting,
                                  const std::vector<const RunRow*>& runs) {
   SettingSummary summary;
@@ -73,7 +83,7 @@ SettingSummary summarise_setting(const StudyTable& table, int setting,
       at < table.labels.size() ? table.labels[at] : "setting " + std::to_string(setting);
   count_rows(table, setting, summary);
   for (const RunRow* row : runs) summary.possible = std::max(summary.possible, row->possible);
-  summary.copies = copies_of(runs);
+  summary.copies = within(copies_of(runs), summary.possible);
   summary.full_yield = full_yield_of(runs);
   summary.rate = assembly_rate_of(runs);
   return summary;

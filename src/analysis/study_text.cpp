@@ -89,8 +89,11 @@ std::string against_text(const StudySummary& s) {
 std::string survival_tests_text(const StudySummary& s) {
   TextTable table({"copy", "settings", "chi-squared", "degrees", "p", "p (Holm)"});
   for (const SurvivalTest& t : s.survival_tests) {
-    table.add({std::to_string(t.k), pair_name(t.a, t.b, ", "), fixed(t.result.statistic, 2),
-               fixed(t.result.degrees, 0), p_text(t.result.p), p_text(t.adjusted_p)});
+    const bool told = t.result.degrees > 0;
+    const auto shown = [&](const std::string& text) { return told ? text : "-"; };
+    table.add({std::to_string(t.k), pair_name(t.a, t.b, ", "), shown(fixed(t.result.statistic, 2)),
+               shown(fixed(t.result.degrees, 0)), shown(p_text(t.result.p)),
+               shown(p_text(t.adjusted_p))});
   }
   if (table.empty()) return "";
   return "\nLog-rank test of the time to the k-th copy, " + against_text(s) + ".\n" + table.text();
@@ -99,15 +102,19 @@ std::string survival_tests_text(const StudySummary& s) {
 std::string pair_tests_text(const StudySummary& s, const TimeScale& unit) {
   TextTable table({"quantity", "settings", "pairs", "difference", "p", "p (Holm)", "saved"});
   for (const PairTest& t : s.pair_tests) {
+    const auto shown = [&](const std::string& text) { return t.reached ? text : "-"; };
     table.add({t.k == 0 ? "copies at end"
                         : "time to copy " + std::to_string(t.k) + " (" + unit.name + ")",
                pair_name(t.a, t.b, " - "), std::to_string(t.pairs),
-               with_interval(t.result.difference, t.k == 0 ? 1 : unit.seconds), p_text(t.result.p),
-               p_text(t.adjusted_p), fixed(t.result.saving, 2)});
+               shown(with_interval(t.result.difference, t.k == 0 ? 1 : unit.seconds)),
+               shown(p_text(t.result.p)), shown(p_text(t.adjusted_p)),
+               shown(fixed(t.result.saving, 2))});
   }
   if (table.empty()) return "";
   return "\nDifferences of runs that share a seed, Student, " + against_text(s) +
-         ".\nSaved: the variance without sharing over the variance with it.\n" + table.text();
+         ".\nSaved: the variance without sharing over the variance with it. -: no run came so "
+         "far.\n" +
+         table.text();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank::bodies {
@@ -32,7 +33,14 @@ std::vector<Group> groups_of(const BodyExperiment& e) {
     runs[at].push_back(&run);
   }
   std::vector<Group> out;
-  for (std::size_t i = 0; i < names.size(); ++i) out.push_back(make_group(e, names[i], runs[i]));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::all_of(runs[i].begin(), runs[i].end(), [](auto* r) { return r->held_out; })) {
+      throw InputError("experiment " + e.name + ": every recording " +
+                       (names[i].empty() ? "" : "of " + names[i] + " ") +
+                       "is held out: none is left to fit a law to");
+    }
+    out.push_back(make_group(e, names[i], runs[i]));
+  }
   return out;
 }
 

@@ -192,6 +192,11 @@ Top climb(Hill& hill, std::vector<double> q, int most) {
   return top;
 }
 
+// Whether the user says what is left out.
+bool marks_runs(const BodyExperiment& e) {
+  return std::any_of(e.runs.begin(), e.runs.end(), [](const BodyRun& r) { return r.held_out; });
+}
+
 }  // namespace
 
 double Fitted::held_out_sum() const {
@@ -244,7 +249,7 @@ Group make_group(const BodyExperiment& e, const std::string& name,
   constexpr int kQuarters = 4, kMostFolds = 6, kBlocks = 24;
   Group g;
   g.name = name, g.runs = runs, g.typical = typical_of(e, runs);
-  const bool marked = std::any_of(runs.begin(), runs.end(), [](auto* r) { return r->held_out; });
+  const bool marked = marks_runs(e);
   const int n = static_cast<int>(runs.size());
   std::size_t all = 0;
   for (const BodyRun* r : runs) all += r->samples();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bodies/maps.hpp"
@@ -68,13 +69,18 @@ namespace {
 
 // Units of a law's parameter for the experiment's: forces are per mass where masses are unknown.
 std::string unit_for(const BodyExperiment& e, std::string unit) {
+  static const std::map<std::string, std::string> kPerMass{{"N", "m/s^2"},
+                                                           {"N/m", "1/s^2"},
+                                                           {"N/m^3", "1/(m^2 s^2)"},
+                                                           {"N s/m", "1/s"},
+                                                           {"N s^2/m^2", "1/m"}};
+  if (const auto own = kPerMass.find(unit); !e.masses && own != kPerMass.end()) unit = own->second;
   const auto replace = [&](const std::string& from, const std::string& to) {
     for (auto at = unit.find(from); at != std::string::npos; at = unit.find(from, at + to.size())) {
       unit.replace(at, from.size(), to);
     }
   };
   replace("m", e.unit);
-  replace("N", e.masses ? "N" : "(" + e.unit + "/s^2)");
   return unit;
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "jobs/run_directory.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/run.hpp"
+#include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank::cli {
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 
 // One recording with what it needs to join others.
 struct Piece {
-  std::string name, panel;
+  std::string name, panel, key;
   Recording recording;
   double tank_radius = 0, size = 0;
   bool exact = false;  // a run's own places
@@ -34,11 +36,21 @@ const ScenarioEntry& entry(const Scenario& scenario, const std::string& path) {
   throw InputError("'" + path + "' is no key of a scenario" + did_you_mean(path, paths));
 }
 
+// A length as a tank's are told: "-7 cm" of -0.07, "5 mm" of 0.005.
+std::string length_text(double metres) {
+  const double size = std::fabs(metres);
+  if (size >= 1) return without_rounding(metres) + " m";
+  const bool small = size > 0 && size < 0.01;
+  return without_rounding(metres * (small ? 1000 : 100)) + (small ? " mm" : " cm");
+}
+
 // "69 %" of flow.pump_power, "-8 cm" of flow.water_level.
 std::string value_text(const Scenario& scenario, const std::string& path) {
   const ScenarioEntry& e = entry(scenario, path);
   std::string value = e.value;
   std::erase(value, '"');
+  const auto number = parse_number(value);
+  if (e.unit == "m" && number) return length_text(*number);
   return e.unit.empty() || value.find(' ') != std::string::npos ? value : value + " " + e.unit;
 }
 
@@ -98,7 +110,8 @@ std::string base_name(const std::string& word) {
 // What the words name, piece by piece.
 class Reader {
  public:
-  explicit Reader(const SourceOptions& options) : options_(options) {}
+  Reader(const SourceOptions& options, std::vector<std::string>& files)
+      : options_(options), files_(files) {}
 
   std::vector<Piece> read(const std::string& word, const std::string& name) {
     pieces_.clear(), name_ = name;
@@ -119,11 +132,14 @@ class Reader {
 
   void add(const std::string& name, const std::string& panel, const Recording& recording,
            double tank_radius, double size, bool exact = false) {
+    const bool labelled = exact && name_.empty() && !options_.label.empty();
     pieces_.push_back({name_.empty() ? name : name_, panel,
+                       labelled ? last_word(options_.label) : "",
                        part_of(recording, options_.from, options_.to), tank_radius, size, exact});
   }
   void read_run(const std::string& word) {
     const StoredRun run = load_run(word);
+    for (std::string& file : files_of_run(word)) files_.push_back(std::move(file));
     const Model& model = run.scenario.model;
     std::string name = base_name(word), panel;
     if (!options_.label.empty()) name = value_text(run.scenario, options_.label);
@@ -146,6 +162,8 @@ class Reader {
     const Experiment experiment = load_experiment(
         {word}, {}, [&](const RecordingSource& s) { return wanted(s.options.body); });
     const Model& model = experiment.base.model;
+    files_.push_back(word);
+    for (const RecordingSource& source : experiment.sources) files_.push_back(source.file);
     bool lilies = false, others = false;
     for (const Recording& r : experiment.recordings) {
       (r.body == BodyKind::lily ? lilies : others) = true;
@@ -164,11 +182,13 @@ class Reader {
     read.body = options_.body.value_or(BodyKind::lily);
     if (options_.tank_radius > 0) read.tank_radius = options_.tank_radius;
     const Recording recording = read_recording(word, read);
+    files_.push_back(word);
     add(base_name(word), "", recording, read.tank_radius,
         options_.size > 0 ? options_.size : size_of(model, read.body));
   }
 
   const SourceOptions& options_;
+  std::vector<std::string>& files_;
   std::string name_;
   std::vector<Piece> pieces_;
 };
@@ -181,7 +201,8 @@ void join(std::vector<AnalysisSource>& sources, Piece piece) {
       return;
     }
   }
-  AnalysisSource source{piece.name, piece.panel, {}, piece.tank_radius, piece.size, piece.exact};
+  AnalysisSource source{piece.name, piece.panel, {},       piece.tank_radius,
+                        piece.size, piece.exact, piece.key};
   source.recordings.push_back(std::move(piece.recording));
   sources.push_back(std::move(source));
 }
@@ -189,8 +210,9 @@ void join(std::vector<AnalysisSource>& sources, Piece piece) {
 }  // namespace
 
 std::vector<AnalysisSource> read_sources(const std::vector<std::string>& words,
-                                         const SourceOptions& options) {
-  Reader reader(options);
+                                         const SourceOptions& options,
+                                         std::vector<std::string>& files) {
+  Reader reader(options, files);
   std::vector<AnalysisSource> sources;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string name = i < options.names.size() ? options.names[i] : "";

@@ -18,9 +18,10 @@ struct SourceOptions {
 };
 
 /// The sources that a word of the command line names: a run's directory, an experiment's TOML file,
-/// or a recording. Sources of one name, panel and kind of body are taken together. Throws
-/// InputError.
+/// or a recording. Sources of one name, panel and kind of body are taken together. Adds what was
+/// read to `files`. Throws InputError.
 std::vector<AnalysisSource> read_sources(const std::vector<std::string>& words,
-                                         const SourceOptions& options);
+                                         const SourceOptions& options,
+                                         std::vector<std::string>& files);
 
 }  // namespace lilytank::cli

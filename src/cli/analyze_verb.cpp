@@ -104,9 +104,11 @@ int analyze_verb(const Arguments& arguments) {
   }
   const AnalysisOptions how = analysis_options(options);
   refuse_point_bodies(options.positional());
-  const auto sources = read_sources(options.positional(), source_options(options));
-  const Analysis analysis = analyse(sources, how);
+  std::vector<std::string> files;
+  const auto sources = read_sources(options.positional(), source_options(options), files);
   const std::string dir = options.text("out", default_directory(sources));
+  options.spare_directory("out", dir, files);
+  const Analysis analysis = analyse(sources, how);
 #ifdef LILYTANK_HAS_RENDER
   report_analysis(analysis, dir);
 #else

@@ -111,7 +111,7 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
 
 // --recover: no recordings are read, they are simulated.
 int recover_verb(const VerbOptions& options, CalibrationOptions job) {
-  options.refuse_given({"start", "comparisons"}, "has no effect with --recover");
+  options.refuse_given({"start", "comparisons", "balls"}, "has no effect with --recover");
   if (job.flow == CalibrationFlow::paper) {
     options.refuse("--flow " + options.text("flow") +
                    " does not go with --recover: smooth or scenario");

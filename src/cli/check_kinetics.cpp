@@ -1,6 +1,7 @@
 #include "cli/check_kinetics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "cli/progress.hpp"
@@ -86,7 +87,8 @@ RateTable stored_rates(const std::string& where) {
 std::string curve_csv(const CurveBand& worlds, const CurveBand& model) {
   std::string out = "time_s,worlds_mean,worlds_low,worlds_high,model_mean,model_low,model_high\n";
   const auto cell = [](const std::vector<double>& values, std::size_t k) {
-    return "," + (k < values.size() ? shortest(values[k]) : std::string());
+    const bool known = k < values.size() && std::isfinite(values[k]);
+    return "," + (known ? shortest(values[k]) : std::string());
   };
   for (std::size_t k = 0; k < model.time.size(); ++k)
     out += shortest(model.time[k]) + cell(worlds.mean, k) + cell(worlds.low, k) +
@@ -123,6 +125,12 @@ std::string digits(double value) {
   return significant(value, 3);
 }
 
+// " (1.2 .. 1.9)"; of one run there is no band.
+std::string band_text(const CurveBand& band, std::size_t k) {
+  if (!std::isfinite(band.low[k]) || !std::isfinite(band.high[k])) return " (-)";
+  return " (" + digits(band.low[k]) + " .. " + digits(band.high[k]) + ")";
+}
+
 // Both curves at quarters of the time, and where they are furthest apart.
 std::string comparison(const CurveBand& worlds, const CurveBand& model) {
   std::string out;
@@ -134,11 +142,11 @@ std::string comparison(const CurveBand& worlds, const CurveBand& model) {
   }
   for (std::size_t quarter = 1; quarter <= 4; ++quarter) {
     const std::size_t k = quarter * (n - 1) / 4;
-    out += "  after " + digits(model.time[k] / 3600) + " h: model " + digits(model.mean[k]) + " (" +
-           digits(model.low[k]) + " .. " + digits(model.high[k]) + ") copies";
-    if (!worlds.mean.empty())
-      out += ", worlds " + digits(worlds.mean[k]) + " (" + digits(worlds.low[k]) + " .. " +
-             digits(worlds.high[k]) + ")";
+    out += "  after " + digits(model.time[k] / 3600) + " h: model " + digits(model.mean[k]) +
+           band_text(model, k) + " copies";
+    if (!worlds.mean.empty()) {
+      out += ", worlds " + digits(worlds.mean[k]) + band_text(worlds, k);
+    }
     out += "\n";
   }
   if (!worlds.mean.empty())
@@ -224,15 +232,23 @@ void check_kinetics_options(const VerbOptions& options) {
   for (const std::string& file : options.list("measure")) inputs.push_back(file);
   inputs.push_back(options.text("rates"));
   for (const char* name : {"kappa", "bngl"}) options.spare_inputs(name, options.text(name), inputs);
+  options.spare_each_other({"kappa", "bngl"});
+}
+
+std::optional<RateTable> kinetics_input(const VerbOptions& options, const Ruleset& rules,
+                                        int modules) {
+  if (options.has("measure")) static_cast<void>(scenario_for(options, rules, modules));
+  if (!options.has("rates")) return std::nullopt;
+  return stored_rates(options.text("rates"));
 }
 
 std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,
-                                        int modules) {
-  const bool measures = options.has("measure"), reads = options.has("rates");
+                                        int modules, std::optional<RateTable> rates) {
+  const bool measures = options.has("measure");
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
   std::string out;
-  if (measures || reads) {
+  if (measures || rates) {
     const std::string dir = options.text("out", measures ? "out/check-" + rules.name : "");
     if (!dir.empty()) {
       std::error_code error;
@@ -245,7 +261,7 @@ std::optional<std::string> run_kinetics(const VerbOptions& options, const Rulese
       if (!found) return std::nullopt;
       counted = std::move(*found);
     } else {
-      counted.table = stored_rates(options.text("rates"));
+      counted.table = std::move(*rates);
     }
     if (!dir.empty())
       write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted.table));

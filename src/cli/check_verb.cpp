@@ -39,6 +39,7 @@ int check_verb(const Arguments& arguments) {
   job.lattice.attempts = options.whole("attempts", 20000, 1, 1000000000);
   job.lattice.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.lattice.stop = &stop_signal();
+  auto rates = kinetics_input(options, rules, job.modules);
   RulesetCheck check;
   {
     Progress progress(options.has("quiet"));
@@ -51,7 +52,7 @@ int check_verb(const Arguments& arguments) {
     return Exit::stopped;
   }
   std::cout << check_text(rules, check) << std::flush;
-  const auto kinetics = run_kinetics(options, rules, job.modules);
+  const auto kinetics = run_kinetics(options, rules, job.modules, std::move(rates));
   if (!kinetics) {
     std::cerr << "stopped; the same command goes on with the worlds that are done\n";
     return Exit::stopped;

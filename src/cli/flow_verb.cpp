@@ -90,6 +90,16 @@ void measure_bias(const VerbOptions& options, const std::vector<Recording>& reco
   progress.clear();
 }
 
+/// Tables and, where they can be drawn, maps.
+void write_report(const FlowReport& report, const std::string& dir) {
+#ifdef LILYTANK_HAS_RENDER
+  report_flow(report, dir);
+#else
+  write_flow(report, dir);
+  std::cerr << "no maps: this program was built without the renderer (Cairo was not found)\n";
+#endif
+}
+
 }  // namespace
 
 int flow_verb(const Arguments& arguments) {
@@ -120,14 +130,13 @@ int flow_verb(const Arguments& arguments) {
   if (word != "paper") {
     report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
   }
-  if (options.has("bias")) measure_bias(options, experiment.recordings, report);
   const std::string dir = options.text("out", "out/flow-" + report.name);
-#ifdef LILYTANK_HAS_RENDER
-  report_flow(report, dir);
-#else
-  write_flow(report, dir);
-  std::cerr << "no maps: this program was built without the renderer (Cairo was not found)\n";
-#endif
+  write_report(report, dir);
+  if (options.has("bias")) {
+    // Long: what is known already lies there by now.
+    measure_bias(options, experiment.recordings, report);
+    write_flow(report, dir);
+  }
   std::cout << flow_text(report) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;

@@ -48,7 +48,7 @@ void draw(const OptimizationPlan& plan, const OptimizationResult& result, const 
 #ifdef LILYTANK_HAS_RENDER
   const std::string unit = fitness_unit(plan.fitness.fitness);
   const Plot plot =
-      search_plot(result.history, plan.name,
+      search_plot(result.history, result.selected, plan.name,
                   name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
   for (const char* ending : {"fitness.png", "fitness.svg"}) {
     draw_plot(plot, (fs::path(dir) / ending).string());

@@ -17,10 +17,15 @@ bool among(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Whether both are there and one file, by whatever names.
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code absent;
-  return fs::equivalent(a, b, absent) && !absent;
+/// Whether both are one file or directory, by whatever names, there already or not.
+bool same_file(const fs::path& a, const fs::path& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  if (fs::equivalent(a, b, ignored)) return true;
+  const auto whole = [&](const fs::path& p) {
+    return fs::weakly_canonical(fs::absolute(p, ignored), ignored);
+  };
+  return whole(a) == whole(b);
 }
 
 }  // namespace
@@ -131,6 +136,26 @@ void VerbOptions::spare_inputs(const std::string& option, const std::string& fil
   for (const std::string& input : inputs) {
     if (!same_file(file, input)) continue;
     refuse("--" + option + " would overwrite '" + input + "', which is read; choose another name");
+  }
+}
+
+void VerbOptions::spare_directory(const std::string& option, const std::string& dir,
+                                  const std::vector<std::string>& inputs) const {
+  for (const std::string& input : inputs) {
+    const fs::path in = fs::path(input).parent_path();
+    if (!same_file(dir, in.empty() ? fs::path(".") : in)) continue;
+    refuse("--" + option + " '" + dir + "' holds '" + input +
+           "', which is read; choose another directory");
+  }
+}
+
+void VerbOptions::spare_each_other(const std::vector<std::string>& names) const {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_file(text(names[j]), text(names[i]))) continue;
+      refuse("--" + names[j] + " and --" + names[i] + " are one file, '" + text(names[i]) +
+             "'; choose two");
+    }
   }
 }
 

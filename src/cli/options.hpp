@@ -43,6 +43,11 @@ class VerbOptions {
   /// Refuses to write to `file`, which --`option` asks for, if it is one of the `inputs`.
   void spare_inputs(const std::string& option, const std::string& file,
                     const std::vector<std::string>& inputs) const;
+  /// Refuses to write into `dir`, which --`option` asks for, if one of the `inputs` lies there.
+  void spare_directory(const std::string& option, const std::string& dir,
+                       const std::vector<std::string>& inputs) const;
+  /// Refuses two of these options that name one file.
+  void spare_each_other(const std::vector<std::string>& names) const;
   /// An InputError that begins with the verb.
   [[noreturn]] void refuse(const std::string& message) const;
 

@@ -4,11 +4,12 @@
 #include <iostream>
 
 #include "cli/recording_verb.hpp"
+#include "cli/stored_poses.hpp"
 #include "io/recording_keys.hpp"
+#include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/run.hpp"
 #include "recording/columns.hpp"
-#include "text/number.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -38,13 +39,8 @@ Recording filmed(const std::string& dir, const VerbOptions& options) {
     assign_recording_option(a, "recording", reading);
   }
   const Camera camera = camera_of(options);
-  if (t.frames() > 1) {
-    const double stored = (t.frames() - 1) / (t.time.back() - t.time.front());
-    if (stored < 0.999 * camera.rate) {
-      std::cerr << "poses were stored " << shortest(stored)
-                << " times a second; between them the camera sees straight lines (run with --set "
-                   "output.rate=40 to store every step)\n";
-    }
+  if (t.frames() > 1 && stored_rate(t) < 0.999 * camera.rate) {
+    std::cerr << seldom_stored(t, "the camera sees straight lines", "40 to store every step");
   }
   Recording out = film(t, camera, reading.body);
   out.latches = run.scenario.model.control.latches;
@@ -105,14 +101,6 @@ void add_writing_options(VerbOptions& options) {
       cxxopts::value<std::vector<std::string>>(), "KEY=VALUE");
 }
 
-RecordingFormat format_to_write(const VerbOptions& options) {
-  const RecordingFormat format = format_of_word(options.text("to", "tidy"), {"--to", 0, 0});
-  if (format == RecordingFormat::automatic || format == RecordingFormat::table) {
-    options.refuse("--to " + options.text("to") + " is no format to write");
-  }
-  return format;
-}
-
 /// Whether a file lies where those of single tracks are to be written, and is named as they are.
 bool is_among_tracks(const std::string& file, const std::string& folder, RecordingFormat format) {
   const fs::path path(file);
@@ -163,12 +151,9 @@ void convert_files(const VerbOptions& options, const std::string& out, Recording
 
 void convert_run(const VerbOptions& options, const std::string& dir, const std::string& out,
                  RecordingFormat format) {
-  std::vector<std::string> inputs;
-  for (const char* name : {"resolved.toml", "trajectory.bin", "trajectory.csv"}) {
-    inputs.push_back((fs::path(dir) / name).string());
-  }
-  options.spare_inputs("out", out, inputs);
-  const double radius = load_scenario({inputs.front()}, {}).model.tank.radius;
+  options.spare_inputs("out", out, files_of_run(dir));
+  const std::string scenario = (fs::path(dir) / run_file::resolved).string();
+  const double radius = load_scenario({scenario}, {}).model.tank.radius;
   write_one(filmed(dir, options), out, format, calibration_of(options, radius));
 }
 
@@ -185,7 +170,7 @@ int recording_convert(const Arguments& arguments) {
   if (!options.has("out") || options.text("out").empty()) {
     options.refuse("where to? give --out FILE");
   }
-  const RecordingFormat format = format_to_write(options);
+  const RecordingFormat format = format_to_write(options.text("to", "tidy"), {"--to", 0, 0});
   const std::string out = options.text("out");
   const auto& words = options.positional();
   if (words.size() == 1 && is_run(words[0])) {

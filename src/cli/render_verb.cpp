@@ -1,12 +1,15 @@
 #include "cli/options.hpp"
 
 #ifdef LILYTANK_HAS_RENDER
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <limits>
 
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
+#include "cli/stored_poses.hpp"
 #include "io/units.hpp"
 #include "lilytank/render.hpp"
 #endif
@@ -48,13 +51,30 @@ void check_ending(const VerbOptions& options, const std::string& name) {
   }
 }
 
+bool asks_for(const VerbOptions& options, std::initializer_list<const char*> names) {
+  return std::any_of(names.begin(), names.end(), [&](const char* n) { return options.has(n); });
+}
+
+/// Says so where poses were stored too seldom for the frame or the film that is asked for.
+void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
+                    double at) {
+  const bool frame = asks_for(options, {"png", "svg"});
+  std::string note;
+  if (frame) note = too_seldom_to_draw(run, {at});
+  if (note.empty() && (!frame || asks_for(options, {"mp4", "gif", "stills"}))) {
+    note = too_seldom_to_draw(run, film_times(run, film));
+  }
+  std::cerr << note;
+}
+
 /// Draws all that was asked for; false if it was stopped.
 bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
   const StoredRun run = load_run(dir);
+  const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
+  tell_if_seldom(options, run, film, at);
   Progress progress(options.has("quiet"));
   film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
-  const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
   std::vector<std::string> made;
   const auto films = [&](const std::string& file) {
     if (film.stop->load()) return;
@@ -73,8 +93,7 @@ bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
     draw_stills(run, film, options.text("stills"));
     made.push_back(options.text("stills"));
   }
-  const bool asked = options.has("png") || options.has("svg") || options.has("mp4") ||
-                     options.has("gif") || options.has("stills");
+  const bool asked = asks_for(options, {"png", "svg", "mp4", "gif", "stills"});
   if (!asked) films((std::filesystem::path(dir) / "video.mp4").string());
   progress.clear();
   if (film.stop->load()) return false;

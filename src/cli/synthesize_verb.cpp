@@ -135,6 +135,7 @@ void check_outputs(const VerbOptions& options) {
   for (const char* option : {"out", "figure"}) {
     options.spare_inputs(option, options.text(option), drawings);
   }
+  options.spare_each_other({"out", "figure"});
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
 }
 
 // Numbers of bodies, over all recordings.
+int most_bodies(const std::vector<RecordingShape>& shapes) {
+  int most = 0;
+  for (const RecordingShape& shape : shapes) most = std::max(most, shape.bodies);
+  return most;
+}
+
 int identities_in(const std::vector<Recording>& recordings) {
   std::set<std::int64_t> ids;
   for (const Recording& one : recordings) {
@@ -135,9 +141,8 @@ Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diag
 void Diagnoser::run(Diagnosis& out) {
   prepare(model_cost());
   out.flow_csv = setup_.corrected_csv(*maps_->best());
-  for (const auto* shapes : {&setup_.shapes, &setup_.held_out_shapes}) {
-    for (const RecordingShape& shape : *shapes) out.modules = std::max(out.modules, shape.bodies);
-  }
+  out.modules =
+      std::max({out.modules, most_bodies(setup_.shapes), most_bodies(setup_.held_out_shapes)});
   if (!atlas_->plan().identities) {
     out.checks.push_back(
         "there are more identities than bodies: what single modules differ in is "
@@ -155,7 +160,7 @@ void Diagnoser::run(Diagnosis& out) {
 
 Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
   claim_directory(options.out, options.force, "diagnosis",
-                  "22 " + hex(setup.identity) + " " + shortest(options.minutes));
+                  "23 " + hex(setup.identity) + " " + shortest(options.minutes));
   return Stages(setup);
 }
 
@@ -192,18 +197,17 @@ ScorePlan Diagnoser::plan(const Vector& centre) const {
   p.predictor = predictor_options(p.model, setup_.training);
   p.effects = effect_catalogue(setup_.model);
   double longest = 0;
-  int bodies = 0;
   for (const Recording& r : setup_.training) longest = std::max(longest, r.frames / r.rate);
-  for (const RecordingShape& shape : setup_.shapes) bodies = std::max(bodies, shape.bodies);
-  const int known = identities_in(setup_.training);
-  p.identities = known <= bodies;
+  const int known = identities_in(setup_.training), later = identities_in(setup_.held_out);
+  const int bodies = most_bodies(setup_.shapes);
+  p.identities = known <= bodies && later <= most_bodies(setup_.held_out_shapes);
   if (!p.identities) {
     std::erase_if(p.effects, [](const Effect& e) { return e.name == "heterogeneous_module"; });
   }
   p.shapes = shape_catalogue(p.model, longest);
   p.nuisances_known = nuisances_known(p.model, *maps_, derived_seed(options_.seed, 32));
   p.rate = setup_.training.front().rate;
-  p.modules = std::max({bodies, known, identities_in(setup_.held_out)});
+  p.modules = std::max({bodies, known, later});
   return p;
 }
 

@@ -1,6 +1,7 @@
 #include "diagnose/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lilytank/model_parameter.hpp"
 #include "text/number.hpp"
@@ -106,7 +107,8 @@ void add_water(std::vector<Effect>& all, const Model& model) {
   const double out = 0.45 * model.tank.radius;
   for (int k = 0; k < 6; ++k) {
     const Rot at = rotation(k * kPi / 3);
-    all.push_back(stream_effect(model, out * at.c, out * at.s, 0.06));
+    const auto whole = [](double place) { return std::round(place * 1e6) / 1e6; };  // um
+    all.push_back(stream_effect(model, whole(out * at.c), whole(out * at.s), 0.06));
   }
 }
 

@@ -194,6 +194,7 @@ Proof read_proof(const std::string& dir) {
     throw InputError(dir + " holds no finished proof: there is no key.txt");
   }
   Proof proof;
+  proof.dir = dir;
   proof.key = read_whole(key.string());
   proof.hash = sha256(proof.key), proof.sealed = lines_of(proof.key);
   if (proof.key.starts_with("tank ")) proof.sealed -= 1;

@@ -53,7 +53,9 @@ std::string key_of(const ProofWorld& w) {
 std::string said_of(const ProofWorld& w) {
   std::vector<std::string> names;
   for (const ProofFinding& f : w.findings) {
-    names.push_back(f.effect == "unnamed" ? "unnamed, " + f.variable : f.effect);
+    std::vector<std::string> group{f.effect == "unnamed" ? "unnamed, " + f.variable : f.effect};
+    group.insert(group.end(), f.alternatives.begin(), f.alternatives.end());
+    names.push_back(joined(group, " | "));
   }
   return names.empty() ? name_of(w.verdict) : joined(names, " + ");
 }
@@ -189,13 +191,14 @@ std::string proof_text(std::span<const Proof> proofs) {
     tanks.insert(tank_of(p));
     all.worlds.insert(all.worlds.end(), p.worlds.begin(), p.worlds.end());
     all.sealed += p.sealed;
-    hashes += "SHA-256 of " + std::string(proofs.size() > 1 ? "a" : "the") +
-              " key (key.txt): " + p.hash + "\n";
+    hashes += "SHA-256 of the key (key.txt)" +
+              (proofs.size() > 1 && !p.dir.empty() ? " of " + p.dir : "") + ": " + p.hash + "\n";
   }
   return "proof on " + std::string(all.worlds.size() < all.sealed ? "the first " : "") +
          std::to_string(all.worlds.size()) + " of " + std::to_string(all.sealed) +
          " sealed experiments" +
-         (tanks.size() > 1 ? " in " + std::to_string(tanks.size()) + " tanks" : "") +
+         (tanks.size() > 1 ? " in " + std::to_string(tanks.size()) + " tanks or sets of balls"
+                           : "") +
          (proofs.size() == 1 && !proofs[0].tank.empty() ? " in " + proofs[0].tank : "") + "\n" +
          hashes + "\n" + worlds_text(all, proofs);
 }

@@ -108,6 +108,21 @@ std::shared_ptr<const FlowField> scaled(const FlowEstimate& smooth, double gusts
                                            std::move(measured), Interpolation::bilinear);
 }
 
+using Estimator = FlowEstimate(std::span<const Recording>, const BallPhysics&, const FlowOptions&);
+
+// An estimate's errors, or why these recordings, which are as short as those given, do not do.
+FlowBiasRow row_of(const std::string& what, const char* name, Estimator* estimate,
+                   std::span<const Recording> made, const BallPhysics& ball,
+                   const FlowOptions& options, const FlowTruth& truth) {
+  FlowBiasRow row{what, name, {}, {}};
+  try {
+    row.error = compare_flow(estimate(made, ball, options), truth, true);
+  } catch (const InputError& error) {
+    row.missing = error.what();
+  }
+  return row;
+}
+
 }  // namespace
 
 std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
@@ -129,11 +144,11 @@ std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings
       asked.smoothing.method = SmoothingMethod::polynomial, asked.smoothing.window = variant.window;
     }
     const FlowTruth truth{field->cells(), field->samples()};
-    const auto add = [&](const FlowEstimate& found) {
-      rows.push_back({variant.what, found.name, compare_flow(found, truth, true)});
+    const auto add = [&](const char* name, Estimator* estimate) {
+      rows.push_back(row_of(variant.what, name, estimate, made, changed, asked, truth));
     };
-    add(estimate_paper(made, changed, asked));
-    if (variant.smooth) add(estimate_smooth(made, changed, asked));
+    add("paper", estimate_paper);
+    if (variant.smooth) add("smooth", estimate_smooth);
     done += 1.0 / static_cast<double>(variants().size());
     if (progress) progress(done);
   }

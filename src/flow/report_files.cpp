@@ -34,6 +34,10 @@ std::string bias_csv(const std::vector<FlowBiasRow>& rows) {
   for (const FlowBiasRow& row : rows) {
     const FlowError& e = row.error;
     out += row.what + "," + row.estimator + "," + std::to_string(e.cells);
+    if (!row.missing.empty()) {
+      out += ",,,,,,,\n";  // unknown values are empty cells
+      continue;
+    }
     for (const double v : {e.mean_rms, e.mean_radial, e.mean_around, e.deviation_rms,
                            e.deviation_bias, e.mean_coverage, e.deviation_coverage}) {
       out += "," + without_rounding(v);

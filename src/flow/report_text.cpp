@@ -63,7 +63,9 @@ class Columns {
 
 std::string fields(const FlowReport& report) {
   Columns table(report.estimates);
-  table.add("measured cells", [](const FlowEstimate& e) { return std::to_string(e.measured()); });
+  const int tank = report.estimates.empty() ? 0 : cells_in_tank(report.estimates.front());
+  table.add("measured cells, of " + std::to_string(tank) + " in the tank",
+            [](const FlowEstimate& e) { return std::to_string(e.measured()); });
   table.add("frames (paper), balances (smooth)",
             [](const FlowEstimate& e) { return std::to_string(e.samples); });
   const auto number = [](double Summary::*member) {
@@ -76,6 +78,16 @@ std::string fields(const FlowReport& report) {
   table.add("median standard error of a mean", number(&Summary::mean_error));
   table.add("median standard error of a deviation", number(&Summary::deviation_error));
   return table.text();
+}
+
+// Of an estimate that is mostly made up from a few cells.
+std::string few_cells(const FlowEstimate& e) {
+  const int tank = cells_in_tank(e);
+  if (5 * e.measured() >= tank) return "";
+  return "warning: " + e.name + " measured " + std::to_string(e.measured()) + " of the tank's " +
+         std::to_string(tank) +
+         " cells and filled all others from these: record longer, or give fewer --cells or a "
+         "smaller --least\n";
 }
 
 std::string normality(const FlowEstimate& e, double level) {
@@ -149,17 +161,32 @@ std::string errors(const FlowReport& report) {
 }
 
 std::string bias_text(const std::vector<FlowBiasRow>& rows) {
-  TextTable table({"synthetic recordings", "estimator", "mean rms", "outwards", "around",
+  TextTable table({"synthetic recordings", "estimator", "cells", "mean rms", "outwards", "around",
                    "deviation rms", "average"});
+  std::string missing;
   for (const FlowBiasRow& row : rows) {
     const FlowError& e = row.error;
-    table.add({row.what, row.estimator, fixed(e.mean_rms, 4), fixed(e.mean_radial, 4),
-               fixed(e.mean_around, 4), fixed(e.deviation_rms, 4), fixed(e.deviation_bias, 4)});
+    if (!row.missing.empty()) {
+      table.add({row.what, row.estimator, "-", "-", "-", "-", "-", "-"});
+      missing += "  " + row.what + ", " + row.estimator + ": " + row.missing + "\n";
+      continue;
+    }
+    table.add({row.what, row.estimator, std::to_string(e.cells), fixed(e.mean_rms, 4),
+               fixed(e.mean_radial, 4), fixed(e.mean_around, 4), fixed(e.deviation_rms, 4),
+               fixed(e.deviation_bias, 4)});
   }
-  return "\nErrors on synthetic recordings in this flow, m/s:\n" + table.text();
+  return "\nErrors on synthetic recordings in this flow, m/s:\n" + table.text() + missing;
 }
 
 }  // namespace
+
+int cells_in_tank(const FlowEstimate& estimate) {
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(estimate.cell.size()); ++i) {
+    count += std::hypot(estimate.x(i), estimate.y(i)) <= estimate.extent ? 1 : 0;
+  }
+  return count;
+}
 
 std::string flow_text(const FlowReport& report) {
   std::string out = "flow of " + report.name + "\n" + fields(report);
@@ -169,6 +196,7 @@ std::string flow_text(const FlowReport& report) {
       out += "  " + std::to_string(e.dropped) + " balances left out: a contact or the wall\n";
     }
   }
+  for (const FlowEstimate& e : report.estimates) out += few_cells(e);
   for (const FlowEstimate& e : report.estimates) {
     if (e.noise) out += "\n" + noise_text(*e.noise);
     if (e.thinning > 0) {

@@ -46,12 +46,14 @@ void sync_directory(const std::filesystem::path& directory) {
 }
 
 /// The file that a name stands for: links are followed, as a shell's > does, also to one that is
-/// yet to be made. The links of /proc (where /dev/stdout leads) stand for open files that may have
-/// no name.
+/// yet to be made. The links of /proc (where /dev/stdout and /dev/fd lead) stand for open files
+/// that may have no name.
 std::filesystem::path file_behind(std::filesystem::path file) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   for (int links = 0; links < 40; ++links) {
+    const fs::path in = fs::canonical(file.has_parent_path() ? file.parent_path() : ".", ignored);
+    if (!ignored) file = in / file.filename();
     if (!fs::is_symlink(file, ignored) || file.native().starts_with("/proc/")) break;
     file = file.parent_path() / fs::read_symlink(file, ignored);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/atomic_file.hpp"
+#include "io/scenario_values.hpp"
 #include "io/toml_fields.hpp"
 #include "io/units.hpp"
 #include "text/number.hpp"
@@ -192,12 +193,23 @@ BodyFile read_body_file(const std::string& file, const std::vector<std::string>&
 }
 
 bool is_body_experiment(const std::string& file) {
+  toml::table root;
   try {
-    const toml::table root = parse_toml(read_whole(file), file);
-    return root["experiment"]["body"].value<std::string>() == "point" && !root.contains("tank");
+    root = parse_toml(read_whole(file), file);
   } catch (const InputError&) {
     return false;
   }
+  if (root.contains("tank")) return false;
+  const auto body = root["experiment"]["body"].value<std::string>();
+  if (body == "point") return true;
+  if (!root.contains("baseline")) return false;
+  // What would be said of [baseline] as a part of a tank's experiment is beside the point.
+  if (!body || *body == "lily" || *body == "ball") {
+    throw InputError(place_of(root["baseline"].node()->source(), file),
+                     "[baseline] is of point bodies: say body = \"point\" in [experiment]");
+  }
+  throw unknown_word(place_of(root["experiment"]["body"].node()->source(), file), "experiment.body",
+                     *body, {"lily", "ball", "point"});
 }
 
 }  // namespace lilytank

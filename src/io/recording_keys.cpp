@@ -198,9 +198,14 @@ void assign_camera_option(const Assignment& from, Camera& c) {
   });
 }
 
-RecordingFormat format_of_word(const std::string& word, const SourcePlace& place) {
+RecordingFormat format_to_write(const std::string& word, const SourcePlace& place) {
+  std::vector<std::string> written(kFormats.begin(), kFormats.end());
+  std::erase(written, format_word(RecordingFormat::automatic));
+  std::erase(written, format_word(RecordingFormat::table));
+  if (std::find(written.begin(), written.end(), word) == written.end()) {
+    throw unknown_word(place, "format", word, written);
+  }
   const auto found = std::find(kFormats.begin(), kFormats.end(), word);
-  if (found == kFormats.end()) throw unknown_word(place, "format", word, kFormats);
   return static_cast<RecordingFormat>(found - kFormats.begin());
 }
 

@@ -16,7 +16,8 @@ void assign_recording_option(const Assignment& from, const std::string& prefix,
 /// The same for a camera; the prefix is "camera".
 void assign_camera_option(const Assignment& from, Camera& camera);
 
-/// The format of a word, which stands at `place`. Throws InputError with the nearest right one.
-RecordingFormat format_of_word(const std::string& word, const SourcePlace& place);
+/// The format of a word, which stands at `place`, of those that can be written. Throws InputError
+/// with the nearest right one.
+RecordingFormat format_to_write(const std::string& word, const SourcePlace& place);
 
 }  // namespace lilytank

@@ -28,6 +28,13 @@ std::string same_name_elsewhere(const std::string& name, const std::vector<Scena
   return "";
 }
 
+/// The key nearest to a whole path: " - did you mean 'module.count'?".
+std::string nearest_path(const Assignment& from, const std::vector<ScenarioKey>& keys) {
+  std::vector<std::string> paths;
+  for (const ScenarioKey& key : keys) paths.push_back(key.path);
+  return did_you_mean(from.path(), paths);
+}
+
 /// Whether a path is that of a file's own lines: only there are tables that are no keys' tables.
 /// (Those of --set and of axes are named in one piece.)
 bool is_in_file(const Assignment& from) {
@@ -71,6 +78,10 @@ InputError unknown_key(const Assignment& from, const std::vector<ScenarioKey>& k
     }
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       std::string help = did_you_mean(name, names);
+      // A path in one piece is mended as one.
+      if (i == 0 && !help.empty() && from.keys.size() > 1 && !is_in_file(from)) {
+        if (const std::string whole = nearest_path(from, keys); !whole.empty()) help = whole;
+      }
       if (help.empty()) help = same_name_elsewhere(from.keys.back(), keys);
       if (help.empty() && !prefix.empty() && names.size() <= 12) {
         help = " - '" + prefix.substr(0, prefix.size() - 1) + "' has " + listed(names, ", ");

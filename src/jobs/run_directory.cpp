@@ -42,6 +42,14 @@ std::vector<std::string> attached_names(const std::string& dir) {
 
 }  // namespace
 
+std::vector<std::string> files_of_run(const std::string& dir) {
+  std::vector<std::string> names = attached_names(dir);
+  names.insert(names.end(), std::begin(kResults), std::end(kResults));
+  names.push_back(run_file::resolved);
+  for (std::string& name : names) name = (fs::path(dir) / name).string();
+  return names;
+}
+
 RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force)
     : dir_(std::move(dir)), scenario_(&scenario), force_(force) {
   std::error_code ignored;

@@ -23,6 +23,10 @@ inline constexpr const char* summary_json = "summary.json";
 inline constexpr const char* checkpoint = "checkpoint.bin";
 }  // namespace run_file
 
+/// Paths of the files in `dir` that are a run's own, present or not: scenario, what it refers to,
+/// results.
+std::vector<std::string> files_of_run(const std::string& dir);
+
 class RunDirectory {
  public:
   /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run or

@@ -124,7 +124,7 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
       std::move(search), [&](const Trial& trial) { return source->evaluate(trial, options.stop); },
       run);
   result.best = found.search->best();
-  result.history = found.search->history();
+  result.history = found.search->history(), result.selected = found.search->selected();
   result.stopped = found.stopped || !keep_own_if_better(race, source, result, options);
   if (result.stopped) return result;
   result.optimum = write_optimum(*source, result.best, options.out);

@@ -167,7 +167,7 @@ class ClockFinder {
   // what the times count, or how many frames there are, that is believed.
   void check_unit() {
     constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
-    const bool told = options_->rate > 0 || options_->time_unit != 1;
+    const bool told = options_->rate > 0 || options_->time_unit;
     const bool dates = !std::isnan(s_->first_date);
     if (told || dates || !options_->in_tank || clock_.rate >= kSlowest) return;
     std::string hint;
@@ -177,7 +177,8 @@ class ClockFinder {
       }
     }
     report_->add(Check::units, file_, -1, -1,
-                 "frames are " + time_text(1 / clock_.rate) + " apart" + hint);
+                 "frames are " + time_text(1 / clock_.rate) + " apart" + hint +
+                     "; if that is so, say time_unit = \"1 s\"");
   }
 
   double error(const Sighting& row) const {

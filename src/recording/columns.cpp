@@ -60,8 +60,7 @@ double bounded(const Table& table, int column) {
 }
 
 std::string names_text(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  const std::string list = joined(names, ", ");
   return list.size() > 200 ? list.substr(0, 200) + ", ..." : list;
 }
 
@@ -90,7 +89,7 @@ std::string nearest(const std::string& wanted, const Table& table) {
 class ColumnReader {
  public:
   ColumnReader(Table& table, const RecordingOptions& options, Sightings& out)
-      : table_(&table), time_unit_(options.time_unit), out_(&out) {
+      : table_(&table), time_unit_(options.time_unit.value_or(1)), out_(&out) {
     const Naming names = naming_of(out.format);
     const ColumnNames& own = options.columns;
     at_.frame = find(own.frame, names.frame), at_.time = find(own.time, names.time);
@@ -284,7 +283,7 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
   for (std::int64_t frame = 0; table.next(); ++frame) {
     Sighting s;
     s.frame = frame, s.line = table.line(), s.file = file;
-    if (time >= 0) s.time = bounded(table, time) * options.time_unit;
+    if (time >= 0) s.time = bounded(table, time) * options.time_unit.value_or(1);
     if (time >= 0 && std::isnan(s.time)) {
       table.refuse(time, table.quoted(time) + " is not a time");
     }

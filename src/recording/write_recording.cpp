@@ -65,7 +65,8 @@ class Writer {
         format == trackpy || format == idtracker || format == idtracker_wide || format == fasttrack;
     if (pixels && !(c_.pixel > 0)) {
       throw InputError("the format " + format_word(format) +
-                       " is in pixels: say how large one is (pixel), and where the tank is");
+                       " is in pixels: say how large one is, and where the tank is, as by --write "
+                       "pixel='0.66 mm' --write origin=[640,480]");
     }
     if (format == trex && c_.pixel == 0) c_.pixel = 0.01;
     if (c_.pixel == 0) c_.pixel = 1;

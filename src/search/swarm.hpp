@@ -23,6 +23,7 @@ class Swarm final : public Search {
   void tell(std::span<const double> values) override;
   Incumbent best() const override;
   const std::vector<IterationRecord>& history() const override { return history_; }
+  bool selected() const override { return selection_.begun() && selection_.over(); }
   std::int64_t evaluations() const override { return evaluations_; }
   std::int64_t budget() const override;
   const SearchSpace& space() const override { return space_; }

@@ -98,7 +98,6 @@ TEST(DiagnoseBodies, tellsBothDragsWhereNoiseHidesTheDifference) {
   EXPECT_TRUE(has(all, "quadratic_drag"));
 }
 
-// Forty complete experiments at five per cent: seven alarms or more have a probability of 0.3 %.
 // Runs that are not held out have no part in what is compared, not even as zeros.
 TEST(DiagnoseBodies, oneHeldOutRunTellsAsWell) {
   BodyExperiment e = falls(0.3, 0, 2e-3, 3);
@@ -109,6 +108,21 @@ TEST(DiagnoseBodies, oneHeldOutRunTellsAsWell) {
   EXPECT_GT(d.findings[0].gain_low, 0);
 }
 
+// Nothing would be left to fit to, and a gain over the very data of the fit says nothing.
+TEST(DiagnoseBodies, allRunsHeldOutAreRefused) {
+  BodyExperiment e = falls(0.3, 0, 2e-3, 3);
+  e.name = "falls";
+  for (BodyRun& run : e.runs) run.held_out = true;
+  try {
+    diagnosis_of(e);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& refused) {
+    EXPECT_STREQ(refused.what(),
+                 "experiment falls: every recording is held out: none is left to fit a law to");
+  }
+}
+
+// Forty complete experiments at five per cent: seven alarms or more have a probability of 0.3 %.
 TEST(DiagnoseBodies, keepsItsRateOfFalseAlarms) {
   int alarms = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {

@@ -89,6 +89,13 @@ TEST_F(AnalyzeVerb, NamesRunsByAKeyAndTakesReplicatesTogether) {
   EXPECT_NE(a.out.find("80 % less 50 %"), std::string::npos) << a.out;
   const std::string summary = lilytank_.here.read("o/summary.csv");
   EXPECT_NE(summary.find("50 %,recordings,1,2,"), std::string::npos) << summary;
+  const Answer many = lilytank_(
+      "analyze p50a p80 --label flow.water_level --panel flow.pump_power --msd-only --out o3");
+  EXPECT_EQ(many.code, 0) << many.err;
+  EXPECT_NE(many.out.find("-8 cm"), std::string::npos) << many.out;
+#ifdef LILYTANK_HAS_RENDER
+  EXPECT_TRUE(has("o3/msd_all.svg"));
+#endif
   const Answer wrong = lilytank_("analyze p80 --label flow.pump_powr --out o2");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("did you mean 'flow.pump_power'"), std::string::npos) << wrong.err;

@@ -3,6 +3,7 @@
 
 #include "cli/program.hpp"
 #include "lilytank/flow_field.hpp"
+#include "lilytank/recording_io.hpp"
 
 namespace lilytank {
 namespace {
@@ -17,6 +18,10 @@ TEST(flowVerb, leavesGridsThatARunReads) {
                            "tracking noise", "stand as discoveries"}) {
     EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
   }
+  // Twenty seconds are little for 50 x 50 cells, and that is said.
+  EXPECT_NE(a.out.find("measured cells, of 1976 in the tank"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("warning: smooth measured 6 of the tank's 1976 cells"), std::string::npos)
+      << a.out;
   EXPECT_EQ(lilytank.here.read("f/flow.txt"), a.out);
   for (const char* name : {"paper", "smooth"}) {
     const std::string n = name;
@@ -44,6 +49,32 @@ TEST(flowVerb, aTruthGivesErrors) {
   EXPECT_NE(a.out.find("Errors against p/flow_paper.csv"), std::string::npos) << a.out;
   EXPECT_EQ(a.out.find("stand as discoveries"), std::string::npos);
   EXPECT_EQ(lilytank.here.read("s/errors_smooth.csv").substr(0, 6), "ix,iy,");
+}
+
+TEST(flowVerb, cellsThatAreLargeEnoughGiveNoWarning) {
+  const Program lilytank;
+  const Answer a = lilytank("flow " + kTank + " --cells 10 --out f");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out.find("warning"), std::string::npos) << a.out;
+}
+
+// Of some variants this recording is too short for; the others are told all the same.
+TEST(flowVerb, biasGoesOnWhereARecordingIsTooShort) {
+  const Program lilytank;
+  Recording balls = read_recording(LILYTANK_SOURCE_DIR "/scenarios/experiments/balls_1.csv.gz");
+  balls.frames = 80;
+  for (Track& t : balls.tracks) t.x.resize(80), t.y.resize(80);
+  write_recording(balls, lilytank.here.path("short.csv"), RecordingFormat::tidy);
+  lilytank.here.write("short.toml", "[[recording]]\nfile = \"short.csv\"\nbody = \"ball\"\n");
+  const Answer a = lilytank("flow short.toml --bias --cells 12 --out f --quiet");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(a.out.find("no random force, smooth: the balls' tracks hold"), std::string::npos)
+      << a.out;
+  const std::string table = lilytank.here.read("f/bias.csv");
+  EXPECT_NE(table.find("\nno random force,smooth,0,,,,,,,\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nrandom force x 2,smooth,"), std::string::npos) << table;
+  EXPECT_EQ(lilytank.here.read("f/flow.txt"), a.out);
+  EXPECT_TRUE(lilytank.here.has("f/flow_smooth.csv"));
 }
 
 TEST(flowVerb, refusesWithOneLine) {

@@ -43,6 +43,8 @@ TEST_F(OptionsTest, WithoutEffectTheyAreRefused) {
           "lilytank calibrate: --recordings goes with --recover");
   refused("calibrate tiny.toml --recover 1 --start x.toml",
           "lilytank calibrate: --start has no effect with --recover");
+  refused("calibrate tiny.toml --recover 1 --balls 3",
+          "lilytank calibrate: --balls has no effect with --recover");
   refused("calibrate tiny.toml --recover 1 --flow paper",
           "lilytank calibrate: --flow paper does not go with --recover: smooth or scenario");
   refused("synthesize t.txt --all D --out q",
@@ -87,6 +89,17 @@ TEST_F(OptionsTest, FilesOfOtherVerbsAreCalledWhatTheyAre) {
             "search.toml:1:2: [optimize] is not of a scenario, but of the file of an optimisation: "
             "for lilytank optimize");
   }
+}
+
+TEST_F(OptionsTest, AMisspeltBodyIsWhatIsTold) {
+  const std::string rest = "[baseline]\ngravity = 9.81\n[[recording]]\nfile = \"p.csv\"\n";
+  lilytank_.here.write("p.toml", "[experiment]\nbody = \"pont\"\n" + rest);
+  lilytank_.here.write("q.toml", "[experiment]\n" + rest);
+  refused("diagnose p.toml",
+          "p.toml:2:8: experiment.body = \"pont\" is none of lily, ball, point - did you mean "
+          "'point'?");
+  refused("diagnose q.toml",
+          "q.toml:2:1: [baseline] is of point bodies: say body = \"point\" in [experiment]");
 }
 
 // Recordings of a tank may be of points, too.

@@ -52,6 +52,7 @@ TEST_F(OutputsTest, WhatIsReadIsNotOverwritten) {
   const std::string convert = "recording convert";
   refused(convert + " a.csv --out a.csv", overwrites(convert, "out", "a.csv"));
   refused(convert + " a.csv --out ./lab/../a.csv", overwrites(convert, "out", "a.csv"));
+  refused(convert + " a.csv --out new/../a.csv", overwrites(convert, "out", "a.csv"));
   refused(convert + " a.csv --out link.csv", overwrites(convert, "out", "a.csv"));
   refused(convert + " lab/a.csv lab/b.csv --out lab", overwrites(convert, "out", "lab/a.csv"));
   refused(convert + " tracks --to swistrack-tracks --out tracks",
@@ -69,11 +70,31 @@ TEST_F(OutputsTest, WhatIsReadIsNotOverwritten) {
   EXPECT_EQ(lilytank_(convert + " a.csv --to trex --out new").code, 0);
 }
 
+TEST_F(OutputsTest, AnAnalysisNeedsADirectoryOfItsOwn) {
+  lilytank_.here.write("lab/summary.csv", kTable);
+  ASSERT_EQ(lilytank_("run tiny.toml --out r --quiet").code, 0);
+  const std::string message =
+      "lilytank analyze: --out 'lab' holds 'lab/summary.csv', which is read; "
+      "choose another directory";
+  refused("analyze lab/summary.csv --out lab", message);
+  EXPECT_EQ(lilytank_("analyze r --out r").code, 2);
+  EXPECT_EQ(lilytank_("analyze r --out r/analysis").code, 0);
+}
+
+TEST_F(OutputsTest, TwoOutputsAreTwoFiles) {
+  refused("synthesize t.txt --out a.svg --figure new/../a.svg",
+          "lilytank synthesize: --out and --figure are one file, 'new/../a.svg'; choose two");
+  refused("check pair.rules --lattice 0 --kappa k --bngl k",
+          "lilytank check: --kappa and --bngl are one file, 'k'; choose two");
+}
+
 TEST_F(OutputsTest, ARunIsNotOverwrittenByItsFilm) {
   ASSERT_EQ(lilytank_("run tiny.toml --out r --quiet --set output.trajectory=csv").code, 0);
-  refused("recording convert r --out r/trajectory.csv",
-          "lilytank recording convert: --out would overwrite 'r/trajectory.csv', which is read; "
-          "choose another name");
+  for (const std::string own : {"trajectory.csv", "metrics.csv", "checkpoint.bin"}) {
+    refused("recording convert r --out r/" + own,
+            "lilytank recording convert: --out would overwrite 'r/" + own +
+                "', which is read; choose another name");
+  }
   for (int time = 0; time < 2; ++time) {
     EXPECT_EQ(lilytank_("recording convert r --out r/film.csv").code, 0);
   }

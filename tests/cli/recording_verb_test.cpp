@@ -134,7 +134,13 @@ TEST_F(RecordingVerb, mistakesAreOneLineAndTheNearestRightWord) {
     EXPECT_EQ(a.out, "");
   }
   const Answer a = lilytank_("recording convert small.csv --to trackpi --out a.csv");
-  EXPECT_NE(a.err.find("did you mean 'trackpy'?"), std::string::npos) << a.err;
+  EXPECT_EQ(a.err,
+            "--to: format = \"trackpi\" is none of tidy, swistrack-tracks, swistrack-particles, "
+            "trackpy, idtracker, idtracker-wide, trex, fasttrack - did you mean 'trackpy'?\n");
+  EXPECT_EQ(lilytank_("recording convert small.csv --to table --out a.csv").code, 2);
+  const Answer scale = lilytank_("recording convert small.csv --to trackpy --out a.csv");
+  EXPECT_EQ(scale.code, 2);
+  EXPECT_NE(scale.err.find("--write pixel='0.66 mm'"), std::string::npos) << scale.err;
 }
 
 }  // namespace

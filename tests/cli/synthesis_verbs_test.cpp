@@ -144,6 +144,11 @@ TEST(CheckVerb, CountsRatesAndGoesOnAfterAStop) {
   const std::string words = "check '" + kRulesets +
                             "chain5.rules' --lattice 0 --measure '" LILYTANK_SOURCE_DIR
                             "/scenarios/chain5.toml' --duration '4 min' --gillespie 20 --quiet";
+  const Answer one = lilytank(words + " --worlds 1 --out a");
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_NE(one.out.find("copies, worlds 0 (-)"), std::string::npos) << one.out;
+  EXPECT_EQ(one.out.find("inf"), std::string::npos) << one.out;
+  EXPECT_EQ(lilytank.here.read("a/yield.csv").find("inf"), std::string::npos);
   ASSERT_EQ(lilytank(words + " --worlds 2 --out a --kappa a.ka --bngl a.bngl").code, 0);
   const Answer b = lilytank(words + " --worlds 3 --out b");
   ASSERT_EQ(b.code, 0) << b.err;
@@ -199,6 +204,7 @@ TEST(CheckVerb, RefusesWithOneLine) {
     const Answer a = lilytank("check " + c.words);
     EXPECT_EQ(a.code, 2) << c.words;
     EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
+    EXPECT_EQ(a.out, "") << c.words << ": before any work";
   }
 }
 

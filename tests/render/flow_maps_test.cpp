@@ -49,6 +49,7 @@ TEST(flowMaps, showSpeedAndHatchFilledCells) {
   EXPECT_FALSE(speed.hatched[kMeasured]);
   EXPECT_TRUE(speed.hatched[kFilled]);
   EXPECT_NEAR(speed.arrow_y[kFilled], 0.4, 1e-12);
+  EXPECT_NE(named(maps, "flow_paper").hatching.find("filled"), std::string::npos);
 }
 
 TEST(flowMaps, normalityHasARowATestAndAColumnAnAxis) {
@@ -59,6 +60,7 @@ TEST(flowMaps, normalityHasARowATestAndAColumnAnAxis) {
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(map.panels[k].values[kMeasured], rejected[k]) << k;
     EXPECT_TRUE(std::isnan(map.panels[k].values[kFilled])) << k;
+    EXPECT_EQ(map.panels[k].no_data, "not tested");
   }
 }
 

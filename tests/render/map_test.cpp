@@ -107,6 +107,36 @@ TEST(Map, MarksClassesHatchedCellsAndArrows) {
   EXPECT_GT(dark({"", 0, 1, {mixed}}), plain + 150000) << "half of the square";
 }
 
+TEST(Map, TellsWhatHatchedCellsAre) {
+  const Folder folder;
+  MapPanel p = panel_of(10, 0);
+  Map map{"", 0, 1, {p}};
+  map.hatching = "filled";
+  draw_map(map, folder.file("none.png"));
+  map.panels[0].hatched.assign(100, false);
+  map.panels[0].hatched[5] = true;
+  draw_map(map, folder.file("told.png"));
+  map.hatching.clear();
+  draw_map(map, folder.file("untold.png"));
+  const int bare = sample::png_size(folder.file("untold.png")).height;
+  EXPECT_EQ(sample::png_size(folder.file("none.png")).height, bare) << "nothing is hatched";
+  EXPECT_GT(sample::png_size(folder.file("told.png")).height, bare + 20);
+}
+
+TEST(Map, NamesCellsWithoutDataAmongClasses) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  const Folder folder;
+  MapPanel p = panel_of(2, 0);
+  p.classes = {"yes", "no"};
+  const auto ink = [&](const char* name) {
+    p.no_data = name;
+    draw_map({"", 0.3, 1, {p}}, folder.file("a.png"));
+    return sample::count_pixels(folder.file("a.png"),
+                                [](const sample::Pixel& c) { return c.r < 90; });
+  };
+  EXPECT_GT(ink("not tested"), ink("") + 100);
+}
+
 TEST(PlotPage, PutsPlotsBesideAndBelowEachOther) {
   const Folder folder;
   Plot plot;

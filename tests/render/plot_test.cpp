@@ -258,6 +258,25 @@ TEST(Plot, RefusesUnknownEndingsAndUnwritableFiles) {
   EXPECT_TRUE(folder.names().empty());
 }
 
+TEST(SearchPlot, TheFinalSelectionStandsAloneAndOffTheFrame) {
+  const std::vector<IterationRecord> history = {
+      {1, 100, 5, 7, 9, {}, 1}, {2, 200, 3, 6, 8, {}, 1}, {3, 300, 4, 4.5, 6, {}, 1}};
+  const Plot plot = search_plot(history, true, "title", "s");
+  ASSERT_EQ(plot.curves.size(), 3u);
+  EXPECT_EQ(plot.curves[0].x, (std::vector<double>{100, 200})) << "it has no new points";
+  EXPECT_EQ(plot.curves[1].y, (std::vector<double>{5, 3, 3})) << "it does not rise to other worlds";
+  EXPECT_EQ(plot.curves[2].name, "final selection");
+  EXPECT_EQ(plot.curves[2].x, std::vector<double>{300});
+  EXPECT_EQ(plot.curves[2].y, std::vector<double>{4});
+  EXPECT_GT(plot.x_high, 300);
+  const Plot without = search_plot(history, false, "title", "s");
+  ASSERT_EQ(without.curves.size(), 2u);
+  EXPECT_EQ(without.curves[1].y, (std::vector<double>{5, 3, 4}));
+  const Folder folder;
+  EXPECT_NO_THROW(draw_plot(search_plot({}, false, "", ""), folder.file("a.png")));
+  EXPECT_NO_THROW(draw_plot(search_plot({history[0]}, true, "", ""), folder.file("a.png")));
+}
+
 TEST(YieldPlot, IsAStaircaseUpToThePossibleCopies) {
   const Folder folder;
   const StoredRun run = sample::run(300);

@@ -83,6 +83,24 @@ TEST(Yield, CountsCopiesFrameByFrame) {
   EXPECT_EQ(curve.time.size(), 4u) << "only changes are kept";
 }
 
+TEST(Yield, TicksIncludeTheTop) {
+  using Numbers = std::vector<int>;
+  EXPECT_EQ(copy_ticks(1), (Numbers{0, 1}));
+  EXPECT_EQ(copy_ticks(3), (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(copy_ticks(6), (Numbers{0, 2, 4, 6}));
+  EXPECT_EQ(copy_ticks(7), (Numbers{0, 2, 4, 7}));
+  EXPECT_EQ(copy_ticks(12), (Numbers{0, 3, 6, 9, 12}));
+  for (int most = 1; most < 500; ++most) {
+    const Numbers ticks = copy_ticks(most);
+    EXPECT_EQ(ticks.front(), 0);
+    EXPECT_EQ(ticks.back(), most);
+    EXPECT_LE(ticks.size(), 6u) << most;
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+      EXPECT_GE(8 * (ticks[i] - ticks[i - 1]), most) << "labels would touch, of " << most;
+    }
+  }
+}
+
 TEST(Clock, ReadsHoursMinutesSeconds) {
   EXPECT_EQ(clock_text(0), "0:00:00");
   EXPECT_EQ(clock_text(59.9), "0:00:59");

@@ -155,6 +155,31 @@ TEST(AnalysisFigures, PanelsShareAnAxisWithRoomForTheirBands) {
   EXPECT_EQ(page.plots[1].x_high, 2) << "though its curve ends before";
 }
 
+// An MSD at the first lag is not one at lag 0.
+TEST(AnalysisFigures, LinearAxesBeginAtZero) {
+  Analysis a = compared(9e-4);
+  a.curves[0].name = "msd_all", a.curves[0].x = {1, 2, 3};
+  const auto plots = analysis_plots(a);
+  ASSERT_EQ(plots[0].name, "msd_all");
+  EXPECT_EQ(plots[0].page.plots[0].x_low, 0);
+  EXPECT_EQ(plots[0].page.plots[0].x_high, 3);
+  ASSERT_EQ(plots[1].name, "msd_all_log");
+  EXPECT_NE(plots[1].page.plots[0].x_low, plots[0].page.plots[0].x_high);
+  EXPECT_TRUE(plots[1].page.plots[0].log_x);
+  // Velocities have both signs.
+  a.curves[0].name = "velocity_x", a.curves[0].x = {-2, 0, 3};
+  EXPECT_EQ(analysis_plots(a).front().page.plots[0].x_low, -2);
+}
+
+TEST(AnalysisFigures, LegendsSayWhatNamesAreValuesOf) {
+  Analysis a = compared(9e-4);
+  EXPECT_EQ(analysis_plots(a).front().page.plots[0].legend_title, "");
+  a.sources[0].key = a.sources[1].key = "pump power";
+  EXPECT_EQ(analysis_plots(a).front().page.plots[0].legend_title, "pump power");
+  a.sources[1].key = "";
+  EXPECT_EQ(analysis_plots(a).front().page.plots[0].legend_title, "");
+}
+
 TEST(AnalysisFigures, ADifferenceHasItsOwnColourAndTheSameLags) {
   Analysis a = compared(2e-4);
   a.curves[0].difference = {{NAN, 1e-5, 2e-5}, {NAN, 0, 0}, {NAN, 3e-5, 4e-5}};

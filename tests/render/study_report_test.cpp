@@ -150,6 +150,64 @@ TEST(StudyReport, AColourMeansASettingInAllFigures) {
   }
 }
 
+std::vector<std::string> names_in(const Plot& plot) {
+  std::vector<std::string> names;
+  for (const Curve& curve : plot.curves) {
+    if (!curve.name.empty()) names.push_back(curve.name);
+  }
+  return names;
+}
+
+TEST(StudyReport, LegendsSayWhatSettingsDifferIn) {
+  StudyTable table = exponential_study({0.01, 0.02}, 4, 100);
+  const auto yield_with = [&](std::vector<std::string> axes, std::vector<std::string> labels) {
+    table.axes = std::move(axes), table.labels = std::move(labels);
+    return *find(study_plots(summarise(table)), "yield");
+  };
+  const Plot one = yield_with({"module.count", "control.clock"},
+                              {"count=10, clock=events", "count=15, clock=events"});
+  EXPECT_EQ(names_in(one), (std::vector<std::string>{"count=10", "count=15"}));
+  EXPECT_EQ(one.legend_title, "");
+  const Plot two =
+      yield_with({"p", "flow.pump_power", "control.clock"}, {"p_e, pump_power=60 %, clock=events",
+                                                             "p_o, pump_power=80 %, "
+                                                             "clock=events"});
+  EXPECT_EQ(names_in(two), (std::vector<std::string>{"p_e, 60 %", "p_o, 80 %"}));
+  EXPECT_EQ(two.legend_title, "p, pump_power");
+  const Plot odd = yield_with({"a", "b"}, {"one, two, three", "one"});
+  EXPECT_EQ(names_in(odd), (std::vector<std::string>{"one, two, three", "one"}));
+}
+
+TEST(StudyReport, OfManySettingsColoursTellAnAxis) {
+  StudyTable table = exponential_study(std::vector<double>(30, 0.02), 4, 100);
+  table.axes = {"module.count", "flow.pump_power"};
+  for (RunRow& row : table.rows) {
+    row.values = {10.0 + row.setting % 15, 60.0 + row.setting};
+  }
+  for (int s = 0; s < 30; ++s) {
+    table.labels[static_cast<std::size_t>(s)] =
+        "count=" + std::to_string(10 + s % 15) + ", pump_power=" + std::to_string(60 + s);
+  }
+  const auto plots = study_plots(summarise(table));
+  const Plot* yield = find(plots, "yield");
+  EXPECT_EQ(yield->legend_title, "module.count");
+  EXPECT_EQ(names_in(*yield), (std::vector<std::string>{"10", "13", "17", "20", "24"}));
+  EXPECT_EQ(yield->curves[0].shade, 0);
+  EXPECT_EQ(yield->curves[29].shade, 1);
+  const Plot* copies = find(plots, "copies_over_module.count");
+  ASSERT_NE(copies, nullptr);
+  ASSERT_NE(find(plots, "copies_over_flow.pump_power"), nullptr);
+  EXPECT_EQ(copies->x_label, "module.count");
+  EXPECT_EQ(copies->legend_title, "flow.pump_power (%)");
+  ASSERT_EQ(copies->curves.size(), 30u);
+  EXPECT_TRUE(copies->curves[3].bars);
+  EXPECT_NE(copies->curves[3].x[0], copies->curves[18].x[0]) << "beside each other";
+  EXPECT_NEAR(copies->curves[3].x[0], 13, 0.3);
+  // Words have no colours.
+  for (std::size_t s = 0; s < 30; ++s) table.labels[s] = "a, word" + std::to_string(s);
+  EXPECT_EQ(names_in(*find(study_plots(summarise(table)), "yield")).size(), 30u);
+}
+
 TEST(StudyReport, OfManySettingsLeavesOutBands) {
   const auto few = study_plots(summarise(exponential_study(std::vector<double>(6, 0.02), 4, 100)));
   EXPECT_FALSE(find(few, "yield")->curves[0].low.empty());

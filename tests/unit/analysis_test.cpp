@@ -144,6 +144,35 @@ TEST(Analysis, TellsTheWindowThatIsUsed) {
   EXPECT_EQ(analysis_text(analyse({source("a", r)})).find("window used"), std::string::npos);
 }
 
+// Of orbits with 1.5 rad/s the velocity's memory is 1 / 1.5 s.
+TEST(Analysis, WarnsOfFramesTooFarApart) {
+  const Analysis often = analyse({source("a", orbits(12, 4, 800, 30, 0))});
+  EXPECT_FALSE(frames_too_far_apart(often.sources[0]));
+  EXPECT_EQ(analysis_text(often).find("Warning"), std::string::npos);
+  EXPECT_NE(analysis_summary_csv(often).find("a,frames too far apart for velocities,1,0,"),
+            std::string::npos);
+  const Analysis rarely = analyse({source("a", orbits(12, 4, 100, 2, 0))});
+  EXPECT_TRUE(frames_too_far_apart(rarely.sources[0]));
+  const std::string text = analysis_text(rarely);
+  const auto at = text.find(
+      "Warning: frames are further apart than a quarter of the velocity's "
+      "memory: a (0.500 s, memory ");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NE(text.substr(at, text.find('\n', at) - at).find("--set output.rate=40"),
+            std::string::npos)
+      << "one line";
+  EXPECT_NE(analysis_summary_csv(rarely).find("a,frames too far apart for velocities,1,1,"),
+            std::string::npos);
+  AnalysisOptions options;
+  options.msd_only = true;
+  const Analysis displacements = analyse({source("a", orbits(12, 4, 100, 2, 0))}, options);
+  EXPECT_EQ(analysis_text(displacements).find("Warning"), std::string::npos);
+  const Recording still = test::recording_of(2, 60, 1, [](int b, int) {
+    return std::array{0.1 * b, 0.0};
+  });
+  EXPECT_FALSE(frames_too_far_apart(analyse({source("a", still)}).sources[0]));
+}
+
 TEST(Analysis, RefusesWindowsLongerThanTracks) {
   AnalysisOptions options;
   options.smoothing.method = SmoothingMethod::polynomial, options.smoothing.window = 10;

@@ -77,13 +77,15 @@ TEST_F(AtomicFile, AnOpenFileIsWrittenThrough) {
   ASSERT_GE(opened, 0);
   const std::string name = "/proc/self/fd/" + std::to_string(opened);
   fs::create_symlink(name, here_.path("stdout"));
+  fs::create_symlink("/proc/self/fd", here_.path("fd"));  // as /dev/fd
   struct stat before {
   }, after{};
   ::fstat(opened, &before);
-  write_atomically(here_.path("stdout"), "second");
+  write_atomically(here_.path("stdout"), "second ");
+  write_atomically(here_.path("fd/" + std::to_string(opened)), "third");
   ::stat(here_.path("out").c_str(), &after);
   ::close(opened);
-  EXPECT_EQ(here_.read("out"), "first second");
+  EXPECT_EQ(here_.read("out"), "first second third");
   EXPECT_EQ(before.st_ino, after.st_ino);
 }
 

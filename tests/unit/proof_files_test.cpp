@@ -58,6 +58,10 @@ TEST_F(ProofFiles, AreReadBackAsTheyWere) {
   EXPECT_EQ(proof_text({&q, 1}), proof_text({&p, 1}));
   EXPECT_EQ(q.worlds[1].findings[0].alternatives, p.worlds[1].findings[0].alternatives);
   EXPECT_TRUE(q.worlds[1].right());
+  EXPECT_EQ(q.dir, here.path("a"));
+  EXPECT_NE(proof_text({&q, 1}).find("magnus_lift | coriolis | spin_torque + wall_force"),
+            std::string::npos)
+      << proof_text({&q, 1});
 }
 
 // Of another tank, if it is told.
@@ -65,7 +69,8 @@ TEST_F(ProofFiles, AreToldTogether) {
   Proof both[] = {three_worlds(), three_worlds()};
   both[0].tank = "a tank", both[1].tank = "another";
   const std::string text = proof_text(both);
-  EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks\n")) << text;
+  EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks or sets of balls\n"))
+      << text;
   both[1].tank = "a tank";
   EXPECT_TRUE(proof_text(both).starts_with("proof on 6 of 6 sealed experiments\n"));
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth

@@ -263,8 +263,11 @@ TEST_F(Checks, wrongUnitsOfTime) {
   truth_.rate = 0.1;
   const CheckedRecording slow = check();
   EXPECT_EQ(of_kind(slow, Check::units).at(0).what,
-            "frames are 10 s apart; if times are in ms, "
-            "say time_unit = \"1 ms\"");
+            "frames are 10 s apart; if times are in ms, say time_unit = \"1 ms\"; if that is so, "
+            "say time_unit = \"1 s\"");
+  options_.time_unit = 1;
+  EXPECT_EQ(of_kind(check(), Check::units).size(), 0u);
+  options_.time_unit.reset();
   options_.rate = 0.1;  // the user knows
   EXPECT_EQ(of_kind(check(), Check::units).size(), 0u);
   options_.rate = 0, options_.rules[Check::units] = Treatment::keep;

@@ -139,6 +139,10 @@ TEST_F(ScenarioRefusals, RefusesBadSets) {
             "write \"300 mm\"");
   EXPECT_EQ(refusal("", {"tank.raduis=1"}),
             "--set tank.raduis=1: unknown key 'tank.raduis' - did you mean 'radius'?");
+  EXPECT_EQ(refusal("", {"modul.count=3"}),
+            "--set modul.count=3: unknown key 'modul.count' - did you mean 'module.count'?");
+  EXPECT_EQ(refusal("", {"modul.cuont=3"}),
+            "--set modul.cuont=3: unknown key 'modul.cuont' - did you mean 'module.count'?");
   EXPECT_EQ(load("", {"title=7"}).title, "7");
   EXPECT_EQ(load("", {"title=two words"}).title, "two words");
   EXPECT_EQ(load("", {"tank.radius=25 cm"}).model.tank.radius, 0.25);

@@ -61,6 +61,8 @@ TEST(Search, SpendsItsBudgetWithinTheBounds) {
     EXPECT_TRUE(search->ask().empty());
     EXPECT_EQ(search->history().back().evaluations, count) << name;
     EXPECT_EQ(search->history().back().best, search->best().mean) << name;
+    const bool selects = name.find("ring") == 0 || name.find("uncertain") != std::string::npos;
+    EXPECT_EQ(search->selected(), selects) << name;
     const bool common = name.find("von") == 0 || name.find("uncertain") != std::string::npos;
     const auto different = static_cast<std::int64_t>(replicates.size());
     EXPECT_TRUE(common ? different < count / 2 : different == count) << name;

@@ -250,6 +250,34 @@ TEST(StudySummary, OfLittle) {
   EXPECT_EQ(nothing.pair_tests[0].result.p, 1);
 }
 
+TEST(StudySummary, IntervalsOfCopiesEndAtWhatIsPossible) {
+  StudyTable table;
+  table.labels = {"few", "most"}, table.horizon = 100;
+  table.rows = {run_row(0, 0, {}), run_row(0, 1, {10, 20}), run_row(1, 0, {10, 20, 30}),
+                run_row(1, 1, {10})};
+  const StudySummary s = summarise(table);
+  EXPECT_EQ(s.settings[0].copies.low, 0);
+  EXPECT_EQ(s.settings[1].copies.high, 3);
+  EXPECT_LT(s.settings[1].copies.value, 3);
+}
+
+TEST(StudySummary, SaysNothingOfTimesThatNoRunCameTo) {
+  StudyTable table;
+  table.labels = {"a", "b"}, table.horizon = 100;
+  table.rows = {run_row(0, 0, {10}), run_row(0, 1, {20}), run_row(1, 0, {}), run_row(1, 1, {30})};
+  const StudySummary s = summarise(table);
+  ASSERT_EQ(s.pair_tests.size(), 4u);
+  EXPECT_TRUE(s.pair_tests[0].reached && s.pair_tests[1].reached);
+  EXPECT_FALSE(s.pair_tests[2].reached);
+  const std::string text = study_text(s), csv = comparisons_csv(s);
+  EXPECT_TRUE(has(text, "  time to copy 3 (s)  1 - 0         2  -  ")) << text;
+  EXPECT_TRUE(has(text, "     3  1, 0                -        -     -         -\n")) << text;
+  EXPECT_TRUE(has(csv, "\npaired_time,3,1,0,b,a,2,s,,,,,,,,\n")) << csv;
+  EXPECT_TRUE(has(csv, "\nlog_rank,3,1,0,b,a,,,,,,,,,,\n")) << csv;
+  const auto rows = cells_of(csv);
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size()) << csv;
+}
+
 TEST(StudyCsv, IsTidyAndComplete) {
   StudyTable table = by_hand();
   const StudySummary s = summarise(table);

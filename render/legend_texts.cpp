@@ -1,0 +1,57 @@
+#include "legend_texts.hpp"
+
+namespace lilytank {
+namespace {
+
+using Width = std::function<double(const std::string&)>;
+
+bool within_character(char c) {
+  return (c & 0xC0) == 0x80;  // UTF-8
+}
+
+std::string begin_of(const std::string& name, double widest, const Width& width) {
+  if (width(name) <= widest) return name;
+  std::string cut = name;
+  do {
+    while (!cut.empty() && within_character(cut.back())) cut.pop_back();
+    if (!cut.empty()) cut.pop_back();
+  } while (!cut.empty() && width(cut + "…") > widest);
+  return cut + "…";
+}
+
+std::string end_of(const std::string& name, double widest, const Width& width) {
+  if (width(name) <= widest) return name;
+  std::size_t from = 0;
+  do {
+    do ++from;
+    while (from < name.size() && within_character(name[from]));
+  } while (from < name.size() && width("…" + name.substr(from)) > widest);
+  return "…" + name.substr(from);
+}
+
+// Whether two are alike that were not before they were cut.
+bool alike(const std::vector<std::string>& cut, const std::vector<std::string>& whole) {
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (cut[i] == cut[j] && whole[i] != whole[j]) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> cut_apart(const std::vector<std::string>& names, double widest,
+                                   const Width& width) {
+  std::vector<std::string> cut;
+  for (const std::string& name : names) cut.push_back(begin_of(name, widest, width));
+  if (!alike(cut, names)) return cut;
+  for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = end_of(names[i], widest, width);
+  if (!alike(cut, names)) return cut;
+  for (std::size_t i = 0; i < cut.size(); ++i) {
+    cut[i] = begin_of(std::to_string(i + 1) + ": " + names[i], widest, width);
+  }
+  return cut;
+}
+
+}  // namespace lilytank

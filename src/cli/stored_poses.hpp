@@ -1,0 +1,26 @@
+// What users are told of runs whose poses were stored too seldom for what is made of them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lilytank/run.hpp"
+
+namespace lilytank::cli {
+
+/// Poses of a body that were stored in a second, on average; 0 for fewer than two.
+double stored_rate(const Trajectory& trajectory);
+
+/// How far (m) one body in ten moves at least between the stored poses before and after the given
+/// times (s); a time at which poses were stored counts as no way.
+double way_between_poses(const Trajectory& trajectory, const std::vector<double>& times);
+
+/// "poses were stored 5 times a second; between them <what> (run with --set output.rate=<remedy>)",
+/// one line.
+std::string seldom_stored(const Trajectory& trajectory, const std::string& what,
+                          const std::string& remedy);
+
+/// Such a line for pictures of a run at the given times (s), if bodies move more than half a
+/// module's side (without modules: more than a ball's radius) between stored poses; else empty.
+std::string too_seldom_to_draw(const StoredRun& run, const std::vector<double>& times);
+
+}  // namespace lilytank::cli
