@@ -4,7 +4,6 @@
 
 #include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
-#include "calibrate/estimate_line.hpp"
 
 namespace lilytank {
 namespace {
@@ -63,6 +62,14 @@ HonestFit turned_round(const Design& design, const CrossFit& fit, double least) 
   return {centre + unit * z, root * line.covariance * root.transpose(),
           line.residuals * root.transpose(),
           student_95(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
+}
+
+TurnedBack turned_back(const Design& design, const Eigen::VectorXd& centre, const Prior& prior,
+                       const Eigen::VectorXd& data) {
+  CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
+  Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
+  Scatter answer = scatter_of(line, centre, by_others.answer, prior);
+  return {std::move(by_others), std::move(line), std::move(answer)};
 }
 
 }  // namespace lilytank

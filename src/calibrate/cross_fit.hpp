@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "calibrate/estimate_line.hpp"
 #include "lilytank/local_model.hpp"
 
 namespace lilytank {
@@ -36,5 +37,18 @@ struct HonestFit {
 /// `least`: what the line's slope is taken for where it is less, a share: without it, directions
 /// that a design hardly tells would lead anywhere.
 HonestFit turned_round(const Design& design, const CrossFit& fit, double least);
+
+/// Answers are drawn to the design's centre by the noise of the local model's slopes. Each
+/// simulation is estimated by a model that did not know it: their estimates are a line in the
+/// truth, and its inverse at the data's estimate by the same models, together with what is known
+/// before, gives the values.
+struct TurnedBack {
+  CrossFit by_others;
+  Line line;
+  Scatter answer;
+};
+/// `centre`: of the line. Throws as cross_fit.
+TurnedBack turned_back(const Design& design, const Eigen::VectorXd& centre, const Prior& prior,
+                       const Eigen::VectorXd& data);
 
 }  // namespace lilytank

@@ -141,22 +141,6 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
   return {all.points(near, Eigen::all), all.numbers(near, Eigen::all)};
 }
 
-// Answers are drawn to the design's centre by the noise of the local model's slopes. Each
-// simulation is estimated by a model that did not know it: their estimates are a line in the truth,
-// and its inverse at the data's estimate by the same models gives the values.
-struct TurnedBack {
-  CrossFit by_others;
-  Line line;
-  Scatter answer;
-};
-TurnedBack turned_back(const Design& design, const Vector& centre, const Prior& prior,
-                       const Vector& data) {
-  CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
-  Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
-  Scatter answer = scatter_of(line, centre, by_others.answer, prior);
-  return {std::move(by_others), std::move(line), std::move(answer)};
-}
-
 // The answer by experiments simulated where it is, estimated as the data were. Those of a design
 // scatter more: slopes' errors and laws that are not straight move estimates of what is far from
 // its centre, and the data are not far.
