@@ -2,6 +2,7 @@
 // effect's size, and how much of the difference it removes. docs/diagnosis.md.
 #pragma once
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -87,10 +88,12 @@ struct GroupFit {
   double removed() const;  ///< share of what is beyond chance
 };
 
-/// One of the five before and after the effects were added.
+/// One of the five before and after the effects were added; where nothing is missing, after is by
+/// the line through experiments of known parameters.
 struct MovedParameter {
   std::string path, unit;
-  double baseline = 0, deviation = 0, with_effects = 0, low = 0, high = 0;
+  double baseline = 0, deviation = 0, with_effects = 0;
+  double low = NAN, high = NAN;  ///< 95 %; NaN: not known, as something is there without a model
 };
 
 struct Diagnosis {

@@ -55,9 +55,10 @@ struct ProofWorld {
   double expected_z = 0;
   Verdict verdict = Verdict::complete;
   std::vector<ProofFinding> findings;  ///< strongest first; none of complete
-  /// Of those that were modelled: their intervals, and the share of the mismatch that the model
-  /// removes on recordings that had no part in it (Diagnosis::removed).
+  /// Of those that were modelled, and the baseline's of complete ones that were so called.
   std::vector<ProofInterval> intervals;
+  /// Of those that were modelled: the share of the mismatch that the model removes on recordings
+  /// that had no part in it (Diagnosis::removed).
   double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
   /// What simpler methods make of the same recordings: the effect that a sparse regression of
   /// differentiated positions finds strongest ("" for none), and how far the MSD is off.

@@ -7,6 +7,7 @@
 #include "analysis/linear.hpp"
 #include "analysis/median.hpp"
 #include "analysis/summary_parts.hpp"
+#include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
@@ -130,15 +131,15 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
       simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
                spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
   const auto p = centre.size();
-  const Design summaries{all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
-  const Design numbers{summaries.points,
+  summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
+  const Design numbers{summaries_.points,
                        all.numbers.rightCols(all.numbers.cols() - summary_numbers())};
   const Eigen::Index n = all.points.rows();
-  parameters_ = std::make_unique<LocalModel>(summaries);
+  parameters_ = std::make_unique<LocalModel>(summaries_);
   scores_ = std::make_unique<LocalModel>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
   informations_ = score_informations(plan_, setup.training);
-  null_residuals_ = held_out_residuals(summaries, numbers, prior());
+  null_residuals_ = held_out_residuals(summaries_, numbers, prior());
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
   // Numbers that hardly ever vary would make a wonder of whatever varies them.
@@ -211,6 +212,10 @@ LocalFit Atlas::nearest(const Vector& summary) const {
 
 Vector Atlas::calibrated(const Vector& summary) const {
   return parameters_->fit(summary, within(), prior()).fit.point;
+}
+
+Scatter Atlas::told(const Vector& summary, const Prior& before) const {
+  return turned_back(summaries_, centre_, before, summary).answer;
 }
 
 Vector Atlas::residual(const Vectors& vectors) const {

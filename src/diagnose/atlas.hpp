@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "diagnose/fingerprint.hpp"
 #include "diagnose/scores.hpp"
@@ -57,6 +58,9 @@ class Atlas {
   /// Those that a summary asks for as far as a baseline explains it: where it does not, they stay
   /// where experiments are simulated, and do not imitate what is missing.
   Eigen::VectorXd calibrated(const Eigen::VectorXd& summary) const;
+  /// What a summary says of the parameters if a baseline is all there is, and how surely: by what
+  /// models of the other nulls say of each.
+  Scatter told(const Eigen::VectorXd& summary, const Prior& before) const;
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
@@ -115,6 +119,7 @@ class Atlas {
   AtlasOptions options_;
   Eigen::VectorXd centre_;
   Eigen::MatrixXd spread_;
+  Design summaries_;  ///< of nulls
   std::unique_ptr<LocalModel> parameters_, scores_;
   Eigen::VectorXd deviation_;
   Eigen::MatrixXd null_residuals_, informations_;

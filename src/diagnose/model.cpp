@@ -26,17 +26,37 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
 
 }  // namespace
 
+void Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
+  const Vector& summary = judged.observed.summary;
+  const std::vector<double> alone = stages_.from_scale(atlas_->nearest(summary).point);
+  for (std::size_t i = 0; i < setup_.told(); ++i) {
+    MovedParameter& p = out.parameters.emplace_back();
+    p.path = setup_.parameters[i].path, p.unit = setup_.parameters[i].unit;
+    p.baseline = p.with_effects = alone[i];
+    p.deviation = deviation_(static_cast<Eigen::Index>(i));
+  }
+  // Where the baseline does not explain the recordings, nobody knows how far off it is.
+  if (out.verdict != Verdict::complete) return;
+  const FitBounds bounds = stages_.bounds();
+  const Scatter told =
+      atlas_->told(summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
+  for (std::size_t i = 0; i < setup_.told(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const FitParameter& of = setup_.parameters[i];
+    const double middle = told.estimate(k), half = told.wide * told.deviation(k);
+    const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
+    MovedParameter& p = out.parameters[i];
+    p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
+  }
+}
+
 void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
                                Diagnosis& out) {
   const Explanation& e = judged.explanation;
   const Vectors& observed = judged.observed;
   const Vector baseline = atlas_->calibrated(observed.summary);
   const std::vector<double> before = stages_.from_scale(atlas_->nearest(observed.summary).point);
-  for (std::size_t i = 0; i < setup_.told(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    out.parameters.push_back({setup_.parameters[i].path, setup_.parameters[i].unit, before[i],
-                              deviation_(k), before[i], before[i], before[i]});
-  }
+  tell_baseline(judged, out);
   if (out.verdict != Verdict::missing) {
     tell_camera(before, out);
     return;

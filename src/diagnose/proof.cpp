@@ -111,6 +111,21 @@ void tell_law(const SealedEffect& own, const ForceCurve& found,
   }
 }
 
+// Adds an interval beside the truth, where that is known and there is an interval.
+void compare(const std::map<std::string, double>& truth, ProofInterval of, ProofWorld& world) {
+  const auto at = truth.find(of.path);
+  if (at == truth.end() || !(of.low < of.high)) return;
+  of.truth = at->second;
+  world.intervals.push_back(std::move(of));
+}
+
+void compare_parameters(const Diagnosis& d, const std::map<std::string, double>& truth,
+                        ProofWorld& world) {
+  for (const MovedParameter& p : d.parameters) {
+    compare(truth, {p.path, 0, p.with_effects, p.low, p.high}, world);
+  }
+}
+
 // The model of a world that was told rightly, against the key and further recordings of it.
 void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
                  double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
@@ -123,14 +138,10 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
     tell_law(s.effects.front(),
              diagnoser.atlas().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
   }
-  const auto compare = [&](const std::string& path, double value, double low, double high) {
-    const auto at = truth.find(path);
-    if (at == truth.end() || !(low < high)) return;
-    world.intervals.push_back({path, at->second, value, low, high});
-  };
-  for (const MovedParameter& p : d.parameters) compare(p.path, p.with_effects, p.low, p.high);
+  compare_parameters(d, truth, world);
   for (const DiagnosisFinding& f : d.findings) {
-    for (const FoundParameter& p : f.parameters) compare(p.path, p.value, p.low, p.high);
+    for (const FoundParameter& p : f.parameters)
+      compare(truth, {p.path, 0, p.value, p.low, p.high}, world);
   }
   world.removed = d.removed();
   world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
@@ -227,7 +238,8 @@ class Examination {
         out_.worlds.push_back(ask(diagnoser, w));
         keep(job.out, before);
       }
-      modelled_ += out_.worlds.back().intervals.empty() ? 0 : 1;
+      const ProofWorld& told = out_.worlds.back();
+      modelled_ += told.kind == "null" || told.intervals.empty() ? 0 : 1;
       diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
                                modelled_ * diagnoser.model_cost());
       if (options_.judged) options_.judged(out_);
@@ -288,6 +300,10 @@ class Examination {
     std::vector<Recording> recordings;
     if (!rows_[w].empty()) recordings = film(w).value_or(recordings);
     const std::optional<Judged> judged = judge_world(diagnoser, rows_[w], recordings, d, world);
+    if (judged && s.kind == "null") {
+      diagnoser.tell_baseline(*judged, d);
+      compare_parameters(d, truth_of(tank_, s), world);
+    }
     if (judged && asks_for_model(world)) {
       model_world(diagnoser, *judged, tank_, s, seconds_,
                   derived_seed(seed_, kFurtherSeed + number(w)), d, world);

@@ -66,30 +66,54 @@ std::string held_text(int held, int all) {
          " to " + fixed(100 * e.high, 1) + " %)";
 }
 
-// Intervals, share removed and gain of the worlds whose model was fitted.
-std::string models_text(const Proof& proof) {
-  int worlds = 0, intervals = 0, held = 0, gained = 0;
-  std::map<std::string, std::pair<int, int>> by;  // the baseline's by path, all others together
-  std::vector<double> removed;
-  for (const ProofWorld& w : proof.worlds) {
-    if (w.intervals.empty()) continue;
-    worlds += 1, gained += w.gain_low > 0 ? 1 : 0;
-    if (!std::isnan(w.removed)) removed.push_back(w.removed);
+// How many intervals hold the truth: the baseline's by path, all others together.
+struct Coverage {
+  int worlds = 0, all = 0, held = 0;
+  std::map<std::string, std::pair<int, int>> by;
+
+  void add(const ProofWorld& w) {
+    worlds += 1;
     for (const ProofInterval& i : w.intervals) {
-      auto& [in, all] = by[i.of_effect(w.effects) ? "the effects' own" : i.path];
-      all += 1, intervals += 1;
+      auto& [in, of] = by[i.of_effect(w.effects) ? "the effects' own" : i.path];
+      of += 1, all += 1;
       if (i.holds()) in += 1, held += 1;
     }
   }
-  if (worlds == 0) return "";
+  std::string text() const {
+    std::string out = "  95 % intervals that hold the truth: " + held_text(held, all) + "\n";
+    for (const auto& [path, n] : by) {
+      out += "    " + path + ": " + held_text(n.first, n.second) + "\n";
+    }
+    return out;
+  }
+};
+
+// Of those in which nothing is missing, and which were told so.
+std::string baselines_text(const Proof& proof) {
+  Coverage coverage;
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.kind == "null" && !w.intervals.empty()) coverage.add(w);
+  }
+  if (coverage.worlds == 0) return "";
+  return "\nthe baseline's parameters in " + std::to_string(coverage.worlds) +
+         (coverage.worlds == 1 ? " world" : " worlds") + " with nothing missing\n" +
+         coverage.text();
+}
+
+// Intervals, share removed and gain of the worlds whose model was fitted.
+std::string models_text(const Proof& proof) {
+  Coverage coverage;
+  int gained = 0;
+  std::vector<double> removed;
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.kind == "null" || w.intervals.empty()) continue;
+    coverage.add(w), gained += w.gain_low > 0 ? 1 : 0;
+    if (!std::isnan(w.removed)) removed.push_back(w.removed);
+  }
+  if (coverage.worlds == 0) return "";
   std::sort(removed.begin(), removed.end());
   std::string out =
-      "\nmodels of " + std::to_string(worlds) +
-      " rightly told worlds\n  95 % intervals that hold the truth: " + held_text(held, intervals) +
-      "\n";
-  for (const auto& [path, n] : by) {
-    out += "    " + path + ": " + held_text(n.first, n.second) + "\n";
-  }
+      "\nmodels of " + std::to_string(coverage.worlds) + " rightly told worlds\n" + coverage.text();
   if (!removed.empty()) {
     const auto most =
         std::count_if(removed.begin(), removed.end(), [](double r) { return r >= 0.7; });
@@ -178,7 +202,7 @@ std::string worlds_text(const Proof& proof, std::span<const Proof> proofs) {
   std::string out = table.text() + "\nwhat was taken for what\n";
   TextTable confusion({"key", "said", "times"});
   for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text() + models_text(proof) + simpler_text(proofs);
+  return out + confusion.text() + baselines_text(proof) + models_text(proof) + simpler_text(proofs);
 }
 
 }  // namespace

@@ -102,12 +102,18 @@ std::string diagnosis_text(const Diagnosis& d) {
     d.tank ? tell_fit(d, out) : tell_far(d, out);
   }
   if (!d.parameters.empty()) {
-    out += "\nThe baseline's parameters, alone and beside what was found\n";
-    TextTable table({"parameter", "unit", "alone", "beside it", "95 % from", "to"});
+    const bool alone = d.findings.empty();
+    out += alone ? "\nThe baseline's parameters\n"
+                 : "\nThe baseline's parameters, alone and beside what was found\n";
+    std::vector<std::string> head{"parameter", "unit", "value", "95 % from", "to"};
+    if (!alone) head[2] = "beside it", head.insert(head.begin() + 2, "alone");
+    TextTable table(head);
     for (const MovedParameter& p : d.parameters) {
-      table.add({p.path, p.unit == "1" ? "" : p.unit, digits(p.baseline), digits(p.with_effects),
-                 d.findings.empty() ? "-" : digits(p.low),
-                 d.findings.empty() ? "-" : digits(p.high)});
+      std::vector<std::string> row{p.path, p.unit == "1" ? "" : p.unit, digits(p.with_effects),
+                                   std::isnan(p.low) ? "-" : digits(p.low),
+                                   std::isnan(p.high) ? "-" : digits(p.high)};
+      if (!alone) row.insert(row.begin() + 2, digits(p.baseline));
+      table.add(row);
     }
     out += table.text();
   }

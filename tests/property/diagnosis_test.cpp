@@ -74,11 +74,21 @@ TEST(SmallTank, IsDiagnosed) {
     diagnoser.judge(filmed(model, seed), out);
     return out;
   };
+  int held = 0;
   for (const std::uint64_t seed : {21, 22, 23}) {
-    const Diagnosis d = of(small_tank(), seed);
+    Diagnosis d;
+    const Judged complete = diagnoser.judge(filmed(small_tank(), seed), d);
     EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
     EXPECT_FALSE(d.detectable.empty());
+    diagnoser.tell_baseline(complete, d);
+    ASSERT_EQ(d.parameters.size(), 5u);
+    for (const MovedParameter& p : d.parameters) {
+      const double truth = parameter_value(small_tank(), p.path);
+      EXPECT_LT(p.low, p.high) << p.path;
+      held += p.low <= truth && truth <= p.high ? 1 : 0;
+    }
   }
+  EXPECT_GE(held, 13);  // of 15
   const Diagnosis torque = of(with("forces.spin_torque.torque", 1e-4), 31);
   ASSERT_EQ(torque.verdict, Verdict::missing) << diagnosis_text(torque);
   EXPECT_EQ(torque.findings.front().effect, "spin_torque") << diagnosis_text(torque);

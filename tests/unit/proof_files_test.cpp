@@ -76,6 +76,21 @@ TEST_F(ProofFiles, AreToldTogether) {
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
 }
 
+// Of complete experiments the baseline's intervals are counted by themselves.
+TEST_F(ProofFiles, IntervalsOfCompleteExperimentsAreNoModels) {
+  Proof p = three_worlds();
+  p.worlds[0].intervals = {{"flow.K_v", 1, 1.1, 0.9, 1.3}, {"flow.K_v", 1, 1.2, 1.1, 1.3}};
+  const std::string text = proof_text({&p, 1});
+  const auto baselines = text.find(
+                 "in 1 world with nothing missing\n  95 % intervals that hold the "
+                 "truth: 1 of 2 ("),
+             models = text.find(
+                 "models of 1 rightly told worlds\n  95 % intervals that hold the "
+                 "truth: 1 of 2 (");
+  EXPECT_NE(baselines, std::string::npos) << text;
+  EXPECT_NE(models, std::string::npos) << text;
+}
+
 // The MSD is judged by the nulls of its own tank, however far those of another are off.
 TEST_F(ProofFiles, DisplacementsAreJudgedByTheirOwnTanksNulls) {
   ProofWorld null, named;
