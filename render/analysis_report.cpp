@@ -67,13 +67,6 @@ bool is_correlation(const AnalysisCurves& set) {
   return set.name == "velocity_acf" || set.name == "spin_acf";
 }
 
-// What the sources' names are values of; empty where they differ in that.
-std::string shared_key(const Analysis& analysis) {
-  const std::string& key = analysis.sources[0].key;
-  const auto same = [&](const SourceSummary& s) { return s.key == key; };
-  return std::all_of(analysis.sources.begin(), analysis.sources.end(), same) ? key : "";
-}
-
 Plot empty_plot(const AnalysisCurves& set, const Shown& x, const Shown& y) {
   Plot plot;
   plot.x_label = label(set.x_name, x), plot.y_label = y_label(set, y);

@@ -107,6 +107,8 @@ struct Analysis {
   SourceComparison comparison;
   const AnalysisCurves* find(const std::string& name) const;
 };
+/// What the names of all sources are values of; empty where they differ in that.
+std::string shared_key(const Analysis& analysis);
 
 /// Analyses sources together: lags and bins are the same for all, so that curves can be laid over
 /// each other. Lags are whole frames of the slowest source. Throws InputError for a source without

@@ -111,7 +111,8 @@ struct ProofFigures {
   static constexpr double kLeastZ = 0.5;  ///< what is expected of less stands here
   std::vector<ProofPoint> points;
   std::vector<ProofPower> named, two, unnamed;  ///< by rising z
-  /// Errors of parameters in half widths of their 95 % intervals, sorted: the baseline's, and those
+  /// Errors of parameters in half widths of their 95 % intervals, sorted: the baseline's (of
+  /// complete experiments, too), and those
   /// of effects and laws.
   std::vector<double> baseline_errors, effect_errors;
 };

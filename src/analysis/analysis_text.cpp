@@ -56,7 +56,7 @@ class Table {
 
  private:
   std::string by_row() const {
-    const std::string& key = analysis_.sources[0].key;
+    const std::string key = shared_key(analysis_);
     std::vector<std::string> head{key.empty() ? "source" : key};
     head.insert(head.end(), heads_.begin(), heads_.end());
     TextTable table(head);

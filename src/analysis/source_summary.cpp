@@ -175,6 +175,12 @@ SourceSummary summarise_source(const SmoothSource& source, const BodySums& msd,
   return s;
 }
 
+std::string shared_key(const Analysis& analysis) {
+  const std::string& key = analysis.sources[0].key;
+  const auto same = [&](const SourceSummary& s) { return s.key == key; };
+  return std::all_of(analysis.sources.begin(), analysis.sources.end(), same) ? key : "";
+}
+
 bool frames_too_far_apart(const SourceSummary& source) {
   const bool moves = !source.motion.empty() && source.rms_speed.value > 0;
   return moves && source.velocity_memory * source.rate < 4;

@@ -42,8 +42,9 @@ class Diagnoser {
   Judged judge(const std::vector<Recording>& recordings, Diagnosis& out);
   /// The same where the recordings' vector is known already.
   Judged judge(Judged measured, const std::vector<Recording>& recordings, Diagnosis& out);
-  /// The baseline's parameters: where nothing is missing with intervals, by nulls.
-  void tell_baseline(const Judged& judged, Diagnosis& out) const;
+  /// The baseline's parameters: where nothing is missing with intervals, by nulls. Returns all that
+  /// are calibrated, as the baseline alone has them.
+  std::vector<double> tell_baseline(const Judged& judged, Diagnosis& out) const;
   /// Fits what was found and shows it on recordings that had no part in it.
   void model_and_show(const Judged& judged, const std::vector<Recording>& held_out, Diagnosis& out);
   /// All of it.

@@ -26,9 +26,9 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
 
 }  // namespace
 
-void Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
+std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
   const Vector& summary = judged.observed.summary;
-  const std::vector<double> alone = stages_.from_scale(atlas_->nearest(summary).point);
+  std::vector<double> alone = stages_.from_scale(atlas_->nearest(summary).point);
   for (std::size_t i = 0; i < setup_.told(); ++i) {
     MovedParameter& p = out.parameters.emplace_back();
     p.path = setup_.parameters[i].path, p.unit = setup_.parameters[i].unit;
@@ -36,7 +36,7 @@ void Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
     p.deviation = deviation_(static_cast<Eigen::Index>(i));
   }
   // Where the baseline does not explain the recordings, nobody knows how far off it is.
-  if (out.verdict != Verdict::complete) return;
+  if (out.verdict != Verdict::complete) return alone;
   const FitBounds bounds = stages_.bounds();
   const Scatter told =
       atlas_->told(summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
@@ -48,6 +48,7 @@ void Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
     MovedParameter& p = out.parameters[i];
     p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
   }
+  return alone;
 }
 
 void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
@@ -55,8 +56,7 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   const Explanation& e = judged.explanation;
   const Vectors& observed = judged.observed;
   const Vector baseline = atlas_->calibrated(observed.summary);
-  const std::vector<double> before = stages_.from_scale(atlas_->nearest(observed.summary).point);
-  tell_baseline(judged, out);
+  const std::vector<double> before = tell_baseline(judged, out);
   if (out.verdict != Verdict::missing) {
     tell_camera(before, out);
     return;
