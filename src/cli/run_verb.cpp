@@ -7,6 +7,7 @@
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
+#include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
@@ -60,8 +61,9 @@ void check_video(const VerbOptions& options, const Scenario& scenario) {
 bool draw(const std::string& out, bool quiet) {
 #ifdef LILYTANK_HAS_RENDER
   const StoredRun stored = load_run(out);
-  Progress progress(quiet);
   FilmOptions film;
+  std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
+  Progress progress(quiet);
   film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
   draw_film(stored, film, (fs::path(out) / "video.mp4").string());
