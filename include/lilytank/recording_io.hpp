@@ -54,13 +54,14 @@ enum class Check : std::uint8_t {
   spike,      ///< one sighting is far from those before and after it
   jump,       ///< a body goes on elsewhere from one frame to the next
   swap,       ///< two bodies go on in each other's places
+  link,       ///< without identities, two bodies may both go on at one sighting
   speed,      ///< a body is faster than any can be
   outside,    ///< a body is outside the tank
   clock,      ///< times and frame numbers disagree, or times are uneven
   units,      ///< lengths or angles are in another unit than said
   heading,    ///< a heading leaps by more than a body can turn
 };
-constexpr int kChecks = 10;
+constexpr int kChecks = 11;
 std::string check_word(Check check);
 
 /// What is done about a finding. A position is never moved, filled in, or given to another body.

@@ -146,8 +146,9 @@ std::string treatment_word(Treatment treatment) {
 }
 
 std::string check_word(Check check) {
-  constexpr std::array<const char*, kChecks> words{
-      "gap", "duplicate", "spike", "jump", "swap", "speed", "outside", "clock", "units", "heading"};
+  constexpr std::array<const char*, kChecks> words{"gap",   "duplicate", "spike",  "jump",
+                                                   "swap",  "link",      "speed",  "outside",
+                                                   "clock", "units",     "heading"};
   return words[static_cast<std::size_t>(check)];
 }
 

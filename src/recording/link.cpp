@@ -62,9 +62,8 @@ class Linker {
     for (const Pair& pair : pairs) {
       if (taken[pair.track] || linked[pair.row - begin]) continue;
       if (const std::size_t rival = rival_of(pair, of_rows[pair.row - begin], taken);
-          rival < open_.size()) {
+          rival < open_.size() && competed(pair, rival) != Treatment::keep) {
         ended[pair.track] = ended[rival] = true;
-        competed(pair, rival);
       }
       if (ended[pair.track]) continue;
       taken[pair.track] = linked[pair.row - begin] = true;
@@ -112,11 +111,13 @@ class Linker {
     return open_.size();
   }
 
-  void competed(const Pair& pair, std::size_t rival) const {
+  Treatment competed(const Pair& pair, std::size_t rival) const {
     const Sighting& row = s_->rows[pair.row];
-    report_->add(
-        Check::swap, Treatment::split, s_->place(row), row.frame, open_[pair.track].id,
-        "goes on where track " + std::to_string(open_[rival].id) + " may as well: both end here");
+    Treatment treatment = report_->rules()[Check::link];
+    if (treatment == Treatment::mark) treatment = Treatment::split;
+    report_->add(Check::link, treatment, s_->place(row), row.frame, open_[pair.track].id,
+                 "goes on where track " + std::to_string(open_[rival].id) + " may as well");
+    return treatment;
   }
 
   static void go_on(Open& track, Sighting& row) {

@@ -162,8 +162,15 @@ TEST(RecordingFormats, particlesThatCompeteEndTheirTracks) {
   RecordingOptions options;
   options.format = RecordingFormat::table;
   const CheckedRecording c = read(text, options);
-  EXPECT_FALSE(of_kind(c, Check::swap).empty());
+  EXPECT_FALSE(of_kind(c, Check::link).empty());
+  EXPECT_TRUE(of_kind(c, Check::swap).empty()) << "nobody has another's identity";
   EXPECT_GE(c.recording.tracks.size(), 4u);
+  options.rules[Check::link] = Treatment::keep;
+  const CheckedRecording kept = read(text, options);
+  EXPECT_FALSE(of_kind(kept, Check::link).empty());
+  EXPECT_LT(kept.recording.tracks.size(), c.recording.tracks.size());
+  options.rules[Check::link] = Treatment::refuse;
+  EXPECT_TRUE(read(text, options).refused());
 }
 
 TEST(RecordingFormats, trackpyIsInPixelsWithTheYAxisDown) {
