@@ -47,6 +47,7 @@ struct BodyExperiment {
   std::vector<BaselineLaw> baseline;
   std::vector<std::string> drivers;
   std::vector<BodyRun> runs;
+  std::vector<std::string> left_out;  ///< what of the tables is too short to be a run, a line each
 };
 
 /// Whether a file is an experiment of point bodies: [experiment] body = "point". False for files

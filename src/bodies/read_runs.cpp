@@ -66,10 +66,11 @@ class TableReader {
     }
   }
 
-  std::vector<BodyRun> read() {
+  // What is too short is told in `left_out`.
+  std::vector<BodyRun> read(std::vector<std::string>& left_out) {
     while (table_.next()) row();
     std::vector<BodyRun> out;
-    for (const std::string& key : order_) finish(runs_.at(key), out);
+    for (const std::string& key : order_) finish(runs_.at(key), out, left_out);
     if (out.empty()) throw InputError({t_->file, 1, 1}, "no run has eight rows or more");
     return out;
   }
@@ -181,19 +182,25 @@ class TableReader {
   }
 
   // Cuts a run where it was not recorded for long.
-  void finish(Rows& r, std::vector<BodyRun>& out) const {
+  void finish(Rows& r, std::vector<BodyRun>& out, std::vector<std::string>& left_out) const {
     constexpr double kLongest = 8;  // of the usual step
     constexpr std::size_t kLeast = 8;
+    const auto too_short = [&](std::size_t piece, std::size_t rows) {
+      left_out.push_back(name_of(r, piece) + ": " + std::to_string(rows) +
+                         (rows == 1 ? " row" : " rows") + " where eight are needed: left out");
+    };
     thin(r);
     const std::size_t row = r.bodies.size() * static_cast<std::size_t>(e_->dimensions);
     const std::size_t n = r.time.size(), drivers = drivers_.size();
     std::vector<double> steps;
     for (std::size_t k = 1; k < n; ++k) steps.push_back(r.time[k] - r.time[k - 1]);
-    if (steps.size() + 1 < kLeast) return;
+    if (n < kLeast) return too_short(1, n);
     const double usual = median(std::move(steps));
     for (std::size_t from = 0, k = 1, piece = 1; k <= n; ++k) {
       if (k < n && r.time[k] - r.time[k - 1] <= kLongest * usual) continue;
-      if (k - from >= kLeast) {
+      if (k - from < kLeast) {
+        too_short(piece++, k - from);
+      } else {
         BodyRun run = empty_run(r, piece++);
         for (std::size_t i = from; i < k; ++i) {
           run.time.push_back(r.time[i] - r.time[from]);
@@ -208,10 +215,15 @@ class TableReader {
     }
   }
 
+  std::string name_of(const Rows& r, std::size_t piece) const {
+    const std::string name =
+        r.name.empty() ? t_->file.substr(t_->file.find_last_of('/') + 1) : r.name;
+    return piece > 1 ? name + " part " + std::to_string(piece) : name;
+  }
+
   BodyRun empty_run(const Rows& r, std::size_t piece) const {
     BodyRun run;
-    run.name = r.name.empty() ? t_->file.substr(t_->file.find_last_of('/') + 1) : r.name;
-    if (piece > 1) run.name += " part " + std::to_string(piece);
+    run.name = name_of(r, piece);
     run.bodies = r.bodies, run.held_out = t_->held_out;
     for (std::size_t b = 0; b < r.bodies.size(); ++b) {
       run.mass.push_back(of_body(t_->mass, b, r.bodies[b], 1, "mass"));
@@ -268,7 +280,7 @@ BodyExperiment load_body_experiment(const std::string& file) {
       throw InputError(t.place, "this recording's drivers are not those of the first one");
     }
     e.masses = e.masses || t.mass.given();
-    for (BodyRun& run : TableReader(t, e).read()) e.runs.push_back(std::move(run));
+    for (BodyRun& run : TableReader(t, e).read(e.left_out)) e.runs.push_back(std::move(run));
   }
   for (const BodyTable& t : read.tables) {
     if (e.masses && !t.mass.given()) {

@@ -153,17 +153,22 @@ std::vector<const LawTrial*> as_good(const Comparison& c, const LawTrial& best) 
 std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   if (c.groups.size() < 2) return "";
   std::vector<std::pair<double, std::string>> by;
+  std::string seen, none, unasked;
+  const auto add = [](std::string& to, const std::string& name) {
+    to += (to.empty() ? "" : ", ") + name;
+  };
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    if (o.fits[i].held_out.empty()) {
+      add(unasked, c.groups[i].name);
+      continue;
+    }
     by.emplace_back(o.fits[i].held_out_sum() - c.baseline.fits[i].held_out_sum(), c.groups[i].name);
   }
   std::sort(by.rbegin(), by.rend());
-  std::string seen, none;
-  for (const auto& [gain, name] : by) {
-    std::string& to = gain > 2 ? seen : none;
-    to += (to.empty() ? "" : ", ") + name;
-  }
+  for (const auto& [gain, name] : by) add(gain > 2 ? seen : none, name);
   return "seen in " + (seen.empty() ? "no body alone" : seen) +
-         (none.empty() ? "" : "; not in " + none);
+         (none.empty() ? "" : "; not in " + none) +
+         (unasked.empty() ? "" : "; not asked, as no run of theirs is held out: " + unasked);
 }
 
 void tell_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
@@ -353,6 +358,7 @@ Diagnosis told(const Comparison& c) {
   Diagnosis d;
   d.name = c.experiment->name, d.tank = false;
   d.recordings = static_cast<int>(c.experiment->runs.size());
+  d.checks = c.experiment->left_out;
   for (const BodyRun& r : c.experiment->runs) {
     d.modules = std::max(d.modules, static_cast<int>(r.bodies.size()));
     d.seconds += r.time.back();

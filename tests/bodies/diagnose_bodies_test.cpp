@@ -98,6 +98,20 @@ TEST(DiagnoseBodies, tellsBothDragsWhereNoiseHidesTheDifference) {
   EXPECT_TRUE(has(all, "quadratic_drag"));
 }
 
+// A body of which no run is held out says nothing of whether it feels the law.
+TEST(DiagnoseBodies, bodiesOfWhichNothingIsHeldOutAreNotAsked) {
+  BodyExperiment e = falls(0, 0.02, 1e-3, 1);
+  const BodyExperiment more = falls(0, 0.02, 1e-3, 2);
+  e.runs.insert(e.runs.end(), more.runs.begin(), more.runs.end());
+  e.different = true;
+  for (std::size_t r = 0; r < e.runs.size(); ++r) {
+    e.runs[r].bodies = {r < 3 ? "P" : "Q"}, e.runs[r].held_out = r == 2;
+  }
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.findings.at(0).text, "seen in P; not asked, as no run of theirs is held out: Q");
+}
+
 // Runs that are not held out have no part in what is compared, not even as zeros.
 TEST(DiagnoseBodies, oneHeldOutRunTellsAsWell) {
   BodyExperiment e = falls(0.3, 0, 2e-3, 3);

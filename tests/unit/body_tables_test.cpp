@@ -55,5 +55,25 @@ TEST(BodyExperiment, refusesRowsOfOneTimeThatDiffer) {
   EXPECT_EQ(complaint_about("t,h,wind", "0,1,1\n0,1,1\n", x + "drivers = [\"wind\"]\n"), "");
 }
 
+// Eight rows are the least; what has fewer is told, not lost.
+TEST(BodyExperiment, tellsOfRunsThatAreTooShort) {
+  const TemporaryDirectory here;
+  std::string table = "t,ball,h\n";
+  for (int k = 0; k < 12; ++k) table += std::to_string(k) + ",a,1\n";
+  for (int k = 100; k < 103; ++k) table += std::to_string(k) + ",a,1\n";  // after a long hole
+  for (int k = 0; k < 7; ++k) table += std::to_string(k) + ",b,1\n";
+  table += "0,c,1\n";
+  here.write("t.csv", table);
+  const BodyExperiment e = load_body_experiment(
+      here.write("e.toml",
+                 "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"t.csv\"\ntime = \"t\"\n"
+                 "x = \"h\"\nbody = \"ball\"\n"));
+  ASSERT_EQ(e.runs.size(), 1u);
+  EXPECT_EQ(e.left_out,
+            (std::vector<std::string>{"a part 2: 3 rows where eight are needed: left out",
+                                      "b: 7 rows where eight are needed: left out",
+                                      "c: 1 row where eight are needed: left out"}));
+}
+
 }  // namespace
 }  // namespace lilytank
