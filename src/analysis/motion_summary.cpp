@@ -28,18 +28,20 @@ std::vector<std::unique_ptr<SummaryPart>> parts_of(const MotionSummary& summary)
   return parts;
 }
 
-// Adds one track's squared displacements at every lag.
-void add_displacements(const Track& track, int origin_step, int lag_step,
-                       std::vector<MeanSum>& sums, bool all_origins) {
+// Adds one track's squared displacements at every lag; those that are no whole number of frames
+// are rounded by themselves, so that roundings do not add up.
+void add_displacements(const Track& track, double rate, const Eq9& rule,
+                       std::vector<MeanSum>& sums) {
+  const int origin_step = frames_of(rule.origins, rate);
   const auto n = static_cast<int>(track.x.size());
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    const int lag = static_cast<int>(k + 1) * lag_step;
+    const int lag = frames_of(static_cast<double>(k + 1) * rule.lag, rate);
     MeanSum sum = sums[k];  // a copy, as memory would be slower
     for (int i = 0; i + lag < n; i += origin_step) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + lag);
       const double dx = track.x[b] - track.x[a], dy = track.y[b] - track.y[a];
       sum.add(dx * dx + dy * dy);
-      if (!all_origins) break;
+      if (rule.first_origin) break;
     }
     sums[k] = sum;
   }
@@ -82,12 +84,10 @@ std::vector<double> summarise(const std::vector<Recording>& recordings,
 std::vector<double> eq9_curve(const std::vector<Recording>& recordings, const Eq9& rule) {
   std::vector<MeanSum> sums(static_cast<std::size_t>(std::lround(rule.seconds / rule.lag)));
   for (const Recording& recording : recordings) {
-    const int lag = frames_of(rule.lag, recording.rate);
-    const int origins = frames_of(rule.origins, recording.rate);
     for (const Track& track : recording.tracks) {
       // Of the first origin, only where the body was there from the begin.
       if (rule.first_origin && track.first > 0) continue;
-      add_displacements(track, origins, lag, sums, !rule.first_origin);
+      add_displacements(track, recording.rate, rule, sums);
     }
   }
   std::vector<double> out;

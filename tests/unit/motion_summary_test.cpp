@@ -112,5 +112,24 @@ TEST(Eq9, ofTheFirstOriginIsThatOfAPiece) {
   }
 }
 
+// At 25 frames a second 0.1 s is two and a half of them: no lag is off by more than half a frame.
+TEST(Eq9, roundingsOfLagsDoNotAddUp) {
+  Recording slow = circling(120);
+  slow.rate = 25, slow.frames = 3000;
+  for (Track& track : slow.tracks) {
+    const std::vector<double> start{track.x.front(), track.y.front()};
+    for (int f = 0; f < slow.frames; ++f) {
+      track.x[static_cast<std::size_t>(f)] = start[0] + 0.01 * f / slow.rate;  // straight on
+      track.y[static_cast<std::size_t>(f)] = start[1];
+    }
+    for (auto* of : {&track.x, &track.y, &track.theta}) of->resize(3000);
+  }
+  const auto curve = eq9_curve({slow});
+  ASSERT_EQ(curve.size(), 600u);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    EXPECT_NEAR(std::sqrt(curve[k]) / 0.01, 0.1 * static_cast<double>(k + 1), 0.02 + 1e-9) << k;
+  }
+}
+
 }  // namespace
 }  // namespace lilytank
