@@ -60,12 +60,18 @@ TestResult log_rank(const std::vector<std::vector<Duration>>& groups);
 
 /// Mean with Student's interval; n < 2 gives an unbounded one.
 Estimate mean_interval(const std::vector<double>& values, double level = 0.95);
+/// The same of values within [least, most]. Where all n are equal they have no variance, but others
+/// may have a probability of up to 1 - ((1 - level) / 2)^(1 / n) [Clopper and Pearson]: the
+/// interval holds the means that leaves possible.
+Estimate bounded_mean_interval(const std::vector<double>& values, double least, double most,
+                               double level = 0.95);
 
 /// Mean of a - b over pairs, with Student's interval, and the variance that pairing saved:
 /// var(a) + var(b) over var(a - b).
 struct PairedComparison {
   Estimate difference;
-  double p = 1;       ///< Student's, two-sided; 1 for fewer than two pairs
+  double p = 1;       ///< Student's, two-sided; 1 for fewer than two pairs; the signs' where all
+                      ///< differences are equal
   double saving = 1;  ///< as many times the runs would be needed without pairs
 };
 /// `a` and `b` are of equal length, pair by pair.

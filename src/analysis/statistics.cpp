@@ -73,6 +73,17 @@ Estimate mean_interval(const std::vector<double>& values, double level) {
   return {m.mean, m.mean - half, m.mean + half};
 }
 
+Estimate bounded_mean_interval(const std::vector<double>& values, double least, double most,
+                               double level) {
+  Estimate mean = mean_interval(values, level);
+  const auto n = static_cast<double>(values.size());
+  if (values.size() < 2 || std::ranges::min(values) < std::ranges::max(values)) return mean;
+  const double others = 1 - std::pow((1 - level) / 2, 1 / n);
+  mean.low = std::min(mean.value, mean.value + others * (least - mean.value));
+  mean.high = std::max(mean.value, mean.value + others * (most - mean.value));
+  return mean;
+}
+
 PairedComparison compare_pairs(const std::vector<double>& a, const std::vector<double>& b,
                                double level) {
   assert(a.size() == b.size());
@@ -89,7 +100,8 @@ PairedComparison compare_pairs(const std::vector<double>& a, const std::vector<d
     result.p = std::min(1.0, 2 * cdf(complement(boost::math::students_t(n - 1), t)));
     result.saving = apart / d.variance;
   } else {
-    result.p = d.mean == 0 ? 1 : 0;
+    // How often chance alone gives all differences one sign.
+    result.p = d.mean == 0 ? 1 : std::exp2(1 - static_cast<double>(a.size()));
     result.saving = apart > 0 ? kInfinity : 1;
   }
   return result;

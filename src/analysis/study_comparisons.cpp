@@ -73,7 +73,8 @@ PairTest test_pairs(const std::vector<const RunRow*>& a, const std::vector<const
                     double restricted_to) {
   PairTest test;
   test.k = k, test.reached = k == 0;
-  std::vector<double> values_a, values_b;
+  std::vector<double> values_a, values_b, differences;
+  int possible = 0;
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
     const RunRow &x = *a[i], &y = *b[j];
     if (x.replicate != y.replicate) {
@@ -84,10 +85,13 @@ PairTest test_pairs(const std::vector<const RunRow*>& a, const std::vector<const
     const auto value_a = compared(x, k, restricted_to), value_b = compared(y, k, restricted_to);
     if (x.seed != y.seed || !value_a || !value_b) continue;
     values_a.push_back(*value_a), values_b.push_back(*value_b);
+    differences.push_back(*value_a - *value_b);
+    possible = std::max({possible, x.possible, y.possible});
     test.reached = test.reached || std::min(*value_a, *value_b) < restricted_to;
   }
   test.pairs = static_cast<int>(values_a.size());
   test.result = compare_pairs(values_a, values_b);
+  if (k == 0) test.result.difference = bounded_mean_interval(differences, -possible, possible);
   return test;
 }
 

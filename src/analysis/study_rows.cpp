@@ -55,8 +55,11 @@ std::vector<Duration> durations_to(const std::vector<const RunRow*>& runs, int k
 
 Estimate copies_of(const std::vector<const RunRow*>& runs) {
   std::vector<double> copies;
-  for (const RunRow* row : runs) copies.push_back(row->copies);
-  return mean_interval(copies);
+  int possible = 0;
+  for (const RunRow* row : runs) {
+    copies.push_back(row->copies), possible = std::max(possible, row->possible);
+  }
+  return bounded_mean_interval(copies, 0, possible);
 }
 
 Estimate full_yield_of(const std::vector<const RunRow*>& runs) {

@@ -22,7 +22,8 @@ double watched_by_all(const std::vector<std::vector<const RunRow*>>& runs, doubl
 /// left out.
 std::vector<Duration> durations_to(const std::vector<const RunRow*>& runs, int k);
 
-/// Copies standing at the end, mean with Student's interval.
+/// Copies standing at the end, mean with Student's interval; where all runs have as many, with what
+/// so few runs leave possible.
 Estimate copies_of(const std::vector<const RunRow*>& runs);
 /// Share of the runs that had all possible copies, of those that could make any; Wilson's interval.
 Estimate full_yield_of(const std::vector<const RunRow*>& runs);
