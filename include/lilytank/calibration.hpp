@@ -179,5 +179,7 @@ class CalibrationSearch {
 std::string calibration_text(const CalibrationResult& calibration);
 std::vector<std::string> write_calibration(const CalibrationResult& calibration,
                                            const std::string& dir);
+/// Names of all files that write_calibration and draw_calibration may leave in a directory.
+std::vector<std::string> calibration_files();
 
 }  // namespace lilytank

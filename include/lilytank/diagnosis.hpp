@@ -131,5 +131,7 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
 std::string diagnosis_text(const Diagnosis& diagnosis);
 std::string diagnosis_json(const Diagnosis& diagnosis);
 std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const std::string& dir);
+/// Names of all files that write_diagnosis and draw_diagnosis may leave in a directory.
+std::vector<std::string> diagnosis_files();
 
 }  // namespace lilytank

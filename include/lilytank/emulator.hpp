@@ -39,6 +39,8 @@ struct RecordingShape {
   /// polynomials. Empty: bodies start at random and settle.
   std::vector<BodiesAt> starts;
 };
+/// Bodies seen in each frame.
+std::vector<int> seen_by_frame(const Recording& recording);
 /// `starts` are looked for every `interval` seconds, the first frame first.
 RecordingShape shape_of(const Recording& recording, double interval = 1);
 

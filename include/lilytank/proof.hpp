@@ -118,6 +118,8 @@ struct ProofFigures {
 };
 /// Of one proof or several together.
 ProofFigures proof_figures(std::span<const Proof> proofs);
+/// Names of all files that a proof may leave in its directory.
+std::vector<std::string> proof_files();
 /// A finished proof from its directory's key.txt, proof.csv and intervals.csv. Throws InputError
 /// where one is absent, damaged, or not of that key.
 Proof read_proof(const std::string& dir);

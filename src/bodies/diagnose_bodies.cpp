@@ -4,6 +4,7 @@
 
 #include "bodies/verdict.hpp"
 #include "lilytank/state.hpp"
+#include "study/claimed_directory.hpp"
 #include "study/kept_rows.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
@@ -136,7 +137,8 @@ class Trials {
 
 std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
   using namespace bodies;
-  claim_directory(options.out, options.force, "diagnosis", hex(identity_of(e, options)));
+  const ClaimedDirectory own(options.out, options.force,
+                             {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);

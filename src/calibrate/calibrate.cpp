@@ -5,6 +5,7 @@
 
 #include "calibrate/stages.hpp"
 #include "lilytank/state.hpp"
+#include "study/claimed_directory.hpp"
 
 namespace lilytank {
 namespace {
@@ -33,7 +34,8 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
                                            const CalibrationOptions& options) try {
   CalibrationSetup setup = set_up(experiment, options);
-  claim_directory(options.out, options.force, "calibration", "1 " + hex(setup.identity));
+  const ClaimedDirectory own(options.out, options.force,
+                             {"calibration", "1 " + hex(setup.identity), calibration_files()});
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();

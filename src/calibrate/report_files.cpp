@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.hpp"
 #include "lilytank/calibration.hpp"
+#include "study/claimed_directory.hpp"
 #include "text/json.hpp"
 #include "text/number.hpp"
 
@@ -169,6 +170,13 @@ std::string json(const CalibrationResult& c) {
 }
 
 }  // namespace
+
+std::vector<std::string> calibration_files() {
+  return with_figures({"calibrated.toml", "intervals.csv", "correlation.csv", "profiles.csv",
+                       "numbers.csv", "history.csv", "rounds.csv", "calibration.json",
+                       "calibration.txt", "msd.csv", "velocity.csv", "flow.csv"},
+                      {"convergence", "msd", "velocity", "profiles", "estimates"});
+}
 
 std::vector<std::string> write_calibration(const CalibrationResult& c, const std::string& dir) {
   std::vector<std::pair<std::string, std::string>> files{

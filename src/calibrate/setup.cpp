@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lilytank/model_parameter.hpp"
-#include "text/fnv.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -22,12 +21,12 @@ void split(const Experiment& experiment, CalibrationSetup& setup) {
       setup.balls.push_back(one);
     }
   }
-  if (setup.body == BodyKind::ball) setup.balls = setup.training;
   const std::string kind = setup.body == BodyKind::lily ? "lily" : "ball";
   for (int k = 0; k < setup.options.hold_out && !setup.training.empty(); ++k) {
     setup.held_out.push_back(std::move(setup.training.back()));
     setup.training.pop_back();
   }
+  if (setup.body == BodyKind::ball) setup.balls = setup.training;
   if (setup.training.empty()) {
     throw InputError("experiment " + experiment.name + " has no recording of body = \"" + kind +
                      "\" that is not held out: there is nothing to calibrate from");
@@ -103,17 +102,6 @@ void find_summary(CalibrationSetup& setup) {
   s.field = setup.model.field;
 }
 
-void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
-  for (const Recording& one : recordings) {
-    hash.add(one.name + " " + shortest(one.rate) + " " + std::to_string(one.frames));
-    for (const Track& track : one.tracks) {
-      for (const auto* of : {&track.x, &track.y, &track.theta}) {
-        hash.add(*of);
-      }
-    }
-  }
-}
-
 std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& setup) {
   const CalibrationOptions& o = setup.options;
   Fnv hash;
@@ -142,6 +130,17 @@ std::vector<RecordingShape> shapes_of(const std::vector<Recording>& recordings) 
 }
 
 }  // namespace
+
+void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
+  for (const Recording& one : recordings) {
+    hash.add(one.name + " " + shortest(one.rate) + " " + std::to_string(one.frames));
+    for (const Track& track : one.tracks) {
+      for (const auto* of : {&track.x, &track.y, &track.theta}) {
+        hash.add(*of);
+      }
+    }
+  }
+}
 
 std::vector<std::string> CalibrationSetup::paths() const {
   std::vector<std::string> out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lilytank/calibration.hpp"
+#include "text/fnv.hpp"
 
 namespace lilytank {
 
@@ -50,6 +51,9 @@ struct CalibrationSetup {
 
 /// Reads nothing further than the experiment; extracts the flow. Throws InputError.
 CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& options);
+
+/// Adds what recordings say to the hash of an identity.
+void add_recordings(const std::vector<Recording>& recordings, Fnv& hash);
 
 /// Recordings cut into pieces of `seconds`, what is left over left out; headings and ids kept.
 std::vector<Recording> pieces_of(const std::vector<Recording>& recordings, double seconds);

@@ -8,17 +8,6 @@
 namespace lilytank {
 namespace {
 
-// Bodies seen in each frame.
-std::vector<int> seen_by_frame(const Recording& recording) {
-  std::vector<int> seen(static_cast<std::size_t>(recording.frames), 0);
-  for (const Track& track : recording.tracks) {
-    for (std::size_t k = 0; k < track.x.size(); ++k) {
-      if (!std::isnan(track.x[k])) ++seen[static_cast<std::size_t>(track.first) + k];
-    }
-  }
-  return seen;
-}
-
 double missing_share(const Recording& recording) {
   double all = 0, missed = 0;
   for (const Track& track : recording.tracks) {
@@ -42,6 +31,16 @@ void add_body(const SmoothTrack& track, int frame, BodiesAt& at) {
 }
 
 }  // namespace
+
+std::vector<int> seen_by_frame(const Recording& recording) {
+  std::vector<int> seen(static_cast<std::size_t>(recording.frames), 0);
+  for (const Track& track : recording.tracks) {
+    for (std::size_t k = 0; k < track.x.size(); ++k) {
+      if (!std::isnan(track.x[k])) ++seen[static_cast<std::size_t>(track.first) + k];
+    }
+  }
+  return seen;
+}
 
 RecordingShape shape_of(const Recording& recording, double interval) {
   RecordingShape shape;

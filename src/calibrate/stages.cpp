@@ -59,9 +59,6 @@ Stages::Stages(CalibrationSetup& setup)
               (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round + o.replicates +
               (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
               (setup.held_out.empty() ? 2 : 4) * o.comparisons;
-  if (setup.options.out.empty()) return;
-  std::error_code ignored;
-  fs::create_directories(fs::path(setup.options.out) / "work", ignored);
 }
 
 std::string Stages::file(const std::string& stage) const {

@@ -7,8 +7,9 @@
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
+#include "io/sha256.hpp"
 #include "lilytank/proof.hpp"
-#include "study/kept_rows.hpp"
+#include "study/claimed_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -45,7 +46,7 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
   if (out.empty()) {
     std::cout << proof_text(proofs) << std::flush;
   } else {
-    claim_directory(out, force, "proof", "pooled" + hashes);
+    const ClaimedDirectory own(out, force, {"proof", "pooled" + hashes, proof_files()});
     report(proofs, out);
   }
   return Exit::done;
@@ -87,6 +88,14 @@ ProofOptions proof_options(VerbOptions& options) {
   return job;
 }
 
+// A directory may have had a proof of other experiments of the same tank, with a key of its own.
+void forget_other_key(const std::filesystem::path& dir, const std::string& hash) {
+  const std::filesystem::path key = dir / "key.txt";
+  std::error_code ignored;
+  if (!std::filesystem::exists(key, ignored)) return;
+  if (sha256(read_whole(key.string())) != hash) std::filesystem::remove(key, ignored);
+}
+
 // The key is not among them: it stays closed until the last world is judged.
 void keep(const Proof& so_far, const std::filesystem::path& dir) {
   write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
@@ -120,7 +129,8 @@ int prove_verb(const Arguments& arguments) {
   job.diagnosis.progress = [&](double done, const std::string& stage) {
     progress.tell(done, stage);
   };
-  job.sealed = [](const std::string& hash) {
+  job.sealed = [&](const std::string& hash) {
+    forget_other_key(dir, hash);
     std::cout << "sealed; SHA-256 of the key: " << hash << std::endl;
   };
   job.judged = [&](const Proof& so_far) { keep(so_far, dir); };

@@ -79,7 +79,7 @@ Diagnoser::Diagnoser(const Experiment& experiment, const DiagnosisOptions& optio
     : options_(options),
       budget_(options.minutes),
       setup_(set_up(experiment, calibration_of(experiment, options, budget_))),
-      stages_(begin(setup_, options)) {}
+      stages_(setup_) {}
 
 double Diagnoser::model_cost() const {
   return 3 * budget_.round + 2 * budget_.comparisons;
@@ -158,10 +158,8 @@ void Diagnoser::run(Diagnosis& out) {
   model_and_show(judged, setup_.held_out.empty() ? setup_.training : setup_.held_out, out);
 }
 
-Stages Diagnoser::begin(CalibrationSetup& setup, const DiagnosisOptions& options) {
-  claim_directory(options.out, options.force, "diagnosis",
-                  "23 " + hex(setup.identity) + " " + shortest(options.minutes));
-  return Stages(setup);
+std::string Diagnoser::identity() const {
+  return "23 " + hex(setup_.identity) + " " + shortest(options_.minutes);
 }
 
 // The parameters of the baseline that whole experiments say, and their errors, by points about the

@@ -32,7 +32,9 @@ class Diagnoser {
  public:
   Diagnoser(const Experiment& experiment, const DiagnosisOptions& options);
 
-  /// Flow, baseline, nulls and fingerprints; kept in the directory. `after`: simulated experiments
+  /// Of the recordings, the model and the options that results depend on.
+  std::string identity() const;
+  /// Flow, baseline, nulls and fingerprints; kept in the directory, which must be claimed. `after`: simulated experiments
   /// that follow, for the progress. Throws Stopped, InputError.
   void prepare(double after = 0);
   /// Simulated experiments of a model that is fitted and shown.
@@ -56,7 +58,6 @@ class Diagnoser {
   Stages& stages() { return stages_; }
 
  private:
-  static Stages begin(CalibrationSetup& setup, const DiagnosisOptions& options);
   /// Where the baseline's parameters are, their errors, and whether the answer lay among the points
   /// that were simulated.
   struct Centre {

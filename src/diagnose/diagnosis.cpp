@@ -4,12 +4,32 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
+#include "lilytank/emulator.hpp"
+#include "study/claimed_directory.hpp"
+#include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr double kMostMissing = 0.1;  // share of unseen frames beyond which cameras are at fault
+
+// Holes that cut tracks count as well as those within. Of Lilies; balls may come and go. A body
+// that a tracker makes up now and then is none: there are as many as in one frame of a hundred or
+// more.
+double unseen_share(const Experiment& experiment) {
+  double all = 0, sightings = 0;
+  for (const Recording& r : experiment.recordings) {
+    if (r.body != BodyKind::lily) continue;
+    std::vector<int> seen = seen_by_frame(r);
+    for (const int n : seen) sightings += n;
+    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(99 * seen.size() / 100);
+    if (at == seen.end()) continue;
+    std::nth_element(seen.begin(), at, seen.end());
+    all += static_cast<double>(*at) * r.frames;
+  }
+  return all > 0 ? std::max(0.0, 1 - sightings / all) : 0;
+}
 
 // Faults of the camera and the tracker: named as such, and no force is looked for behind them.
 bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
@@ -29,21 +49,22 @@ bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
     blame("identity_swap", "module",
           std::to_string(swaps) + " times two bodies go on in each other's places");
   }
-  double all = 0, missed = 0;
-  for (const Recording& r : experiment.recordings) {
-    for (const Track& t : r.tracks) {
-      all += static_cast<double>(t.x.size());
-      missed += static_cast<double>(
-          std::count_if(t.x.begin(), t.x.end(), [](double x) { return std::isnan(x); }));
-    }
-  }
-  if (clocks > 0 || missed > kMostMissing * all) {
+  const double missed = unseen_share(experiment);
+  if (clocks > 0 || missed > kMostMissing) {
     blame("lost_frames", "time",
           clocks > 0 ? std::to_string(clocks) + " times the clock disagrees with the frames"
-                     : "bodies are unseen in " + std::to_string(std::lround(100 * missed / all)) +
+                     : "bodies are unseen in " + std::to_string(std::lround(100 * missed)) +
                            " % of the frames");
   }
   return !out.findings.empty();
+}
+
+// Of recordings that no model is calibrated to.
+std::string identity_of(const Experiment& experiment) {
+  Fnv hash;
+  hash.add(std::to_string(experiment.base.identity));
+  add_recordings(experiment.recordings, hash);
+  return hex(hash.value());
 }
 
 }  // namespace
@@ -95,14 +116,22 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
     if (!r.has_heading()) {
       throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
     }
+    const std::vector<int> seen = seen_by_frame(r);
+    if (!seen.empty()) out.modules = std::max(out.modules, *std::ranges::max_element(seen));
     out.recordings += 1, out.seconds += r.frames / r.rate;
   }
   if (recordings_at_fault(experiment, out)) {
+    const ClaimedDirectory own(
+        options.out, options.force,
+        {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
     out.verdict = Verdict::measurement;
     return out;
   }
   try {
-    Diagnoser(experiment, options).run(out);
+    Diagnoser diagnoser(experiment, options);
+    const ClaimedDirectory own(options.out, options.force,
+                               {"diagnosis", diagnoser.identity(), diagnosis_files()});
+    diagnoser.run(out);
   } catch (const Stopped&) {
     return std::nullopt;
   }

@@ -10,6 +10,7 @@
 #include "io/sha256.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -217,7 +218,6 @@ class Examination {
 
   Proof run() {
     const Experiment open = open_tank(options_, tank_);
-    if (options_.sealed) options_.sealed(out_.hash);
     DiagnosisOptions job = options_.diagnosis;
     job.hold_out = 0;
     if (job.progress) {
@@ -226,6 +226,8 @@ class Examination {
       };
     }
     Diagnoser diagnoser(open, job);
+    const ClaimedDirectory own(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+    if (options_.sealed) options_.sealed(out_.hash);
     diagnoser.prepare(after(diagnoser));
     rows_ = film_all(diagnoser);
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);

@@ -8,6 +8,7 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/sha256.hpp"
+#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -117,6 +118,11 @@ void read_worlds(const std::string& file, Proof& proof) {
       rows.refuse(kKind, "the key says otherwise");
     }
     w.effects = split(rows.text(kKey), kAnd);
+    for (const std::string& name : w.effects) {
+      if (line.find(" " + name + " ") == std::string::npos) {
+        rows.refuse(kKey, "the key says otherwise");
+      }
+    }
     w.expected_z = rows.number(kExpected);
     w.verdict = verdict_in(rows);
     w.findings = findings_in(rows);
@@ -186,6 +192,12 @@ std::string proof_intervals_csv(const Proof& proof) {
     }
   }
   return out;
+}
+
+std::vector<std::string> proof_files() {
+  return with_figures(
+      {"proof.txt", "proof.csv", "tank.txt", "intervals.csv", "key.txt", "report.html"},
+      {"power", "outcomes", "errors"});
 }
 
 Proof read_proof(const std::string& dir) {

@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.hpp"
 #include "lilytank/diagnosis.hpp"
+#include "study/claimed_directory.hpp"
 #include "text/json.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -90,6 +91,12 @@ std::string diagnosis_json(const Diagnosis& d) {
                   ", \"unit\": " + json_quoted(one.unit) + "}";
          });
   return out + "]}\n";
+}
+
+std::vector<std::string> diagnosis_files() {
+  return with_figures({"diagnosis.json", "diagnosis.txt", "missing.toml", "flow.csv", "maps.csv",
+                       "ranking.csv", "fit.csv", "report.html"},
+                      {"laws", "fit", "maps"});
 }
 
 std::vector<std::string> write_diagnosis(const Diagnosis& d, const std::string& dir) {

@@ -27,7 +27,9 @@ std::string headline(const Diagnosis& d) {
 }
 
 void tell(const DiagnosisFinding& f, std::string& out) {
-  out += "\n" + f.effect + "  (z " + digits(f.z) + ", depends on " + f.variable + ")\n";
+  // Faults that checks find have no z.
+  out += "\n" + f.effect + "  (" + (f.z > 0 ? "z " + digits(f.z) + ", " : "") + "depends on " +
+         f.variable + ")\n";
   if (!f.equation.empty()) out += "  " + f.equation + "\n";
   if (!f.text.empty()) out += "  " + f.text + "\n";
   for (const FoundParameter& p : f.parameters) {
@@ -93,8 +95,9 @@ void tell_thresholds(const Diagnosis& d, std::string& out) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out =
       "diagnosis of " + d.name + ": " + name_of(d.verdict) + ", " + headline(d) + "\n";
-  out += std::to_string(d.recordings) + " recordings of up to " + std::to_string(d.modules) +
-         (d.tank ? " Lilies, " : " bodies, ") + digits(d.seconds) + " s in all\n";
+  out += std::to_string(d.recordings) + (d.recordings == 1 ? " recording" : " recordings") +
+         " of up to " + std::to_string(d.modules) + (d.tank ? " Lilies, " : " bodies, ") +
+         digits(d.seconds) + " s in all\n";
   if (!d.checks.empty()) out += "\nWhat the checks of the recordings found\n";
   for (const std::string& check : d.checks) out += "  " + check + "\n";
   for (const DiagnosisFinding& f : d.findings) tell(f, out);

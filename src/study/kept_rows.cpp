@@ -81,25 +81,6 @@ std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
 
 }  // namespace
 
-void claim_directory(const std::string& dir, bool force, const std::string& job,
-                     const std::string& identity) {
-  namespace fs = std::filesystem;
-  if (dir.empty()) return;
-  const fs::path mark = fs::path(dir) / "work" / "identity";
-  const std::string mine = "lilytank " + job + " " + identity + "\n";
-  std::error_code problem;
-  if (fs::exists(mark, problem) && read_whole(mark.string()) != mine) {
-    if (!force) {
-      throw InputError(dir + " holds another " + job +
-                       " (other data, options or program): choose another --out, or replace it "
-                       "with --force");
-    }
-    fs::remove_all(fs::path(dir) / "work", problem);
-  }
-  make_directory(mark.parent_path().string());
-  write_atomically(mark.string(), mine);
-}
-
 std::optional<std::vector<std::vector<double>>> kept_rows(
     const KeptRows& kept, int count, const std::function<std::vector<double>(int)>& work) {
   Rows rows(static_cast<std::size_t>(count));

@@ -10,12 +10,6 @@
 
 namespace lilytank {
 
-/// Makes a directory one job's own, told by a file in it; nothing if `dir` is empty. `job`:
-/// "calibration"; `identity`: of all that its results depend on. What another job left in its
-/// `work` is removed with `force`, and refused without. Throws InputError.
-void claim_directory(const std::string& dir, bool force, const std::string& job,
-                     const std::string& identity);
-
 struct KeptRows {
   std::string file;            ///< made if absent; empty: nothing is kept
   std::uint64_t identity = 0;  ///< of all that the rows depend on

@@ -29,5 +29,23 @@ TEST(CalibrationSetup, wholeExperimentsHaveTheirGustsPointByPoint) {
   EXPECT_EQ(other.emulator(other.shapes, Of::pieces).model().flow.gusts, Gusts::per_module);
 }
 
+// The flow is the balls': of recordings that are kept for testing, it must know nothing.
+TEST(CalibrationSetup, ballsThatAreHeldOutTellNothingOfTheFlow) {
+  Experiment experiment;
+  experiment.base = load_scenario({LILYTANK_SOURCE_DIR "/scenarios/tank_balls.toml"}, {});
+  RecordingShape shape;
+  shape.body = BodyKind::ball, shape.bodies = 2, shape.frames = 150, shape.name = "ball";
+  const auto made = Emulator(experiment.base.model, {}, {shape, shape}).record({}, 1);
+  ASSERT_TRUE(made);
+  experiment.recordings = *made;
+  CalibrationOptions options;
+  options.body = BodyKind::ball, options.flow = CalibrationFlow::scenario, options.hold_out = 1;
+  const CalibrationSetup counted = set_up(experiment, options);
+  options.hold_out = 0, experiment.recordings[1].held_out = true;
+  const CalibrationSetup marked = set_up(experiment, options);
+  EXPECT_EQ(marked.balls.size(), 1u);
+  EXPECT_EQ(counted.balls.size(), 1u);
+}
+
 }  // namespace
 }  // namespace lilytank

@@ -1,0 +1,96 @@
+// Directories of results are one job's: nothing of another one is mixed with it or lost unasked.
+#include "study/claimed_directory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lilytank/calibration.hpp"
+#include "lilytank/diagnosis.hpp"
+#include "lilytank/error.hpp"
+#include "lilytank/proof.hpp"
+#include "support/temporary_directory.hpp"
+
+namespace lilytank {
+namespace {
+
+DirectoryJob job(const std::string& identity) {
+  return {"diagnosis", identity, {"diagnosis.txt", "missing.toml"}};
+}
+
+// What claiming `out` is refused for, without the directory's name; "" if it is not.
+std::string refusal(const TemporaryDirectory& here, const DirectoryJob& of, bool force = false) {
+  try {
+    const ClaimedDirectory own(here.path("out"), force, of);
+    return "";
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    return what.substr(what.find("out") + 3);
+  }
+}
+
+TEST(ClaimedDirectory, isKeptForTheSameJobAndRefusedToOthers) {
+  const TemporaryDirectory here;
+  EXPECT_EQ(refusal(here, job("1")), "");
+  here.write("out/work/nulls.rows", "kept");
+  here.write("out/diagnosis.txt", "complete");
+  EXPECT_EQ(refusal(here, job("1")), "");
+  EXPECT_EQ(refusal(here, job("2")),
+            " holds another diagnosis (other data, options or program): choose another --out, or "
+            "replace it with --force");
+  EXPECT_EQ(here.read("out/work/nulls.rows"), "kept");
+  EXPECT_EQ(here.read("out/diagnosis.txt"), "complete");
+}
+
+TEST(ClaimedDirectory, forceRemovesAllThatTheOtherJobLeftAndNothingElse) {
+  const TemporaryDirectory here;
+  EXPECT_EQ(refusal(here, job("1")), "");
+  for (const char* name : {"work/nulls.rows", "diagnosis.txt", "missing.toml", "notes.md"}) {
+    here.write(std::string("out/") + name, "of 1");
+  }
+  EXPECT_EQ(refusal(here, job("2"), true), "");
+  EXPECT_FALSE(here.has("out/work/nulls.rows"));
+  EXPECT_FALSE(here.has("out/diagnosis.txt"));
+  EXPECT_FALSE(here.has("out/missing.toml"));
+  EXPECT_TRUE(here.has("out/notes.md"));
+  EXPECT_EQ(refusal(here, job("2")), "");
+}
+
+TEST(ClaimedDirectory, filesThatAreNobodysAreNotOverwritten) {
+  const TemporaryDirectory here;
+  here.write("out/missing.toml", "mine");
+  here.write("out/work/thesis.tex", "mine");
+  EXPECT_EQ(refusal(here, job("1")),
+            " holds a file 'missing.toml' that is not of a diagnosis: choose another --out, or "
+            "replace it with --force");
+  EXPECT_EQ(refusal(here, job("1"), true), "");
+  EXPECT_TRUE(here.has("out/work/thesis.tex"));
+}
+
+TEST(ClaimedDirectory, isOneProcessAtATime) {
+  const TemporaryDirectory here;
+  const ClaimedDirectory own(here.path("out"), false, job("1"));
+  EXPECT_THROW(ClaimedDirectory(here.path("out"), false, job("1")), InputError);
+  EXPECT_THROW(ClaimedDirectory(here.path("out"), true, job("1")), InputError);
+}
+
+// The lists are not derived from what is written: a file that was forgotten would survive --force.
+TEST(ClaimedDirectory, everyFileThatIsWrittenIsKnown) {
+  const auto all_in = [](const std::vector<std::string>& written,
+                         const std::vector<std::string>& known) {
+    for (const std::string& name : written) {
+      EXPECT_NE(std::find(known.begin(), known.end(), name), known.end()) << name;
+    }
+  };
+  const TemporaryDirectory here;
+  Diagnosis d;
+  d.overlay = d.flow_csv = "x";
+  d.maps.emplace_back(), d.ranking.emplace_back(), d.held_out.emplace_back();
+  all_in(write_diagnosis(d, here.path("d")), diagnosis_files());
+  CalibrationResult c;
+  c.flow_csv = "x", c.msd.emplace_back();
+  all_in(write_calibration(c, here.path("c")), calibration_files());
+}
+
+}  // namespace
+}  // namespace lilytank
