@@ -46,8 +46,8 @@ struct Eq9 {
   bool first_origin =
       false;  ///< the first frame is the only start, as in a piece of just that length
 };
-/// The MSD that Eq. 9 compares, m^2: at lags 0.1 s, 0.2 s, ... (the nearest frames), aggregated over all bodies of all
-/// recordings. NaN at lags for which there is nothing.
+/// The MSD that Eq. 9 compares, m^2: at lags 0.1 s, 0.2 s, ... (the nearest frames), aggregated
+/// over all bodies of all recordings. NaN at lags for which there is nothing.
 std::vector<double> eq9_curve(const std::vector<Recording>& recordings, const Eq9& rule = {});
 /// Eq. 9 of two such curves: the sum over 2400 lags of 25 ms of |difference|, m^2; the curves' own
 /// lags are fewer, so it is 2400 times the mean. Infinite if they share no lag.

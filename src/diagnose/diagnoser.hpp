@@ -34,8 +34,8 @@ class Diagnoser {
 
   /// Of the recordings, the model and the options that results depend on.
   std::string identity() const;
-  /// Flow, baseline, nulls and fingerprints; kept in the directory, which must be claimed. `after`: simulated experiments
-  /// that follow, for the progress. Throws Stopped, InputError.
+  /// Flow, baseline, nulls and fingerprints; kept in the directory, which must be claimed. `after`:
+  /// simulated experiments that follow, for the progress. Throws Stopped, InputError.
   void prepare(double after = 0);
   /// Simulated experiments of a model that is fitted and shown.
   double model_cost() const;
