@@ -57,6 +57,8 @@ class RateRecord {
   void observe(const Event& event, double time);
   /// After every step; takes the number of evaluations from the world.
   void observe(const World& world);
+  /// Exchanges completed so far, those over new latches included, where no world is there to ask.
+  void count_evaluations(std::int64_t exchanges) { evaluations_ = exchanges; }
   /// The counts up to `time` (s).
   RateTable table(double time) const;
 
@@ -101,7 +103,8 @@ MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double durat
 std::string to_csv(const MeasuredWorld& world, std::uint64_t identity);
 MeasuredWorld measured_world_from(const std::string& text, const std::string& file,
                                   std::uint64_t identity);
-/// The counts of a stored run, from its events.csv. Throws InputError.
+/// The counts of a stored run up to its end, from its events.csv and summary.json. Throws
+/// InputError, also for a run that is not over.
 RateTable rates_of_run(const std::string& dir);
 
 /// Of the standard tank, where nothing else was measured: links of one pair of faces that fit
@@ -113,7 +116,7 @@ struct Kinetics {
   ReactionNetwork network;
   std::vector<double> rate;        ///< 1/s, by reaction: of one pair of assemblies, or of one
   std::vector<std::int64_t> seen;  ///< how often it was counted
-  double evaluation_rate = 0;      ///< 1/s, of a bond
+  double evaluation_rate = 0;      ///< 1/s, of a bond; where it was not counted, the standard one
   double face_rate = 0;            ///< 1/s, links of one pair of faces that fit, over all reactions
 };
 /// Links: counts over exposure, drawn towards face_rate times places by the weight of one event, so

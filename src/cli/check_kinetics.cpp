@@ -7,9 +7,9 @@
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
+#include "io/scenario_layers.hpp"
 #include "lilytank/measure.hpp"
 #include "lilytank/random.hpp"
-#include "lilytank/scenario.hpp"
 #include "lilytank/statistics.hpp"
 #include "text/number.hpp"
 #ifdef LILYTANK_HAS_RENDER
@@ -22,27 +22,88 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongest = 1e9;  // s
+constexpr int kMostModules = 1000;
 
 // Worlds that were run, or what was counted elsewhere.
 struct Counted {
   RateTable table;
   std::vector<std::vector<double>> completion;  // of each world
   double duration = 0;                          // s, 0: unknown
+  int diverged = 0;                             // worlds, left out of the above
 };
 
-Scenario scenario_for(const VerbOptions& options, const Ruleset& rules, int modules) {
+// What a check decides about its worlds, whatever a scenario says.
+void refuse_overruled(const VerbOptions& options) {
+  const struct {
+    std::string path, why;
+    bool overruled;
+  } ours[] = {
+      {"ruleset.file", "the rules are those that are checked", true},
+      {"control.latches", "latches are on", true},
+      {"run.seed", "--seed decides", true},
+      {"module.count", "--modules decides", options.has("modules")},
+      {"run.duration", "--duration decides", options.has("duration")},
+  };
+  for (const Assignment& set : read_assignments(options.list("set"), "--set"))
+    for (const auto& value : ours)
+      if (value.overruled && set.path() == value.path)
+        options.refuse("--set " + value.path + " would have no effect: " + value.why);
+}
+
+Scenario scenario_for(const VerbOptions& options) {
   std::vector<std::string> sets = options.list("set");
-  sets.push_back("module.count=" + std::to_string(modules));
+  if (options.has("modules")) {
+    sets.push_back("module.count=" + std::to_string(options.whole("modules", 15, 1, kMostModules)));
+  }
   sets.push_back("control.latches=true");
   sets.push_back("run.seed=0");
   if (options.has("duration")) {
     sets.push_back("run.duration=" + shortest(options.number("duration", 0, 1, kLongest, "s")));
   }
   Scenario scenario = load_scenario(options.list("measure"), sets);
-  scenario.model.rulesets = {rules};
-  scenario.model.commands.clear();
-  scenario.model.feedback.clear();
+  const Model& model = scenario.model;
+  if (!model.commands.empty() || !model.feedback.empty()) {
+    options.refuse(
+        "the scenario's [[command]] tables would have no effect: rates are of one ruleset and one "
+        "flow; an overlay with the line 'command = []' takes them out");
+  }
+  if (model.module.count < 1 || model.module.count > kMostModules) {
+    options.refuse("the scenario's module.count " + std::to_string(model.module.count) +
+                   " is outside 1 .. " + std::to_string(kMostModules) + ": give --modules");
+  }
   return scenario;
+}
+
+bool same_but_for_p(const Ruleset& a, const Ruleset& b) {
+  const auto same = [](const Rule& x, const Rule& y) {
+    return x.name == y.name && x.kind == y.kind && x.before == y.before && x.after == y.after;
+  };
+  return std::equal(a.rules.begin(), a.rules.end(), b.rules.begin(), b.rules.end(), same);
+}
+
+// Takes over the p that the scenario sets, where its rules are these; a line about what that
+// changes. Rules of one name in two rulesets are not one rule: a last join is not to be undone.
+std::string take_p(const Scenario& scenario, Ruleset& rules) {
+  std::string note;
+  for (const ScenarioEntry& entry : scenario.entries) {
+    if (entry.is_default || !entry.path.starts_with("rules.")) continue;
+    const Ruleset& theirs = scenario.model.rulesets.front();
+    if (!same_but_for_p(rules, theirs)) {
+      throw InputError(entry.where, entry.path + " would have no effect: it is of the rules of " +
+                                        theirs.name + ", and those of " + rules.name +
+                                        " are others; measure in a scenario that sets no such p");
+    }
+    for (std::size_t k = 0; k < rules.rules.size(); ++k) {
+      Rule& ours = rules.rules[k];
+      const double p = theirs.rules[k].p;
+      if ("rules." + ours.name + ".p" != entry.path || p == ours.p) continue;
+      note += (note.empty() ? "p as the scenario sets it: " : ", ") + ours.name + " " +
+              shortest(p) + " (ruleset: " + shortest(ours.p) + ")";
+      ours.p = p, ours.where = entry.where;
+    }
+  }
+  check_probabilities(rules);
+  return note.empty() ? note : note + "\n";
 }
 
 // Of all that decides a world: the scenario, and the rules that stand in for its own.
@@ -53,16 +114,16 @@ std::uint64_t identity_of(const Scenario& scenario, const Ruleset& rules) {
 }
 
 // Nothing if it was stopped.
-std::optional<Counted> measure(const VerbOptions& options, const Ruleset& rules, int modules,
+std::optional<Counted> measure(const VerbOptions& options, const CheckInput& input,
                                const std::string& dir) {
-  const Scenario scenario = scenario_for(options, rules, modules);
+  const Scenario& scenario = *input.scenario;
   MeasureOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 100000));
   job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
   job.duration = scenario.duration;
   job.out = dir;
-  job.identity = identity_of(scenario, rules);
+  job.identity = identity_of(scenario, input.rules);
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done) { progress.tell(done, "of the worlds"); };
@@ -72,11 +133,23 @@ std::optional<Counted> measure(const VerbOptions& options, const Ruleset& rules,
   Counted counted;
   counted.duration = scenario.duration;
   for (const MeasuredWorld& world : worlds) {
+    counted.diverged += world.diverged ? 1 : 0;
     if (world.diverged) continue;
     counted.table.add(world.rates);
     counted.completion.push_back(world.completion);
   }
   return counted;
+}
+
+// A line on worlds that diverged, if any did.
+std::string diverged_text(const Counted& counted) {
+  const std::string diverged = std::to_string(counted.diverged);
+  const std::string all =
+      std::to_string(counted.completion.size() + static_cast<std::size_t>(counted.diverged));
+  if (counted.diverged == 0) return "";
+  if (counted.completion.empty())
+    return (all == "1" ? "the world" : "all " + all + " worlds") + " diverged: no rates\n";
+  return diverged + " of " + all + " worlds diverged, left out of everything below\n";
 }
 
 RateTable stored_rates(const std::string& where) {
@@ -155,12 +228,12 @@ std::string comparison(const CurveBand& worlds, const CurveBand& model) {
   return out;
 }
 
-std::string run_model(const VerbOptions& options, const Ruleset& rules, const Kinetics& kinetics,
-                      const Counted& counted, int modules, const std::string& dir) {
+std::string run_model(const VerbOptions& options, const CheckInput& input, const Kinetics& kinetics,
+                      const Counted& counted, const std::string& dir) {
   const auto runs = static_cast<std::size_t>(options.whole("gillespie", 1000, 0, 1000000));
   if (runs == 0) return "";
   GillespieOptions one;
-  one.modules = modules;
+  one.modules = input.modules;
   one.duration =
       counted.duration > 0 ? counted.duration : options.number("duration", 14400, 1, kLongest, "s");
   const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
@@ -180,8 +253,9 @@ std::string run_model(const VerbOptions& options, const Ruleset& rules, const Ki
   if (!counted.completion.empty()) worlds = yield_band(counted.completion, times, seed);
   if (!dir.empty()) {
     write_atomically((fs::path(dir) / "yield.csv").string(), curve_csv(worlds, model));
-    const int n = static_cast<int>(rules.target.size());
-    draw(worlds, model, counted.completion.size(), n > 0 ? modules / n : 1, dir);
+    const int possible =
+        input.rules.target.empty() ? 1 : possible_copies(input.rules, input.modules);
+    draw(worlds, model, counted.completion.size(), possible, dir);
   }
   return "well-mixed model, " + std::to_string(runs) + " runs of " + digits(one.duration / 3600) +
          " h, " + std::to_string(reactions) + " reactions; mean copies completed:\n" +
@@ -223,6 +297,7 @@ void check_kinetics_options(const VerbOptions& options) {
   const bool measures = options.has("measure"), reads = options.has("rates");
   if (measures && reads) options.refuse("--measure or --rates, not both");
   if (!measures) options.refuse_given({"worlds", "set", "threads"}, "belongs to --measure");
+  refuse_overruled(options);
   if (!measures && !reads) {
     options.refuse_given({"gillespie", "duration", "out"},
                          "needs rates: --measure SCENARIO or --rates RUN");
@@ -235,46 +310,44 @@ void check_kinetics_options(const VerbOptions& options) {
   options.spare_each_other({"kappa", "bngl"});
 }
 
-std::optional<RateTable> kinetics_input(const VerbOptions& options, const Ruleset& rules,
-                                        int modules) {
-  if (options.has("measure")) static_cast<void>(scenario_for(options, rules, modules));
-  if (!options.has("rates")) return std::nullopt;
-  return stored_rates(options.text("rates"));
+CheckInput check_input(const VerbOptions& options) {
+  CheckInput input;
+  input.rules = read_ruleset(options.positional().front());
+  input.modules = static_cast<int>(options.whole("modules", input.modules, 1, kMostModules));
+  if (options.has("measure")) {
+    input.scenario = scenario_for(options);
+    input.note = take_p(*input.scenario, input.rules);
+    input.scenario->model.rulesets = {input.rules};
+    input.modules = input.scenario->model.module.count;
+  }
+  if (options.has("rates")) input.rates = stored_rates(options.text("rates"));
+  return input;
 }
 
-std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,
-                                        int modules, std::optional<RateTable> rates) {
-  const bool measures = options.has("measure");
+KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input) {
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
-  std::string out;
-  if (measures || rates) {
-    const std::string dir = options.text("out", measures ? "out/check-" + rules.name : "");
-    if (!dir.empty()) {
-      std::error_code error;
-      fs::create_directories(dir, error);
-      if (error) options.refuse("--out " + dir + ": " + error.message());
-    }
-    Counted counted;
-    if (measures) {
-      auto found = measure(options, rules, modules, dir);
-      if (!found) return std::nullopt;
-      counted = std::move(*found);
-    } else {
-      counted.table = std::move(*rates);
-    }
+  KineticsReport report;
+  if (input.scenario || input.rates) {
+    const std::string usual = input.scenario ? "out/check-" + input.rules.name : "";
+    const std::string dir = options.text("out", usual);
+    if (!dir.empty()) make_directory(dir);
+    auto counted = input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
+    if (!counted) return {"", 0, true};
+    report.diverged = counted->diverged, report.text = diverged_text(*counted);
+    if (report.diverged > 0 && counted->completion.empty()) return report;
     if (!dir.empty())
-      write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted.table));
-    const Kinetics kinetics = kinetics_of(rules, counted.table, modules);
+      write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted->table));
+    const Kinetics kinetics = kinetics_of(input.rules, counted->table, input.modules);
     face_rate = kinetics.face_rate, evaluation_rate = kinetics.evaluation_rate;
-    out += table_text(counted.table) + kinetics_text(rules, kinetics) +
-           run_model(options, rules, kinetics, counted, modules, dir);
+    report.text += table_text(counted->table) + kinetics_text(input.rules, kinetics) +
+                   run_model(options, input, kinetics, *counted, dir);
   }
-  if (options.has("kappa"))
-    write_atomically(options.text("kappa"), to_kappa(rules, face_rate, evaluation_rate, modules));
-  if (options.has("bngl"))
-    write_atomically(options.text("bngl"), to_bngl(rules, face_rate, evaluation_rate, modules));
-  return out;
+  for (const auto& [name, text] : {std::pair("kappa", &to_kappa), std::pair("bngl", &to_bngl)})
+    if (options.has(name))
+      write_atomically(options.text(name),
+                       text(input.rules, face_rate, evaluation_rate, input.modules));
+  return report;
 }
 
 }  // namespace lilytank::cli

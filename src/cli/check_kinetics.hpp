@@ -5,6 +5,7 @@
 
 #include "cli/options.hpp"
 #include "lilytank/kinetics.hpp"
+#include "lilytank/scenario.hpp"
 
 namespace lilytank::cli {
 
@@ -12,13 +13,26 @@ namespace lilytank::cli {
 void add_kinetics_options(VerbOptions& options);
 /// Refuses those that would have no effect or overwrite what is read, before any work is done.
 void check_kinetics_options(const VerbOptions& options);
-/// Reads what they name, before any work is done: the rates of --rates, or nothing. Throws
-/// InputError for files that cannot be used, those of --measure included.
-std::optional<RateTable> kinetics_input(const VerbOptions& options, const Ruleset& rules,
-                                        int modules);
-/// Does what they ask for, on the `rates` that were read or those that it measures; the text for
-/// the report, or nothing if a signal stopped it. Throws InputError.
-std::optional<std::string> run_kinetics(const VerbOptions& options, const Ruleset& rules,
-                                        int modules, std::optional<RateTable> rates);
+
+/// What is checked.
+struct CheckInput {
+  Ruleset rules;     ///< with the p that the scenario of --measure sets
+  std::string note;  ///< a line on these p, if they are not the ruleset's
+  int modules = 15;
+  std::optional<Scenario> scenario;  ///< of --measure, with these rules and as many modules
+  std::optional<RateTable> rates;    ///< of --rates
+};
+/// Reads the ruleset and what --measure or --rates name, before any work is done. Throws InputError
+/// for files that cannot be used, and for what a scenario says that would have no effect.
+CheckInput check_input(const VerbOptions& options);
+
+/// What came of --measure, --rates, --kappa and --bngl.
+struct KineticsReport {
+  std::string text;
+  int diverged = 0;  ///< worlds, which are left out
+  bool stopped = false;
+};
+/// Does what the options ask for. Throws InputError.
+KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input);
 
 }  // namespace lilytank::cli

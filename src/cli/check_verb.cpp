@@ -13,7 +13,7 @@ namespace {
 
 void add_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add()("modules", "how many (15)", text(), "M")(
+  options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
       "lattice", "worlds of the lattice model to run (20)", text(), "N")(
       "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
                                                            text(), "N")("quiet", "no progress");
@@ -32,32 +32,32 @@ int check_verb(const Arguments& arguments) {
   if (options.positional().size() != 1)
     options.refuse("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");
   check_kinetics_options(options);
-  const Ruleset rules = read_ruleset(options.positional().front());
+  const CheckInput input = check_input(options);
   CheckOptions job;
-  job.modules = static_cast<int>(options.whole("modules", 15, 1, 1000));
+  job.modules = input.modules;
   job.lattice_runs = static_cast<int>(options.whole("lattice", 20, 0, 100000));
   job.lattice.attempts = options.whole("attempts", 20000, 1, 1000000000);
   job.lattice.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.lattice.stop = &stop_signal();
-  auto rates = kinetics_input(options, rules, job.modules);
   RulesetCheck check;
   {
     Progress progress(options.has("quiet"));
     job.progress = [&](double done) { progress.tell(done, "of the lattice worlds"); };
-    check = check_ruleset(rules, job);
+    check = check_ruleset(input.rules, job);
     progress.clear();
   }
   if (stop_signal().load()) {
     std::cerr << "stopped; the same command begins again, as lattice worlds are not kept\n";
     return Exit::stopped;
   }
-  std::cout << check_text(rules, check) << std::flush;
-  const auto kinetics = run_kinetics(options, rules, job.modules, std::move(rates));
-  if (!kinetics) {
+  std::cout << input.note << check_text(input.rules, check) << std::flush;
+  const KineticsReport kinetics = run_kinetics(options, input);
+  if (kinetics.stopped) {
     std::cerr << "stopped; the same command goes on with the worlds that are done\n";
     return Exit::stopped;
   }
-  std::cout << *kinetics << std::flush;
+  std::cout << kinetics.text << std::flush;
+  if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;
 }
 

@@ -39,25 +39,12 @@ ReactionNetwork network_for(const Ruleset& rules, int modules) {
   return network;
 }
 
-// Evaluations of standing bonds per second: counted, or from how often unlink rules fired.
-double evaluation_rate_of(const Ruleset& rules, const ReactionNetwork& network,
-                          const RateTable& table) {
-  if (table.evaluations > 0 && table.bond_seconds > 0)
-    return static_cast<double>(table.evaluations) / table.bond_seconds;
-  double fired = 0, chances = 0;
-  for (const Reaction& reaction : network.reactions) {
-    if (reaction.kind != RuleKind::unlink) continue;
-    const auto& species = network.species[static_cast<std::size_t>(reaction.from.front())];
-    const auto found = table.standing.find(species.key);
-    if (found == table.standing.end()) continue;
-    const Rule& rule = rules.rules[static_cast<std::size_t>(reaction.rule)];
-    const auto changes = found->second.changes.find(rule.name);
-    if (changes != found->second.changes.end()) fired += static_cast<double>(changes->second);
-    chances += rule.p * reaction.places * found->second.exposure;
-  }
-  constexpr double kFirmware = 0.68;  // 1/s, of the firmware's clock (see src/control/exchange.hpp)
-  constexpr double kEnough = 30;      // events, for an error below a fifth
-  return fired >= kEnough ? fired / chances : kFirmware;
+// Evaluations of standing bonds per second. How often rules fired would tell them only with the p
+// of the worlds in which they did.
+double evaluation_rate_of(const RateTable& table) {
+  const bool counted = table.evaluations > 0 && table.bond_seconds > 0;
+  return counted ? static_cast<double>(table.evaluations) / table.bond_seconds
+                 : kStandardEvaluationRate;
 }
 
 std::string three_digits(double value) {
@@ -95,7 +82,7 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) 
   Kinetics kinetics;
   kinetics.network = network_for(rules, modules);
   const ReactionNetwork& network = kinetics.network;
-  kinetics.evaluation_rate = evaluation_rate_of(rules, network, table);
+  kinetics.evaluation_rate = evaluation_rate_of(table);
   double links = 0, chances = 0;
   for (const Reaction& reaction : network.reactions) {
     const RateTable::Meeting* meeting = meeting_of(table, network, reaction);

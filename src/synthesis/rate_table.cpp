@@ -41,6 +41,35 @@ int rule_in(const CsvReader& rows, const Ruleset& rules) {
   rows.refuse(7, "is not a rule of " + rules.name);
 }
 
+// A number that a run's summary.json holds.
+double summary_number(const std::string& text, const std::string& name, const std::string& file) {
+  const std::string key = "\"" + name + "\": ";
+  const auto at = text.find(key);
+  if (at == std::string::npos) throw InputError({file}, "it does not say '" + name + "'");
+  const auto begin = at + key.size();
+  const auto value = parse_number(text.substr(begin, text.find_first_of(",\n", begin) - begin));
+  if (!value || !(*value >= 0 && *value <= 1e15))
+    throw InputError({file}, "'" + name + "' is not a number from 0 on");
+  return *value;
+}
+
+// How far a run came, and its exchanges, once it is over.
+struct RunEnd {
+  double time = 0;  // s
+  std::int64_t exchanges = 0;
+};
+
+RunEnd end_of_run(const std::string& dir) {
+  const std::string file = (std::filesystem::path(dir) / "summary.json").string();
+  if (!std::filesystem::exists(file)) {
+    throw InputError("the run in '" + dir +
+                     "' is not over: it has no summary.json; lilytank run goes on with it");
+  }
+  const std::string text = read_whole(file);
+  return {summary_number(text, "time_s", file),
+          static_cast<std::int64_t>(summary_number(text, "evaluations", file))};
+}
+
 }  // namespace
 
 void RateTable::add(const RateTable& other) {
@@ -154,6 +183,7 @@ RateTable rates_of_run(const std::string& dir) {
                      std::to_string(scenario.model.rulesets.size()));
   const Ruleset& rules = scenario.model.rulesets.front();
   const int modules = scenario.model.module.count;
+  const RunEnd end = end_of_run(dir);
   RateRecord record(rules, modules);
   const std::string file = (fs::path(dir) / "events.csv").string();
   const std::string text = read_whole(file);
@@ -175,7 +205,8 @@ RateTable rates_of_run(const std::string& dir) {
     event.label_b = small(10, 0, 255), event.last_b = static_cast<std::int8_t>(small(11, 0, 3));
     record.observe(event, time);
   }
-  return record.table(scenario.duration);
+  record.count_evaluations(end.exchanges);
+  return record.table(end.time);
 }
 
 }  // namespace lilytank

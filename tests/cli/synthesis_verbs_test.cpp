@@ -3,6 +3,7 @@
 
 #include "cli/program.hpp"
 #include "lilytank/ruleset.hpp"
+#include "support/study_rig.hpp"
 
 namespace lilytank {
 namespace {
@@ -172,6 +173,55 @@ TEST(CheckVerb, CountsRatesAndGoesOnAfterAStop) {
   EXPECT_NE(lilytank.here.read("a.bngl").find("begin reaction rules"), std::string::npos);
 }
 
+TEST(CheckVerb, MeasuresWorldsAsTheScenarioSays) {
+  const Program lilytank;
+  lilytank.here.write("pair.rules", test::kPairRulesText);
+  lilytank.here.write("pair.toml", test::kPairScenario);
+  lilytank.here.write("loose.toml", "[rules]\npart.p = 1\n");
+  const std::string words =
+      "check pair.rules --lattice 0 --measure pair.toml --duration '2 min' --worlds 1 "
+      "--gillespie 2 --quiet ";
+  const Answer plain = lilytank(words + "--out a");
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_EQ(plain.out.find("p as the scenario sets it"), std::string::npos) << plain.out;
+  EXPECT_NE(plain.out.find("6 modules have"), std::string::npos) << plain.out;
+  for (const std::string more : {"--measure loose.toml --out b", "--set rules.part.p=1 --out c"}) {
+    const Answer loose = lilytank(words + more);
+    ASSERT_EQ(loose.code, 0) << loose.err;
+    EXPECT_EQ(loose.out.find("p as the scenario sets it: part 1 (ruleset: 0.5)\n"), 0u)
+        << loose.out;
+  }
+  EXPECT_NE(lilytank.files("b").at("world-1-1.csv"), lilytank.files("a").at("world-1-1.csv"));
+  EXPECT_EQ(lilytank.files("b"), lilytank.files("c"));
+  const Answer fewer = lilytank(words + "--set module.count=4 --out d");
+  ASSERT_EQ(fewer.code, 0) << fewer.err;
+  EXPECT_NE(fewer.out.find("4 modules have"), std::string::npos) << fewer.out;
+  EXPECT_EQ(lilytank(words + "--modules 4 --out e").out, fewer.out);
+  EXPECT_EQ(lilytank.files("d"), lilytank.files("e"));
+}
+
+TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
+  const Program lilytank;
+  lilytank.here.write("pair.rules", test::kPairRulesText);
+  lilytank.here.write("pair.toml", test::kPairScenario);
+  const std::string words =
+      "check pair.rules --lattice 0 --measure pair.toml --duration '2 min' --worlds 2 "
+      "--gillespie 2 --quiet --out ";
+  const Answer all =
+      lilytank(words + "a --set module.mass='0.1 g' --set forces.body_force.force_x=1");
+  EXPECT_EQ(all.code, 1) << all.err;
+  EXPECT_NE(all.out.find("all 2 worlds diverged"), std::string::npos) << all.out;
+  ASSERT_EQ(lilytank(words + "b").code, 0);
+  // As if the second of the worlds that are kept had diverged.
+  std::string kept = lilytank.here.read("b/world-1-2.csv");
+  kept.replace(kept.find(",,,0,0\n", kept.find("scenario,")), 7, ",,,1,0\n");
+  lilytank.here.write("b/world-1-2.csv", kept);
+  const Answer some = lilytank(words + "b");
+  EXPECT_EQ(some.code, 1) << some.err;
+  EXPECT_NE(some.out.find("1 of 2 worlds diverged"), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("rates from 1 world,"), std::string::npos) << some.out;
+}
+
 // What is counted while a world runs, and from the events that a run stores, is the same.
 TEST(CheckVerb, RatesOfAStoredRun) {
   const Program lilytank;
@@ -182,12 +232,22 @@ TEST(CheckVerb, RatesOfAStoredRun) {
   const Answer a = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r --out c");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("rates from 1 world, 0.0667 h"), std::string::npos) << a.out;
-  EXPECT_NE(lilytank.here.read("c/rates.csv").find("evaluations,,,,-1,"), std::string::npos);
+  EXPECT_EQ(lilytank.here.read("c/rates.csv").find("evaluations,,,,-1,"), std::string::npos);
+  std::filesystem::remove(lilytank.here.path("r/summary.json"));
+  const Answer begun = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r");
+  EXPECT_EQ(begun.code, 2);
+  EXPECT_EQ(begun.err,
+            "the run in 'r' is not over: it has no summary.json; lilytank run goes on with it\n");
 }
 
 TEST(CheckVerb, RefusesWithOneLine) {
   const Program lilytank;
   const std::string chain = "'" + kRulesets + "chain5.rules' --lattice 0 ";
+  const std::string tank = LILYTANK_SOURCE_DIR "/scenarios/chain5.toml";
+  const std::string measured = chain + "--measure '" + tank + "' ";
+  lilytank.here.write("pair.rules", test::kPairRulesText);
+  lilytank.here.write("pause.toml",
+                      "base = \"" + tank + "\"\n[[command]]\nat = 1\ndo = \"pause\"\n");
   const struct {
     std::string words, message;
   } cases[] = {
@@ -199,6 +259,16 @@ TEST(CheckVerb, RefusesWithOneLine) {
       {chain + "--rates nowhere.csv", "nowhere.csv"},
       {chain + "--rates a --measure b", "--measure or --rates, not both"},
       {chain + "--measure nothing.toml", "nothing.toml"},
+      {chain + "--measure pause.toml", "the scenario's [[command]] tables would have no effect"},
+      {"pair.rules --measure '" + tank + "'",
+       "rules.r1_reverse.p would have no effect: it is of the rules of chain5, and those of pair"},
+      {"'" + kRulesets + "i4.rules' --measure '" + tank + "'", "and those of i4 are others"},
+      {measured + "--set module.count=2000",
+       "module.count 2000 is outside 1 .. 1000: give --modules"},
+      {measured + "--set module.count=4 --modules 5",
+       "--set module.count would have no effect: --modules decides"},
+      {measured + "--set run.seed=3", "--set run.seed would have no effect: --seed decides"},
+      {measured + "--set rules.r1_reverse.p=2", "rules.r1_reverse.p"},
   };
   for (const auto& c : cases) {
     const Answer a = lilytank("check " + c.words);

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 
+#include "lilytank/run.hpp"
 #include "lilytank/synthesis.hpp"
 #include "support/control_rig.hpp"
 #include "support/kappa.hpp"
+#include "support/study_rig.hpp"
 
 using namespace lilytank;
 using lilytank::testing::KappaMixture;
@@ -169,7 +171,7 @@ TEST(Kinetics, RecoversPlantedRates) {
   table.meetings[{single, single}].exposure = 1e6;
   table.standing[dimer].exposure = 1e4;
   table.standing[dimer].changes["r1_reverse"] = 3400;
-  table.evaluations = -1;
+  table.evaluations = 6800, table.bond_seconds = 1e4;
   const Kinetics found = kinetics_of(rules, table, 10);
   EXPECT_DOUBLE_EQ(found.face_rate, 2e-4);
   EXPECT_DOUBLE_EQ(found.evaluation_rate, 0.68);
@@ -177,6 +179,53 @@ TEST(Kinetics, RecoversPlantedRates) {
   EXPECT_NEAR(found.rate[0], planted.rate[0], 1e-9);
   EXPECT_NEAR(found.rate[1], planted.rate[1], 1e-12);
   EXPECT_THROW(kinetics_of(read_ruleset(ruleset_file("o4")), RateTable{}, 10), InputError);
+}
+
+// What a run stored tells the same as its world while it is followed, whatever p the rules have
+// that are then asked about.
+TEST(Kinetics, RatesOfAStoredRunAreThoseOfItsWorld) {
+  const test::StudyRig rig;
+  const Scenario scenario =
+      load_scenario({rig.here.path("pair.toml")}, {"run.duration='10 min'", "rules.part.p=0.05"});
+  RunOptions options;
+  options.out = rig.here.path("run");
+  ASSERT_EQ(run(scenario, options).status, RunStatus::ok);
+  const RateTable stored = rates_of_run(options.out);
+  const RateTable followed = measure_world(scenario.model, scenario.seed, scenario.duration).rates;
+  EXPECT_GT(stored.evaluations, 100);
+  EXPECT_EQ(stored.evaluations, followed.evaluations);
+  EXPECT_EQ(stored.contacts, followed.contacts);
+  EXPECT_NEAR(stored.bond_seconds, followed.bond_seconds, 1e-6);
+  EXPECT_NEAR(stored.seconds, followed.seconds, 1e-6);
+  const Ruleset others = read_ruleset(rig.here.path("pair.rules"));
+  ASSERT_EQ(others.rules[1].p, 0.5);
+  EXPECT_NEAR(kinetics_of(others, stored, 6).evaluation_rate, 0.68, 0.1);
+}
+
+TEST(Kinetics, ARunCountsForTheTimeThatItSimulated) {
+  const test::StudyRig rig;
+  const Scenario whole = load_scenario({rig.here.path("pair.toml")}, {});
+  std::atomic<bool> stop = true;
+  RunOptions options;
+  options.out = rig.here.path("run");
+  options.stop = &stop;
+  ASSERT_EQ(run(whole, options).status, RunStatus::stopped);
+  try {
+    rates_of_run(options.out);
+    ADD_FAILURE() << "the run is not over";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is not over"), std::string::npos) << error.what();
+  }
+  stop = false;
+  ASSERT_EQ(run(whole, options).status, RunStatus::ok);
+  EXPECT_DOUBLE_EQ(rates_of_run(options.out).seconds, whole.duration);
+  const Scenario torn = load_scenario({rig.here.path("pair.toml")},
+                                      {"module.mass='0.1 g'", "forces.body_force.force_x=1"});
+  options.out = rig.here.path("torn");
+  ASSERT_EQ(run(torn, options).status, RunStatus::diverged);
+  const RateTable short_one = rates_of_run(options.out);
+  EXPECT_LT(short_one.seconds, 0.1);
+  EXPECT_LT(short_one.standing.at("0,0,0,-1,0").exposure, 0.6);
 }
 
 // Executed by other code, the exported rules do what ours do: at every state on the way, each kind
