@@ -6,6 +6,7 @@
 #include "io/csv.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
+#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -53,11 +54,7 @@ void check_length(const std::string& file, std::int64_t length, bool finished) {
 /// When a run was over (s), by its summary; nothing where there is none.
 std::optional<double> end_of(const std::string& file) {
   if (!exists(file)) return std::nullopt;
-  const std::string text = read_whole(file), key = "\"time_s\": ";
-  const auto at = text.find(key);
-  if (at == std::string::npos) return std::nullopt;
-  const auto begin = at + key.size();
-  return parse_number(text.substr(begin, text.find_first_of(",\n", begin) - begin));
+  return json_number_of(read_whole(file), "time_s");
 }
 
 /// Refuses poses that end before their run did, by a frame or more.

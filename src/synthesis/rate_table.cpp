@@ -6,6 +6,7 @@
 #include "io/csv.hpp"
 #include "lilytank/kinetics.hpp"
 #include "lilytank/scenario.hpp"
+#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -43,13 +44,9 @@ int rule_in(const CsvReader& rows, const Ruleset& rules) {
 
 // A number that a run's summary.json holds.
 double summary_number(const std::string& text, const std::string& name, const std::string& file) {
-  const std::string key = "\"" + name + "\": ";
-  const auto at = text.find(key);
-  if (at == std::string::npos) throw InputError({file}, "it does not say '" + name + "'");
-  const auto begin = at + key.size();
-  const auto value = parse_number(text.substr(begin, text.find_first_of(",\n", begin) - begin));
+  const auto value = json_number_of(text, name);
   if (!value || !(*value >= 0 && *value <= 1e15))
-    throw InputError({file}, "'" + name + "' is not a number from 0 on");
+    throw InputError({file}, "it does not say '" + name + "', a number from 0 on");
   return *value;
 }
 

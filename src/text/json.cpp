@@ -26,4 +26,13 @@ std::string json_number(double value) {
   return std::isfinite(value) ? significant(value, 6) : "null";
 }
 
+std::optional<double> json_number_of(const std::string& text, const std::string& key) {
+  const std::string before = json_quoted(key) + ": ";
+  const auto at = text.find(before);
+  if (at == std::string::npos) return std::nullopt;
+  const auto begin = at + before.size();
+  return parse_number(
+      std::string_view(text).substr(begin, text.find_first_of(",\n}", begin) - begin));
+}
+
 }  // namespace lilytank
