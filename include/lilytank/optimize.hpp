@@ -21,7 +21,7 @@
 namespace lilytank {
 
 /// What is made as small as possible. N copies are possible, the k-th first stood at t_k, K came to
-/// stand within the horizon T.
+/// stand within the horizon T: N and T are the world's own.
 enum class Fitness {
   eq10,                    ///< sum of min(t_k - t_(k-1), T), of a missing copy T: s [paper, Eq. 10]
   yield_area,              ///< area between N and the number of copies over time: copies * s
@@ -72,8 +72,8 @@ struct OptimizationPlan {
   std::vector<std::string> scenarios, sets;  ///< where the scenario came from
   std::uint64_t seed = 1;
   FitnessRule fitness;
-  double horizon = 0;         ///< s, run.duration
-  int possible = 0;           ///< copies
+  double horizon = 0;         ///< s, run.duration at the start
+  int possible = 0;           ///< copies, at the start
   SearchSpace space;          ///< paths of the scenario, "after." of the second set, "power.1" ...
   std::vector<double> start;  ///< where the search begins
   bool hybrid = false;        ///< a second set of probabilities from some number of copies on
@@ -129,13 +129,17 @@ struct OptimizationResult {
   std::vector<IterationRecord> history;  ///< of the (last) search
   bool selected = false;                 ///< the last record is that of its final selection
   std::vector<RaceEntry> race;           ///< by its rulesets' numbers; empty without one
-  std::string optimum;                   ///< path of the overlay
-  std::string compare;                   ///< path of the study file that compares; "" if none
+  /// Path of the overlay; "" where best.mean is not finite: worlds of every point diverged.
+  std::string optimum;
+  std::string compare;  ///< path of the study file that compares; "" if none
+  /// Labels of [compare] that it leaves out: their overlays make the optimum's own scenario.
+  std::vector<std::string> left_out;
 };
 
 /// Searches, or goes on where an earlier call stopped, and writes into the directory: what
 /// run_search writes (of a race: in race/<round>/<ruleset>), optimum.toml and its rulesets,
-/// race.csv, compare.toml. Throws InputError if it holds another search or cannot be written.
+/// race.csv, compare.toml. Throws InputError if it holds another search, or files that would be
+/// overwritten, and not `force`, or cannot be written.
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options);
 
 }  // namespace lilytank

@@ -80,6 +80,8 @@ class Study {
   /// Builds a setting's scenario anew, with run.seed = 0. Throws InputError if files have changed
   /// since the study was read.
   Scenario scenario(int setting) const;
+  /// All files that are read: its own, scenarios, overlays and what these name.
+  std::vector<std::string> inputs() const;
 
  private:
   struct Source;
@@ -126,8 +128,8 @@ struct StudyResult {
   int failed = 0;        ///< diverged, of all runs in the directory
 };
 
-/// Does what is missing of a study, or of a shard of it. Throws InputError if `out` holds another
-/// study or a world cannot be set up.
+/// Does what is missing of a study, or of a shard of it. Throws InputError if a world cannot be set
+/// up, or if `out` holds another study, a run, or files that would be overwritten, and not `force`.
 StudyResult run_study(const Study& study, const StudyOptions& options);
 
 /// What a study's directory holds.

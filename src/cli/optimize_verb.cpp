@@ -78,6 +78,9 @@ std::string found_text(const OptimizationPlan& plan, const OptimizationResult& r
     if (entry.last)
       out += "  " + entry.ruleset + ": " + four(*entry.last) + " in the last comparison\n";
   }
+  for (const std::string& label : result.left_out) {
+    out += "  " + label + ": the optimum itself, left out of the comparison\n";
+  }
   return out + "best: " + four(result.best.mean) + (unit == "1" ? "" : " " + unit) +
          ", standard error " + four(result.best.standard_error) + ", " +
          std::to_string(result.best.evaluations) + " evaluations\n" + result.optimum + "\n";
@@ -137,6 +140,7 @@ int optimize_verb(const Arguments& arguments) {
   job.threads = static_cast<int>(options.whole("threads", 0, 1, kMostThreads));
   job.force = options.has("force");
   check_directory_can_be(job.out);
+  spare_read(options, files_of_search(job.out), what.source().inputs());
   check_search_directory(what.source(), job.out, job.force);
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
   job.stop = &stop_signal();
@@ -145,6 +149,12 @@ int optimize_verb(const Arguments& arguments) {
   if (result.stopped) {
     std::cerr << "stopped; every evaluation is kept, and the same command goes on\n";
     return Exit::stopped;
+  }
+  if (result.optimum.empty()) {
+    std::cerr << "no optimum: no point could be evaluated without worlds that diverged; every "
+                 "value is in "
+              << job.out << "\n";
+    return Exit::diverged;
   }
   std::cout << found_text(what.plan(), result) << std::flush;
   draw(what.plan(), result, job.out);

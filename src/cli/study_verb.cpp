@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
+#include "study/study_directory.hpp"
 #include "text/number.hpp"
 
 namespace lilytank::cli {
@@ -125,6 +126,7 @@ int run_one(const Arguments& arguments) {
   job.shard = shard_of(options);
   job.threads = threads_of(options);
   job.force = options.has("force");
+  spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
   job.stop = &stop_signal();
   return finish(study.plan(), run_with_progress(study, job, options.has("quiet")), job);
@@ -145,6 +147,11 @@ std::string study_directory(const VerbOptions& options, const std::string& name)
   const std::string out = options.text("out", (std::filesystem::path("out") / name).string());
   if (out.empty()) options.refuse("--out is empty");
   return out;
+}
+
+void spare_read(const VerbOptions& options, const std::vector<std::string>& files,
+                const std::vector<std::string>& inputs) {
+  for (const std::string& file : files) options.spare_inputs("out", file, inputs);
 }
 
 int study_verb(const Arguments& arguments) {

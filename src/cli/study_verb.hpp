@@ -1,6 +1,7 @@
 // What `lilytank study` and its further words share.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "cli/options.hpp"
 #include "lilytank/study.hpp"
@@ -11,6 +12,10 @@ namespace lilytank::cli {
 std::string only_argument(const VerbOptions& options, const std::string& what);
 /// --out, or out/<name of the study>.
 std::string study_directory(const VerbOptions& options, const std::string& name);
+/// Refuses --out if one of its `files`, which may be replaced, is one of the `inputs`: not even
+/// --force removes what is read.
+void spare_read(const VerbOptions& options, const std::vector<std::string>& files,
+                const std::vector<std::string>& inputs);
 /// Writes the statistics and, where there is a renderer, the plots beside them; returns the
 /// statistics as text.
 std::string report(const StoredStudy& study, const std::string& dir);

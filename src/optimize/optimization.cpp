@@ -1,4 +1,5 @@
 // The public face: everything is the Source's.
+#include "optimize/comparison.hpp"
 #include "optimize/race.hpp"
 #include "optimize/source.hpp"
 
@@ -7,8 +8,10 @@ namespace lilytank {
 Optimization::Optimization(const std::string& file, const std::vector<std::string>& overlays,
                            const std::vector<std::string>& sets) {
   auto source = std::make_unique<Source>(read_optimize_file(file), overlays, sets);
+  check_comparison(*source);
   if (source->file.race) {
-    source->plan.rulesets = static_cast<int>(race_rulesets(*source).size());
+    source->contestants = contestants_of(*source);
+    source->plan.rulesets = static_cast<int>(source->contestants.size());
     source->plan.budget += race_evaluations(source->plan.rulesets, source->file.race->evaluations);
   }
   source_ = std::move(source);

@@ -50,9 +50,9 @@ std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vecto
   std::string text = commented(comment);
   std::vector<Scenario::Attachment> files;
   const std::string rules_file = stem + ".rules", after_file = stem + "-after.rules";
-  for (const OtherRuleset& other : ruleset_) {
+  if (ruleset) {
     text += "ruleset.file = " + toml_quoted(rules_file) + "\n";
-    files.push_back({rules_file, to_text(other.rules)});
+    files.push_back({rules_file, to_text(*ruleset)});
     // Of all its rules: a scenario below may speak of rules with the same names.
     const Scenario all = scenario(point);
     for (const Rule& rule : all.model.rulesets.front().rules) {
@@ -60,7 +60,7 @@ std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vecto
     }
   }
   for (const Assignment& value : says.values) {
-    if (ruleset_.empty() || value.keys.front() != "rules") text += line_of(value);
+    if (!ruleset || value.keys.front() != "rules") text += line_of(value);
   }
   if (what.after_copies > 0) {
     const Ruleset first = built(says).model.rulesets.front();

@@ -1,7 +1,6 @@
 #include "optimize/race.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -25,9 +24,36 @@ std::string numbered(const std::string& name, std::size_t index, std::size_t cou
   return name + "-" + number;
 }
 
+/// The scenario's own, then those of the target's other plans.
+std::vector<Ruleset> rulesets_of(const Optimization::Source& source) {
+  const RaceTable& race = *source.file.race;
+  const Ruleset own = source.scenario(source.plan.start).model.rulesets.front();
+  const Target target =
+      race.target.empty() ? target_of(own.target, own.name) : read_target(race.target);
+  if (canonical_shape(target.cells) != canonical_shape(own.target)) {
+    throw InputError(race.place,
+                     "'" + target.file + "' is not the target of the scenario's ruleset");
+  }
+  const PlanList list = all_plans(target);
+  std::vector<Ruleset> out{own};
+  out.front().name = own.name + "-own";
+  const std::size_t n = list.plans.size();
+  const auto most = static_cast<std::size_t>(race.rulesets);
+  // All, or as many evenly through the list, which is ordered by tree and algorithm.
+  for (std::size_t k = 0; k < std::min(most, n); ++k) {
+    const std::size_t index = n <= most ? k : k * n / most;
+    Ruleset rules = emit(target, list.plans[index]);
+    rules.name = numbered(target.name, index, n);
+    if (structure_of(rules) != structure_of(own) && out.size() < most) {
+      out.push_back(std::move(rules));
+    }
+  }
+  return out;
+}
+
 /// A ruleset of the race, and where it stands.
 struct Contestant {
-  std::unique_ptr<const Optimization::Source> source;
+  const Optimization::Source* source = nullptr;
   RaceEntry entry;
   std::vector<double> point;
 };
@@ -58,8 +84,8 @@ class Race {
     out.share = static_cast<double>(total_) / all;
     for (const Contestant& one : contestants_) out.entries.push_back(one.entry);
     out.start = alive.front()->point;
-    out.winner = std::move(alive.front()->source);
-    out.own = std::move(contestants_.front().source);  // none where it is the winner
+    out.winner = alive.front()->source;
+    if (alive.front() != &contestants_.front()) out.own = contestants_.front().source;
     return out;
   }
 
@@ -70,28 +96,19 @@ class Race {
     return out;
   }
 
-  /// Another race's files are not mixed with this one's; without --force they were refused before.
+  /// Another race's files were refused or removed before.
   void claim() const {
-    const std::string file = race_identity_file(options_->out), text = race_identity(*source_);
-    std::error_code ignored;
-    if (fs::exists(file, ignored) && read_whole(file) != text) {
-      fs::remove_all(dir_ / "race", ignored);
-    }
-    fs::create_directories(dir_ / "race", ignored);
-    write_atomically(file, text);
+    make_directory((dir_ / "race").string());
+    write_atomically(race_identity_file(options_->out), race_identity(*source_));
   }
 
   void enter() {
-    std::error_code ignored;
-    fs::create_directories(dir_ / "rulesets", ignored);
-    for (Ruleset& rules : race_rulesets(*source_)) {
-      const std::string file = (dir_ / "rulesets" / (rules.name + ".rules")).string();
-      write_atomically(file, to_text(rules));
+    make_directory((dir_ / "rulesets").string());
+    for (const auto& source : source_->contestants) {
       Contestant one;
-      one.entry.ruleset = rules.name;
-      one.source =
-          std::make_unique<Optimization::Source>(*source_, OtherRuleset{file, std::move(rules)});
-      one.point = one.source->plan.start;
+      one.source = source.get(), one.point = source->plan.start;
+      one.entry.ruleset = source->ruleset->name;
+      write_atomically(ruleset_file(options_->out, *source), to_text(*source->ruleset));
       contestants_.push_back(std::move(one));
     }
   }
@@ -99,9 +116,8 @@ class Race {
   /// False if it was stopped.
   bool judge(Contestant& one, int round, std::int64_t each) {
     // Two generations with their re-evaluations, and the final selection.
-    const auto axes = static_cast<double>(one.point.size());
-    const int generation = 6 + static_cast<int>(3 * std::log(axes));
-    const bool enough = each >= 2 * generation + std::max<std::int64_t>(4, each / 4);
+    const std::int64_t least = 2 * one.source->generation() + std::max<std::int64_t>(4, each / 4);
+    const bool enough = each >= least;
     const bool done = enough ? search(one, round, each) : repeat(one, round, each);
     if (!done) return false;
     one.entry.evaluations += each, spent_ += each;
@@ -175,36 +191,19 @@ class Race {
 
 }  // namespace
 
-std::vector<Ruleset> race_rulesets(const Optimization::Source& source) {
-  const RaceTable& race = *source.file.race;
-  const Ruleset own = source.scenario(source.plan.start).model.rulesets.front();
-  const Target target =
-      race.target.empty() ? target_of(own.target, own.name) : read_target(race.target);
-  if (canonical_shape(target.cells) != canonical_shape(own.target)) {
-    throw InputError(race.place,
-                     "'" + target.file + "' is not the target of the scenario's ruleset");
-  }
-  const PlanList list = all_plans(target);
-  std::vector<Ruleset> out{own};
-  out.front().name = own.name + "-own";
-  const std::size_t n = list.plans.size();
-  const auto most = static_cast<std::size_t>(race.rulesets);
-  // All, or as many evenly through the list, which is ordered by tree and algorithm.
-  for (std::size_t k = 0; k < std::min(most, n); ++k) {
-    const std::size_t index = n <= most ? k : k * n / most;
-    Ruleset rules = emit(target, list.plans[index]);
-    rules.name = numbered(target.name, index, n);
-    if (structure_of(rules) != structure_of(own) && out.size() < most) {
-      out.push_back(std::move(rules));
-    }
-  }
-  return out;
-}
-
 std::int64_t race_evaluations(int rulesets, std::int64_t each) {
   std::int64_t sum = 0;
   for (; rulesets > 1; rulesets = (rulesets + 1) / 2, each *= 2) sum += rulesets * each;
   return sum;
+}
+
+std::vector<std::unique_ptr<const Optimization::Source>> contestants_of(
+    const Optimization::Source& source) {
+  std::vector<std::unique_ptr<const Optimization::Source>> out;
+  for (Ruleset& rules : rulesets_of(source)) {
+    out.push_back(std::make_unique<const Optimization::Source>(source, std::move(rules)));
+  }
+  return out;
 }
 
 RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options) {

@@ -7,16 +7,18 @@
 namespace lilytank {
 
 struct RaceOutcome {
-  std::unique_ptr<const Optimization::Source> winner;  ///< none: no race was asked for, or stopped
-  std::vector<double> start;                           ///< its best point
-  std::unique_ptr<const Optimization::Source> own;     ///< the scenario's, where another one won
+  const Optimization::Source* winner = nullptr;  ///< null: no race was asked for, or stopped
+  std::vector<double> start;                     ///< its best point
+  const Optimization::Source* own = nullptr;     ///< the scenario's, where another one won
   std::vector<RaceEntry> entries;
   double share = 0;  ///< of all evaluations, the final search's included, that the race takes
   bool stopped = false;
 };
 
-/// The rulesets of a race: the scenario's own, then those of the target's other plans.
-std::vector<Ruleset> race_rulesets(const Optimization::Source& source);
+/// What races: `source` with its own ruleset, then with those of the target's other plans. Throws
+/// InputError if the race could not be run to its end with one of them.
+std::vector<std::unique_ptr<const Optimization::Source>> contestants_of(
+    const Optimization::Source& source);
 /// What its rounds take.
 std::int64_t race_evaluations(int rulesets, std::int64_t each);
 

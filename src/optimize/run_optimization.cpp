@@ -1,9 +1,10 @@
 // The job behind `lilytank optimize`: search, write the optimum, prepare its comparison.
+#include <cmath>
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "io/scenario_values.hpp"
 #include "lilytank/search_run.hpp"
+#include "optimize/comparison.hpp"
 #include "optimize/race.hpp"
 #include "optimize/repeats.hpp"
 #include "optimize/search_directory.hpp"
@@ -34,36 +35,11 @@ std::string comment_of(const OptimizationPlan& plan, const Incumbent& best) {
          std::to_string(best.evaluations) + " of its evaluations.";
 }
 
-/// A list of TOML texts.
-std::string list_of(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + toml_quoted(word);
-  return "[" + out + "]";
-}
-
-/// A study file that compares the optimum, first, with the other overlays.
-std::string compare_text(const Optimization::Source& source, const std::string& dir) {
-  const CompareTable& compare = source.file.compare;
-  const auto from_here = [&](const std::string& file) {
-    return fs::proximate(file, dir).generic_string();
-  };
-  std::vector<std::string> scenarios, overlays{"optimum.toml"}, labels{"optimum"};
-  for (const std::string& file : source.plan.scenarios) scenarios.push_back(from_here(file));
-  for (const std::string& file : compare.overlays) overlays.push_back(from_here(file));
-  labels.insert(labels.end(), compare.labels.begin(), compare.labels.end());
-  return "# The optimum beside what it is compared with.\n[study]\nname = " +
-         toml_quoted(source.plan.name + "_compare") + "\nscenario = " + list_of(scenarios) +
-         "\nreplicates = " + std::to_string(compare.replicates) +
-         "\nseed = " + std::to_string(compare.seed) +
-         "\nuntil = \"settled\"\n\n[[axis]]\nname = \"strategy\"\noverlays = " + list_of(overlays) +
-         "\nlabels = " + list_of(labels) + "\n";
-}
-
 /// What one has is given up only for something better: a race's winner, as it was searched, against
 /// the scenario's own ruleset at its start, in worlds that neither had. False if it was stopped.
 bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& source,
                         OptimizationResult& result, const OptimizationOptions& options) {
-  if (!race.own) return true;
+  if (race.own == nullptr) return true;
   const int count = last_worlds(*source);
   const auto last = [&](const Optimization::Source& of, const std::vector<double>& point) {
     const std::string name = of.scenario(point).model.rulesets.front().name;
@@ -80,7 +56,7 @@ bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& so
   const auto own = last(*race.own, race.own->plan.start);
   if (!own) return false;
   const bool stays = !(searched->mean < own->mean);
-  if (stays) source = race.own.get();
+  if (stays) source = race.own;
   result.best = stays ? *own : *searched;
   return true;
 }
@@ -94,22 +70,25 @@ std::string write_optimum(const Optimization::Source& source, const Incumbent& b
   return (fs::path(dir) / "optimum.toml").string();
 }
 
+void prepare_comparison(const Optimization::Source& source, OptimizationResult& result) {
+  OptimumComparison comparison = comparison_with(source, result.optimum);
+  result.compare = fs::path(result.optimum).replace_filename("compare.toml").string();
+  result.left_out = std::move(comparison.left_out);
+  write_atomically(result.compare, comparison.text);
+}
+
 }  // namespace
 
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options) {
   OptimizationResult result;
   const Optimization::Source* source = &what.source();
-  check_search_directory(*source, options.out, options.force);
+  claim_search_directory(*source, options.out, options.force);
   std::unique_ptr<Search> search = source->search();
-  std::string before;  // of the progress
   const RaceOutcome race = run_race(*source, options);
   result.race = race.entries;
   result.stopped = race.stopped;
   if (result.stopped) return result;
-  if (race.winner) {
-    source = race.winner.get();
-    search = source->cma_es(source->file.cma_es.budget, race.start, source->file.cma_es.sigma / 2);
-  }
+  if (race.winner != nullptr) source = race.winner, search = source->winners_search(race.start);
   SearchRunOptions run;
   run.dir = options.out, run.identity = source->identity();
   run.force = options.force, run.threads = options.threads, run.stop = options.stop;
@@ -127,10 +106,9 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
   result.history = found.search->history(), result.selected = found.search->selected();
   result.stopped = found.stopped || !keep_own_if_better(race, source, result, options);
   if (result.stopped) return result;
+  if (!std::isfinite(result.best.mean)) return result;
   result.optimum = write_optimum(*source, result.best, options.out);
-  if (source->plan.replicates == 0) return result;
-  result.compare = (fs::path(options.out) / "compare.toml").string();
-  write_atomically(result.compare, compare_text(*source, options.out));
+  if (source->plan.replicates > 0) prepare_comparison(*source, result);
   return result;
 }
 

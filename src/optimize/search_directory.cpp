@@ -4,18 +4,65 @@
 
 #include "io/atomic_file.hpp"
 #include "lilytank/search_run.hpp"
+#include "study/claimed_directory.hpp"
 #include "study/search_store.hpp"
+#include "study/study_directory.hpp"
 
 namespace lilytank {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kAdvice = "; choose another directory, or --force to replace it";
-
 bool is_there(const fs::path& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
+}
+
+/// Names of all files that an optimisation may leave beside its folders. The checkpoint first:
+/// without it the others are nobody's.
+std::vector<std::string> result_names() {
+  return with_figures(
+      {search_file::state, search_file::evaluations, search_file::history, "optimum.toml",
+       "optimum.rules", "optimum-after.rules", "compare.toml", "race.csv"},
+      {"fitness"});
+}
+
+std::string compare_in(const std::string& dir) {
+  return (fs::path(dir) / "compare").string();
+}
+
+/// Whether the folder of the comparison is an optimisation's.
+bool is_compared(const std::string& dir) {
+  return is_there(fs::path(dir) / "compare.toml");
+}
+
+bool is_ours(const Optimization::Source& source, const std::string& dir) {
+  const std::string race = race_identity_file(dir);
+  if (source.file.race) {  // the search is of a winner yet unknown
+    return is_there(race) && read_whole(race) == race_identity(source);
+  }
+  const fs::path state = fs::path(dir) / search_file::state;
+  return !is_there(race) && is_there(state) &&
+         is_search_of(read_whole(state.string()), source.identity(), *source.search());
+}
+
+/// What is there under names that this optimisation is going to give, in a directory that is no
+/// optimisation's.
+std::vector<std::string> in_the_way(const Optimization::Source& source, const std::string& dir) {
+  std::vector<std::string> files = files_of_search(dir);
+  if (source.plan.replicates > 0) {
+    for (std::string& file : files_of_study(compare_in(dir))) files.push_back(std::move(file));
+  }
+  for (const auto& contestant : source.contestants) {
+    files.push_back(ruleset_file(dir, *contestant));
+  }
+  if (source.file.race) {
+    for (const char* name : {"round-1", "last"}) {
+      files.push_back((fs::path(dir) / "race" / name).string());
+    }
+  }
+  std::erase_if(files, [](const std::string& file) { return !is_there(file); });
+  return files;
 }
 
 }  // namespace
@@ -30,25 +77,53 @@ std::string race_identity(const Optimization::Source& source) {
          "\n";
 }
 
+std::string ruleset_file(const std::string& dir, const Optimization::Source& contestant) {
+  return (fs::path(dir) / "rulesets" / (contestant.ruleset->name + ".rules")).string();
+}
+
+std::vector<std::string> files_of_search(const std::string& dir) {
+  std::vector<std::string> files;
+  for (const std::string& name : result_names()) files.push_back((fs::path(dir) / name).string());
+  if (is_compared(dir)) {
+    for (std::string& file : files_of_study(compare_in(dir))) files.push_back(std::move(file));
+  }
+  std::error_code ignored;
+  if (is_there(race_identity_file(dir))) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(dir) / "race", ignored)) {
+      if (entry.is_regular_file(ignored)) files.push_back(entry.path().string());
+    }
+    for (const auto& entry : fs::directory_iterator(fs::path(dir) / "rulesets", ignored)) {
+      if (entry.path().extension() == ".rules") files.push_back(entry.path().string());
+    }
+  }
+  std::erase_if(files, [](const std::string& file) { return !is_there(file); });
+  return files;
+}
+
 void check_search_directory(const Optimization::Source& source, const std::string& dir,
                             bool force) {
-  if (force) return;
-  const std::string race = race_identity_file(dir);
-  if (source.file.race && is_there(race)) {
-    if (read_whole(race) == race_identity(source)) return;  // the search is of a winner yet unknown
-    throw InputError("'" + dir + "' holds another race" + kAdvice);
+  if (source.plan.replicates > 0) spare_study_file(compare_in(dir));
+  if (force || is_ours(source, dir)) return;
+  for (const bool race : {true, false}) {
+    const fs::path mark =
+        race ? fs::path(race_identity_file(dir)) : fs::path(dir) / search_file::state;
+    if (!is_there(mark)) continue;
+    throw InputError("'" + dir + "' holds another " + (race ? "race" : "search") + kChooseAnother);
   }
-  const fs::path state = fs::path(dir) / search_file::state;
-  if (is_there(state)) {
-    if (!source.file.race &&
-        is_search_of(read_whole(state.string()), source.identity(), *source.search()))
-      return;
-    throw InputError("'" + dir + "' holds another search" + kAdvice);
-  }
-  for (const char* name : {search_file::evaluations, search_file::history}) {
-    if (!is_there(fs::path(dir) / name)) continue;
-    throw InputError("'" + dir + "' holds a file '" + name + "' that is not of a search" + kAdvice);
-  }
+  refuse_foreign(dir, in_the_way(source, dir), "search");
+}
+
+void claim_search_directory(const Optimization::Source& source, const std::string& dir,
+                            bool force) {
+  check_search_directory(source, dir, force);
+  if (!force || is_ours(source, dir)) return;
+  const bool race = is_there(race_identity_file(dir)), compared = is_compared(dir);
+  remove_results(dir, files_of_search(dir));
+  std::error_code ignored;
+  if (race) fs::remove_all(fs::path(dir) / "race", ignored);
+  // Unless there is something else in them.
+  if (race) fs::remove(fs::path(dir) / "rulesets", ignored);
+  if (compared) fs::remove(compare_in(dir), ignored);
 }
 
 }  // namespace lilytank

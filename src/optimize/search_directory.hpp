@@ -1,6 +1,7 @@
 // Whose the directory of an optimisation is.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "optimize/source.hpp"
 
@@ -9,9 +10,18 @@ namespace lilytank {
 /// race/identity.txt, and what stands in it.
 std::string race_identity_file(const std::string& dir);
 std::string race_identity(const Optimization::Source& source);
+/// Where a contestant's rules are written.
+std::string ruleset_file(const std::string& dir, const Optimization::Source& contestant);
+
+/// Paths of what an optimisation has left in a directory, and of files that have such names.
+std::vector<std::string> files_of_search(const std::string& dir);
 
 /// Looks into a directory, changing nothing. Throws InputError if it holds another search or race,
-/// unless `force`.
+/// a run, or files with names of results that are nobody's, unless `force`; and if the comparison
+/// would overwrite a study file of the user's.
 void check_search_directory(const Optimization::Source& source, const std::string& dir, bool force);
+/// The same, and with `force` removes what is not this optimisation's. Throws InputError, also if
+/// another process is at work there.
+void claim_search_directory(const Optimization::Source& source, const std::string& dir, bool force);
 
 }  // namespace lilytank

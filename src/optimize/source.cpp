@@ -8,54 +8,38 @@
 #include "io/scenario_build.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/random.hpp"
+#include "optimize/assignments.hpp"
 #include "study/run_world.hpp"
+#include "study/study_inputs.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-/// '*' in `pattern` stands for any letters.
-bool fits(std::string_view pattern, std::string_view name) {
-  const auto star = pattern.find('*');
-  if (star == std::string_view::npos) return pattern == name;
-  if (!name.starts_with(pattern.substr(0, star))) return false;
-  const std::string_view rest = pattern.substr(star + 1);
-  for (std::size_t at = star; at <= name.size(); ++at) {
-    if (fits(rest, name.substr(at))) return true;
+Layer seed_layer() {
+  Layer out;
+  out.values.push_back(named({"run", "seed"}, std::int64_t{0}));
+  return out;
+}
+
+/// The probability that an assignment gives to a rule, if there is a rule of this name.
+void set_p(Ruleset& rules, const Assignment& path, double p) {
+  for (Rule& rule : rules.rules) {
+    if (rule.name == path.keys[1]) rule.p = p, rule.where = path.place;
   }
-  return false;
 }
 
-bool is_rule(const Assignment& path) {
-  return path.keys.size() == 3 && path.keys.front() == "rules" && path.keys.back() == "p";
-}
-
-Assignment valued(Assignment path, TomlValue value) {
-  path.value = std::move(value);
-  return path;
-}
-
-Assignment named(const std::vector<std::string>& keys, TomlValue value) {
-  return {keys, std::vector<SourcePlace>(keys.size()), std::move(value), {}, "", ""};
-}
-
-std::optional<double> value_of(const Scenario& scenario, const std::string& path) {
-  for (const ScenarioEntry& entry : scenario.entries) {
-    if (entry.path == path) return parse_number(entry.value);
-  }
-  return std::nullopt;
-}
-
-/// Where a file has the first of these keys of [optimize] that it has; else the file.
-SourcePlace place_in(const std::string& file, const std::vector<std::string>& keys) {
-  const Layer layer = read_layers({file}, {}).front();
-  for (const std::string& key : keys) {
-    for (const Assignment& value : layer.values) {
-      if (value.path() == "optimize." + key) return value.place;
+/// A fitness counts copies: whichever ruleset is in force, there must be some to count.
+void check_copies(const Model& model, const SourcePlace& place) {
+  for (const Ruleset& rules : model.rulesets) {
+    if (rules.target.empty()) {
+      throw InputError(place, "the ruleset has no target whose copies could be counted");
     }
+    if (possible_copies(rules, model.module.count) > 0) continue;
+    throw InputError(place, std::to_string(model.module.count) + " modules make no copy of " +
+                                std::to_string(rules.target.size()));
   }
-  return {file, 0, 0};
 }
 
 }  // namespace
@@ -70,15 +54,16 @@ Optimization::Source::Source(OptimizeFile what, std::vector<std::string> overlay
   prepare();
 }
 
-Optimization::Source::Source(const Source& other, OtherRuleset ruleset)
+Optimization::Source::Source(const Source& other, Ruleset instead)
     : file(other.file),
       plan(other.plan),
+      ruleset(std::move(instead)),
       files_(other.files_),
       base_(other.base_),
-      overrides_(other.overrides_),
-      ruleset_{std::move(ruleset)} {
+      overrides_(other.overrides_) {
   const SearchSpace space = std::exchange(plan.space, {});
   const std::vector<double> start = std::exchange(plan.start, {});
+  check_names();
   prepare();
   // Rules of the same name take back a join of the same number: what is known of one is a start for
   // the other.
@@ -89,28 +74,67 @@ Optimization::Source::Source(const Source& other, OtherRuleset ruleset)
   }
 }
 
-std::vector<Layer> Optimization::Source::layers() const {
-  std::vector<Layer> out = base_;
-  for (const OtherRuleset& other : ruleset_) {
-    Layer layer;
-    layer.values.push_back(named({"ruleset", "file"}, other.file));
-    // What the scenario says of rules with these names is not about these.
-    for (const Rule& rule : other.rules.rules) {
-      layer.values.push_back(named({"rules", rule.name, "p"}, rule.p));
+// What is said of a rule that another ruleset lacks cannot be unsaid by an overlay: what were found
+// of that ruleset could not be laid over the scenario.
+void Optimization::Source::check_names() const {
+  std::vector<Layer> said = base_;
+  said.push_back(overrides_);
+  for (const Layer& layer : said) {
+    for (const Assignment& value : layer.values) {
+      const auto named = [&](const Rule& rule) { return rule.name == value.keys[1]; };
+      if (!is_rule(value)) continue;
+      if (std::any_of(ruleset->rules.begin(), ruleset->rules.end(), named)) continue;
+      throw InputError(value.place, "'" + value.path() + "' is no rule of '" + ruleset->name +
+                                        "', a ruleset of the race, which could not be laid over "
+                                        "this: give the p in the ruleset's file");
     }
-    out.push_back(std::move(layer));
   }
+}
+
+// Another ruleset is in memory alone: the scenario is built with its own, and the other one put in
+// that one's place. What the files say of rules of its own is not about rules with the same names;
+// what is searched and what --set says is.
+Scenario Optimization::Source::built(Layer point) const {
+  std::vector<Assignment> searched;
+  if (ruleset) {
+    std::copy_if(point.values.begin(), point.values.end(), std::back_inserter(searched), is_rule);
+    std::erase_if(point.values, is_rule);
+  }
+  std::vector<Layer> all = base_;
+  all.push_back(std::move(point));
+  all.push_back(overrides_);
+  all.push_back(seed_layer());
+  Scenario out = build_scenario(std::move(all));
+  if (!ruleset || out.model.rulesets.empty()) return out;
+  const Ruleset own = std::exchange(out.model.rulesets.front(), *ruleset);
+  Ruleset& rules = out.model.rulesets.front();
+  for (const Assignment& value : searched) set_p(rules, value, std::get<double>(value.value));
+  for (const Assignment& value : overrides_.values) {
+    for (const Rule& rule : own.rules) {
+      if (is_rule(value) && rule.name == value.keys[1]) set_p(rules, value, rule.p);
+    }
+  }
+  check_probabilities(rules);
   return out;
 }
 
-Scenario Optimization::Source::built(Layer point) const {
-  std::vector<Layer> all = layers();
-  all.push_back(std::move(point));
+Scenario Optimization::Source::with_overlay(const std::string& overlay) const {
+  std::vector<std::string> files = files_;
+  files.push_back(overlay);
+  std::vector<Layer> all = read_layers(files, {});
   all.push_back(overrides_);
-  Layer seed;
-  seed.values.push_back(named({"run", "seed"}, std::int64_t{0}));
-  all.push_back(std::move(seed));
+  all.push_back(seed_layer());
   return build_scenario(std::move(all));
+}
+
+std::vector<std::string> Optimization::Source::inputs() const {
+  std::vector<std::string> files = files_;
+  files.insert(files.end(), file.compare.overlays.begin(), file.compare.overlays.end());
+  std::vector<Layer> layers = read_layers(files, {});
+  layers.push_back(overrides_);
+  files.push_back(file.hybrid_place.file);
+  if (file.race) files.push_back(file.race->target);
+  return with_files_of(layers, std::move(files));
 }
 
 void Optimization::Source::prepare() {
@@ -118,19 +142,25 @@ void Optimization::Source::prepare() {
   plan.name = file.name, plan.scenarios = files_;
   plan.seed = file.seed, plan.fitness = file.fitness;
   plan.horizon = base.duration;
-  plan.possible = base.model.rulesets.empty()
-                      ? 0
-                      : possible_copies(base.model.rulesets.front(), base.model.module.count);
   plan.hybrid = file.hybrid, plan.agitation = file.agitation.kind;
   plan.method = file.method == SearchMethod::swarm ? "swarm" : "cma_es";
   plan.replicates = file.compare.replicates;
   check_base(base.model);
+  plan.possible = possible_copies(base.model.rulesets.front(), base.model.module.count);
   for (const OptimizeParameter& parameter : file.parameters) add_parameter(parameter, base);
   if (file.hybrid) add_second_set();
-  if (plan.agitation != Agitation::none) {
-    add_agitation(value_of(base, "flow.pump_power").value_or(0));
-  }
+  if (plan.agitation != Agitation::none) add_agitation(base);
+  check_overrides();
+  check_corners();
+  plan.budget = checked_budget();
+}
+
+void Optimization::Source::check_overrides() const {
   for (const Assignment& value : overrides_.values) {
+    if (value.path() == "run.seed") {
+      throw InputError(value.place, "worlds have seeds of their own: set optimize.seed in '" +
+                                        file.hybrid_place.file + "'");
+    }
     for (const SearchAxis& axis : plan.space) {
       const bool power = axis.name == "power.0" && value.path() == "flow.pump_power";
       if (axis.name == value.path() || power) {
@@ -138,21 +168,14 @@ void Optimization::Source::prepare() {
       }
     }
   }
-  check_corners();
-  plan.budget = checked_budget();
 }
 
 void Optimization::Source::check_base(const Model& model) const {
   const SourcePlace place{files_.front(), 0, 0};
-  if (model.rulesets.empty() || model.rulesets.front().target.empty()) {
-    throw InputError(place, model.rulesets.empty()
-                                ? "there is no ruleset.file whose probabilities could be searched"
-                                : "the ruleset has no target whose copies could be counted");
+  if (model.rulesets.empty()) {
+    throw InputError(place, "there is no ruleset.file whose probabilities could be searched");
   }
-  if (plan.possible == 0) {
-    throw InputError(place, std::to_string(model.module.count) + " modules make no copy of " +
-                                std::to_string(model.rulesets.front().target.size()));
-  }
+  check_copies(model, place);
   if (!file.hybrid && plan.agitation == Agitation::none) return;
   for (const Layer& layer : base_) {
     if (layer.commands.empty()) continue;
@@ -162,88 +185,13 @@ void Optimization::Source::check_base(const Model& model) const {
   }
 }
 
-// One axis a parameter, or one for each rule that its pattern fits.
-void Optimization::Source::add_parameter(const OptimizeParameter& parameter, const Scenario& base) {
-  std::vector<Assignment> paths;
-  if (!is_rule(parameter.path)) {
-    paths.push_back(parameter.path);
-  } else {
-    const std::string& wanted = parameter.path.keys[1];
-    const bool star = wanted.find('*') != std::string::npos;
-    for (const Rule& rule : base.model.rulesets.front().rules) {
-      const bool undoes = rule.kind == RuleKind::unlink && rule.p > 0;
-      if (star ? !undoes || !fits(wanted, rule.name) : wanted != rule.name) continue;
-      paths.push_back(parameter.path);
-      paths.back().keys[1] = rule.name;
-    }
-    // A rule that is not there is refused, with the nearest name, where the scenario is built.
-    if (paths.empty() && !star) paths.push_back(parameter.path);
-  }
-  if (paths.empty()) {
-    throw InputError(parameter.path.place,
-                     "'" + parameter.path.path() + "' fits no rule that can undo a bond (p > 0)");
-  }
-  for (const Assignment& path : paths) {
-    const auto now = value_of(base, path.path());
-    SearchAxis axis{path.path(), parameter.low, parameter.high, parameter.logarithmic};
-    add_axis(std::move(axis), {Use::parameter, path, parameter.whole, 0},
-             parameter.start.value_or(now.value_or(parameter.low)));
-  }
-}
-
-void Optimization::Source::add_axis(SearchAxis axis, Axis use, double start) {
-  plan.start.push_back(std::clamp(start, axis.low, axis.high));
-  plan.space.push_back(std::move(axis));
-  axes_.push_back(std::move(use));
-}
-
-void Optimization::Source::add_second_set() {
-  const std::size_t first = axes_.size();
-  for (std::size_t i = 0; i < first; ++i) {
-    if (!is_rule(axes_[i].path)) continue;
-    SearchAxis axis = plan.space[i];
-    axis.name = "after." + axis.name;
-    add_axis(std::move(axis), {Use::after_p, axes_[i].path, false, 0}, plan.start[i]);
-  }
-  if (axes_.size() == first) {
-    throw InputError(
-        file.hybrid_place,
-        "a hybrid strategy has two sets of probabilities, and no [[parameter]] is one");
-  }
-  if (plan.possible < 2) {
-    throw InputError(file.hybrid_place,
-                     "a hybrid strategy changes with a finished copy, and only one is possible");
-  }
-  if (plan.possible == 2) return;  // it can only change with the first
-  add_axis({"after.copies", 1, static_cast<double>(plan.possible), false},
-           {Use::after_copies, {}, false, 0}, 0.5 * (1 + plan.possible));
-}
-
-void Optimization::Source::add_agitation(double power) {
-  const AgitationTable& table = file.agitation;
-  for (const SearchAxis& axis : plan.space) {
-    if (axis.name == "flow.pump_power") {
-      throw InputError(table.place, "flow.pump_power is searched already, by a [[parameter]]");
-    }
-  }
-  const bool schedule = table.kind == Agitation::schedule;
-  const int pieces = schedule ? table.pieces : plan.possible;
-  for (int i = 0; i < pieces; ++i) {
-    add_axis({"power." + std::to_string(i), table.low, table.high, false},
-             {Use::power, {}, true, static_cast<std::size_t>(i)}, power);
-  }
-  for (int i = 1; schedule && i < pieces; ++i) {
-    add_axis({"change." + std::to_string(i), 0, plan.horizon, false},
-             {Use::change, {}, false, static_cast<std::size_t>(i)}, plan.horizon * i / pieces);
-  }
-}
-
 // Bounds of the search that the scenario does not allow come to light before the first world.
 void Optimization::Source::check_corners() const {
   std::vector<double> low, high;
   for (const SearchAxis& axis : plan.space) low.push_back(axis.low), high.push_back(axis.high);
   for (const auto& point : {plan.start, low, high}) {
     const Scenario at = scenario(point);
+    check_copies(at.model, {file.hybrid_place.file, 0, 0});
     if (point == plan.start) static_cast<void>(initial_state(at.model, 0));  // do they fit?
   }
 }
@@ -253,79 +201,20 @@ std::int64_t Optimization::Source::checked_budget() const {
   const std::string& where = file.hybrid_place.file;
   const CmaEsOptions& o = file.cma_es;
   if (file.method == SearchMethod::cma_es && o.final_evaluations > o.budget) {
-    throw InputError(place_in(where, {"final_evaluations"}),
+    throw InputError(place_in(where, {"optimize.final_evaluations"}),
                      "optimize.final_evaluations = " + std::to_string(o.final_evaluations) +
                          " is more than optimize.evaluations = " + std::to_string(o.budget));
   }
   try {
-    return search()->budget();
+    return (ruleset ? winners_search(plan.start) : search())->budget();
   } catch (const InputError& e) {
-    const std::vector<std::string> keys{"final_evaluations", "evaluations", "population", "sigma",
-                                        "particles",         "iterations"};
-    throw InputError(place_in(where, keys), e.what());
-  }
-}
-
-Optimization::Source::Meaning Optimization::Source::meaning(
-    const std::vector<double>& point) const {
-  Meaning out;
-  if (file.hybrid) out.after_copies = 1;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Axis& axis = axes_[i];
-    const double value = axis.whole ? std::floor(point[i] + 0.5) : point[i];
-    switch (axis.use) {
-      case Use::parameter:
-        out.values.push_back(axis.whole ? valued(axis.path, static_cast<std::int64_t>(value))
-                                        : valued(axis.path, value));
-        break;
-      case Use::after_p:
-        out.after.emplace_back(axis.path.keys[1], value);
-        break;
-      case Use::after_copies:
-        out.after_copies = std::min(static_cast<int>(value), plan.possible - 1);
-        break;
-      case Use::power:
-        out.powers.push_back(value);
-        break;
-      case Use::change:
-        out.changes.push_back(value);
-        break;
+    std::vector<std::string> paths;
+    for (const char* key :
+         {"final_evaluations", "evaluations", "population", "sigma", "particles", "iterations"}) {
+      paths.push_back(std::string("optimize.") + key);
     }
+    throw InputError(place_in(where, paths), e.what());
   }
-  std::sort(out.changes.begin(), out.changes.end());
-  return out;
-}
-
-Layer Optimization::Source::layer(const Meaning& meaning) const {
-  Layer out;
-  out.values = meaning.values;
-  if (meaning.powers.empty()) return out;
-  out.values.push_back(named({"flow", "pump_power"}, meaning.powers.front()));
-  out.has_commands = true;
-  for (std::size_t i = 1; i < meaning.powers.size(); ++i) {
-    CommandTable command;
-    command.place = file.agitation.place;
-    if (plan.agitation == Agitation::feedback) {
-      command.fields.push_back(named({"copies"}, static_cast<std::int64_t>(i)));
-    } else {
-      command.fields.push_back(named({"at"}, meaning.changes[i - 1]));
-    }
-    command.fields.push_back(named({"do"}, std::string("pump_power")));
-    command.fields.push_back(named({"power"}, meaning.powers[i]));
-    out.commands.push_back(std::move(command));
-  }
-  return out;
-}
-
-Ruleset Optimization::Source::second_set(const Meaning& meaning, const Ruleset& first) const {
-  Ruleset out = first;
-  for (const auto& [name, p] : meaning.after) {
-    for (Rule& rule : out.rules) {
-      if (rule.name == name) rule.p = p, rule.where = file.hybrid_place;
-    }
-  }
-  check_probabilities(out);
-  return out;
 }
 
 Scenario Optimization::Source::scenario(const std::vector<double>& point) const {
@@ -354,11 +243,11 @@ std::optional<double> Optimization::Source::evaluate(const Trial& trial,
   // As a study's replicates, so that `lilytank run --seed` takes the seed.
   const std::uint64_t seed =
       derived_seed(plan.seed, static_cast<std::uint64_t>(trial.replicate)) >> 5;
-  const auto world =
-      run_world(scenario(trial.point), seed, EarlyEnd::completed, stop, [](double) {});
+  const Scenario at = scenario(trial.point);
+  const auto world = run_world(at, seed, EarlyEnd::completed, stop, [](double) {});
   if (!world) return std::nullopt;
   if (world->row.status == RunStatus::diverged) return std::numeric_limits<double>::infinity();
-  return fitness_of(plan.fitness, world->row.completion, plan.possible, plan.horizon);
+  return fitness_of(plan.fitness, world->row.completion, world->row.possible, at.duration);
 }
 
 std::unique_ptr<Search> Optimization::Source::search() const {
@@ -381,9 +270,21 @@ std::unique_ptr<Search> Optimization::Source::cma_es(std::int64_t budget,
   return make_cma_es(plan.space, std::move(options), plan.seed);
 }
 
+std::unique_ptr<Search> Optimization::Source::winners_search(
+    const std::vector<double>& start) const {
+  return cma_es(file.cma_es.budget, start, file.cma_es.sigma / 2);
+}
+
+std::int64_t Optimization::Source::generation() const {
+  constexpr std::int64_t kAmple = 1'000'000;  // holds a generation of the largest population
+  const auto first = cma_es(kAmple, plan.start, file.cma_es.sigma)->ask();
+  return static_cast<std::int64_t>(first.size());
+}
+
 std::string Optimization::Source::identity() const {
   Fnv hash;
-  hash.add(std::to_string(built({}).identity));
+  hash.add("2 " + std::to_string(built({}).identity));
+  if (ruleset) hash.add(to_text(*ruleset));
   for (const double number : {static_cast<double>(plan.fitness.fitness), plan.fitness.rate_weight,
                               plan.fitness.yield_weight, static_cast<double>(plan.hybrid),
                               static_cast<double>(plan.agitation)}) {

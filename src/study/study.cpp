@@ -9,6 +9,7 @@
 #include "io/scenario_build.hpp"
 #include "io/study_file.hpp"
 #include "study/axes.hpp"
+#include "study/study_inputs.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -140,6 +141,20 @@ struct Study::Source {
     return chosen;
   }
 
+  std::vector<std::string> inputs() const {
+    std::vector<std::string> files = file.scenarios;
+    Layer values;
+    for (const StudyAxis& axis : file.axes) {
+      files.insert(files.end(), axis.overlays.begin(), axis.overlays.end());
+      values.values.insert(values.values.end(), axis.values.begin(), axis.values.end());
+    }
+    std::vector<Layer> layers = read_layers(files, {});
+    layers.push_back(std::move(values));
+    layers.push_back(overrides_);
+    files.push_back(path_);
+    return with_files_of(layers, std::move(files));
+  }
+
   const StudyFile file;
   StudyPlan plan;
 
@@ -248,6 +263,10 @@ Study::Study(Study&&) noexcept = default;
 
 const StudyPlan& Study::plan() const {
   return source_->plan;
+}
+
+std::vector<std::string> Study::inputs() const {
+  return source_->inputs();
 }
 
 Scenario Study::scenario(int setting) const {

@@ -11,25 +11,47 @@
 
 #include "io/atomic_file.hpp"
 #include "io/study_record.hpp"
+#include "jobs/directory_lock.hpp"
+#include "jobs/run_directory.hpp"
+#include "study/claimed_directory.hpp"
 #include "study/row_text.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Rows files, sorted by name.
-std::vector<std::string> rows_files(const std::string& dir) {
+bool is_rows(const std::string& name) {
+  return name.starts_with(study_file::rows_prefix) && name.ends_with(".csv");
+}
+
+/// Whether a study may make a file of this name from its rows: table, statistics, figures.
+bool is_made(const std::string& name) {
+  static const std::vector<std::string> kNames =
+      with_figures({study_file::table, "summary.txt", "summary.csv", "comparisons.csv",
+                    "yield_curve.csv", "survival.csv"},
+                   {"yield", "mean_time"});
+  if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return true;
+  if (!name.ends_with(".png") && !name.ends_with(".svg")) return false;
+  const std::string figure = name.substr(0, name.size() - 4), survival = "survival_";
+  return figure.starts_with("copies_over_") ||
+         (figure.starts_with(survival) && parse_whole(figure.substr(survival.size())));
+}
+
+/// Files whose names fit, sorted.
+std::vector<std::string> files_that(const std::string& dir, bool (*fits)(const std::string& name)) {
   std::vector<std::string> files;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(dir, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(study_file::rows_prefix) && name.ends_with(".csv")) {
-      files.push_back(entry.path().string());
-    }
+    if (fits(entry.path().filename().string())) files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
   return files;
+}
+
+std::vector<std::string> rows_files(const std::string& dir) {
+  return files_that(dir, is_rows);
 }
 
 bool same(const RunRow& a, const RunRow& b) {
@@ -52,37 +74,29 @@ std::optional<StudyPlan> plan_in(const std::string& dir) {
 }
 
 void refuse_other(const std::string& dir, const StudyPlan& plan) {
-  const std::string advice = "; choose another --out, or --force to replace it";
   const auto there = plan_in(dir);
   if (there && there->identity() != plan.identity()) {
     throw InputError("'" + dir + "' holds another study ('" + there->name + "', " +
                      std::to_string(there->settings.size()) +
-                     " settings, other scenarios, axes or seed)" + advice);
+                     " settings, other scenarios, axes or seed)" + kChooseAnother);
   }
   std::string foreign;
   read_rows(dir, plan, foreign);
-  if (!foreign.empty()) throw InputError("'" + foreign + "' holds rows of another study" + advice);
+  if (!foreign.empty()) {
+    throw InputError("'" + foreign + "' holds rows of another study" + kChooseAnother);
+  }
+  if (!there) refuse_foreign(dir, files_that(dir, is_made), "study");
 }
 
-/// A study file of the user's in the directory is not to be replaced by ours of the same name.
-void spare_study_file(const std::string& dir) {
-  const std::string file = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (!fs::exists(file, ignored) || is_plan(read_whole(file))) return;
-  throw InputError("'" + file +
-                   "' is not of a study's results and would be overwritten; choose "
-                   "another --out");
-}
-
-/// Removes what another study left. Shards may do so at once: files of `plan` are spared.
+/// Removes what is not of this study. Shards may do so at once: files of `plan` are spared.
 void remove_other(const std::string& dir, const StudyPlan& plan) {
   std::error_code ignored;
-  bool other = false;
+  bool ours = false;
   try {
     const auto there = plan_in(dir);
-    other = there && there->identity() != plan.identity();
+    ours = there && there->identity() == plan.identity();
   } catch (const InputError&) {
-    other = true;  // of an older version, or damaged
+    // Of an older version, or damaged.
   }
   for (const std::string& file : rows_files(dir)) {
     bool foreign = false;
@@ -93,8 +107,8 @@ void remove_other(const std::string& dir, const StudyPlan& plan) {
     }
     if (foreign) fs::remove(file, ignored);
   }
-  if (!other) return;
-  fs::remove(file_in(dir, study_file::table), ignored);
+  if (ours) return;
+  for (const std::string& file : files_that(dir, is_made)) fs::remove(file, ignored);
   fs::remove(file_in(dir, study_file::plan), ignored);
 }
 
@@ -125,6 +139,43 @@ std::string claim_file(const std::string& dir) {
 }
 
 }  // namespace
+
+void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
+                    const std::string& kind) {
+  std::error_code ignored;
+  if (fs::exists(file_in(dir, run_file::resolved), ignored)) {
+    throw InputError("'" + dir + "' holds a run" + kChooseAnother);
+  }
+  if (files.empty()) return;
+  const std::string name = fs::path(files.front()).lexically_relative(dir).string();
+  throw InputError("'" + dir + "' holds a file '" + name + "' that is not of a " + kind +
+                   kChooseAnother);
+}
+
+void remove_results(const std::string& dir, const std::vector<std::string>& files) {
+  DirectoryLock lock;
+  lock.take(dir);
+  std::error_code ignored;
+  for (const std::string& file : files) fs::remove(file, ignored);
+}
+
+std::vector<std::string> files_of_study(const std::string& dir) {
+  std::vector<std::string> files =
+      files_that(dir, [](const std::string& name) { return is_rows(name) || is_made(name); });
+  const std::string plan = file_in(dir, study_file::plan);
+  std::error_code ignored;
+  if (fs::exists(plan, ignored) && is_plan(read_whole(plan))) files.push_back(plan);
+  return files;
+}
+
+void spare_study_file(const std::string& dir) {
+  const std::string file = file_in(dir, study_file::plan);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || is_plan(read_whole(file))) return;
+  throw InputError("'" + file +
+                   "' is not of a study's results and would be overwritten; choose "
+                   "another --out");
+}
 
 std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std::string& foreign) {
   std::vector<RunRow> rows;

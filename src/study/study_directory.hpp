@@ -21,17 +21,34 @@ inline constexpr const char* table = "table.csv";
 inline constexpr const char* rows_prefix = "rows-";  ///< "rows-0001.csv"
 }  // namespace study_file
 
+/// What to do where a directory is somebody else's.
+inline const std::string kChooseAnother = "; choose another --out, or --force to replace it";
+
+/// Throws InputError if `dir` holds a run, or any of these `files`, which lie there and are no
+/// `kind`'s ("study").
+void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
+                    const std::string& kind);
+/// Removes files of a directory, made if absent. Throws InputError if another process is at work
+/// there.
+void remove_results(const std::string& dir, const std::vector<std::string>& files);
+
+/// Paths of what a study has left in a directory, and of files that have such names.
+std::vector<std::string> files_of_study(const std::string& dir);
+/// Throws InputError if a study would put its own file in the place of a study file of the user's.
+void spare_study_file(const std::string& dir);
+
 /// The rows of `plan` in a directory, each run once, in no particular order; none if there is no
 /// directory. Throws InputError if a file is damaged, or if a run has two different results.
 /// `foreign`: the name of a file with rows of another study, or "".
 std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std::string& foreign);
 
-/// Looks into a directory, changing nothing. Throws InputError if it is a file, or another study's,
-/// unless `force`, or if it holds a study file of the user's.
+/// Looks into a directory, changing nothing. Throws InputError if it is a file or holds a study
+/// file of the user's; and, unless `force`, if it is another study's, a run's, or holds files with
+/// names of results that are nobody's.
 void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
 
-/// Makes the directory and says whose it is. Throws InputError if it is another study's, unless
-/// `force`: then the other study's files are removed.
+/// Makes the directory and says whose it is. Throws InputError as check_study_directory() does;
+/// with `force` results that are not this study's are removed.
 void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
 
 /// Writes rows as they come, from any thread.

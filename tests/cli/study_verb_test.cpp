@@ -260,6 +260,61 @@ TEST_F(StudyVerbTest, SlurmScriptsAreReady) {
   EXPECT_FALSE(lilytank_.here.has("out"));
 }
 
+TEST_F(StudyVerbTest, WhatIsNobodysIsNotReplaced) {
+  const std::string choose = "; choose another --out, or --force to replace it\n";
+  for (const std::string name : {"table.csv", "summary.txt", "yield.png", "survival_12.svg"}) {
+    lilytank_.here.write(name + ".d/" + name, "mine\n");
+    const Answer a = lilytank_("study study.toml --out " + name + ".d");
+    EXPECT_EQ(a.code, 2);
+    EXPECT_EQ(a.err,
+              "'" + name + ".d' holds a file '" + name + "' that is not of a study" + choose);
+    EXPECT_EQ(lilytank_.names(name + ".d"), std::vector<std::string>{name});
+  }
+  ASSERT_EQ(lilytank_("run pair.toml --out r --quiet").code, 0);
+  const auto before = lilytank_.files("r");
+  const Answer a = lilytank_("study study.toml --out r");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_EQ(a.err, "'r' holds a run" + choose);
+  EXPECT_EQ(lilytank_.files("r"), before);
+  EXPECT_EQ(lilytank_("study study.toml --out r --quiet --force").code, 0);
+  EXPECT_EQ(lilytank_("study study.toml --out r --quiet").code, 0);  // it is the study's now
+}
+
+TEST_F(StudyVerbTest, WhatIsReadIsSpared) {
+  lilytank_.here.write("w/survival.csv", kPairRules);
+  lilytank_.here.write("under.toml", "base = \"pair.toml\"\nruleset.file = \"w/survival.csv\"\n");
+  lilytank_.here.write("over.toml", "[study]\nscenario = \"under.toml\"\nreplicates = 2\n");
+  for (const char* force : {"", " --force"}) {
+    const Answer a = lilytank_(std::string("study over.toml --out w") + force);
+    EXPECT_EQ(a.code, 2);
+    EXPECT_EQ(a.err,
+              "lilytank study: --out would overwrite 'w/survival.csv', which is read; choose "
+              "another name\n");
+  }
+  EXPECT_EQ(lilytank_.names("w"), std::vector<std::string>{"survival.csv"});
+}
+
+TEST_F(StudyVerbTest, ForceLeavesNothingOfAnother) {
+  lilytank_.here.write("counts.toml", head("counts") + "replicates = 2\n" +
+                                          "[[axis]]\npath = \"module.count\"\nvalues = [4, 6]\n");
+  ASSERT_EQ(lilytank_("study counts.toml --out a --quiet").code, 0);
+  std::vector<std::string> only{"a/survival.csv"};  // that a shard does not make anew
+#ifdef LILYTANK_HAS_RENDER
+  only = {"a/survival_3.png", "a/mean_time.svg"};
+#endif
+  for (const std::string& name : only) EXPECT_TRUE(lilytank_.here.has(name)) << name;
+  lilytank_.here.write("a/notes.txt", "mine\n");
+  lilytank_.here.write("a/survival_of_the_fittest.png", "mine\n");
+  const std::string two = "study study.toml --out a --quiet --set run.duration=2 --force";
+  lilytank_.here.write("study.toml", head("two") + "replicates = 2\n" +
+                                         "[[axis]]\npath = \"rules.part.p\"\n"
+                                         "values = [0.1, 0.2]\nlabels = [\"a\", \"b\"]\n");
+  EXPECT_EQ(lilytank_(two + " --shard 1/2").code, 0);
+  for (const std::string& name : only) EXPECT_FALSE(lilytank_.here.has(name)) << name;
+  EXPECT_TRUE(lilytank_.here.has("a/notes.txt"));
+  EXPECT_TRUE(lilytank_.here.has("a/survival_of_the_fittest.png"));
+}
+
 TEST_F(StudyVerbTest, Mistakes) {
   undisturbed("study.toml", "taken");
   lilytank_.here.write("file", "");

@@ -3,15 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <filesystem>
-
-#include "io/atomic_file.hpp"
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/random.hpp"
+#include "optimize/comparison.hpp"
 #include "study/run_world.hpp"
-#include "support/study_rig.hpp"
+#include "support/optimize_rig.hpp"
 
 namespace lilytank::test {
 namespace {
@@ -56,29 +52,6 @@ TEST(Fitness, NamesAreRefusedWithTheNearest) {
     EXPECT_NE(std::string(e.what()).find("did you mean 'yield_area'?"), std::string::npos);
   }
 }
-
-const std::string kHead = "[optimize]\nscenario = \"pair.toml\"\n";
-const std::string kPart = "[[parameter]]\npath = \"rules.part.p\"\nlow = 0.001\nhigh = 1\n";
-const std::string kSearch = "evaluations = 24\npopulation = 4\nfinal_evaluations = 6\n";
-
-struct OptimizeRig : StudyRig {
-  Optimization read(const std::string& text, const std::vector<std::string>& sets = {}) const {
-    return Optimization(here.write("optimize.toml", text), {}, sets);
-  }
-  std::string refused(const std::string& text, const std::vector<std::string>& sets = {}) const {
-    try {
-      read(text, sets);
-    } catch (const InputError& e) {
-      std::string what = e.what();
-      const std::string dir = here.path();
-      for (auto at = what.find(dir); at != std::string::npos; at = what.find(dir)) {
-        what.erase(at, dir.size());
-      }
-      return what;
-    }
-    return "(accepted)";
-  }
-};
 
 std::vector<double> completion_of(const Scenario& scenario, std::uint64_t seed, EarlyEnd early) {
   return run_world(scenario, seed, early, nullptr, [](double) {})->row.completion;
@@ -202,6 +175,41 @@ TEST(Optimize, AgitationFollowsCopiesOrTime) {
   EXPECT_EQ(timed.model.commands[1].at, 6);
 }
 
+/// The whole run of a point's world in a search with seed 1.
+WorldRun whole_of(const Optimization& what, const Trial& trial) {
+  const auto seed = derived_seed(1, static_cast<std::uint64_t>(trial.replicate)) >> 5;
+  return *run_world(what.scenario(trial.point), seed, EarlyEnd::never, nullptr, [](double) {});
+}
+
+// Four modules make two pairs, whatever the scenario's six would make; a horizon is a world's own.
+TEST(Optimize, CopiesAndHorizonAreTheWorldsOwn) {
+  const OptimizeRig rig;
+  const Optimization count = rig.read(
+      kHead + "[[parameter]]\npath = \"module.count\"\nlow = 4\nhigh = 6\n", {"run.duration=60"});
+  const Optimization duration =
+      rig.read(kHead + "[[parameter]]\npath = \"run.duration\"\nlow = 2\nhigh = 60\n");
+  const FitnessRule rule;
+  int full = 0;
+  for (std::int64_t replicate = 0; replicate < 12; ++replicate) {
+    for (const double modules : {4.0, 6.0}) {
+      const Trial few{{modules}, replicate};
+      const auto completion = whole_of(count, few).row.completion;
+      const int possible = static_cast<int>(modules) / 2;
+      EXPECT_EQ(count.evaluate(few), fitness_of(rule, completion, possible, 60));
+      full += completion.size() == 2 && modules < 6;
+    }
+    const Trial brief{{2}, replicate}, lengthy{{60}, replicate};
+    EXPECT_EQ(duration.evaluate(brief),
+              fitness_of(rule, whole_of(duration, brief).row.completion, 3, 2));
+    EXPECT_EQ(duration.evaluate(lengthy),
+              fitness_of(rule, whole_of(duration, lengthy).row.completion, 3, 60));
+  }
+  EXPECT_GT(full, 0);
+  EXPECT_NE(rig.refused(kHead + "[[parameter]]\npath = \"module.count\"\nlow = 1\nhigh = 6\n")
+                .find("optimize.toml: 1 modules make no copy of 2"),
+            std::string::npos);
+}
+
 // The overlay that is written makes the very worlds that were searched.
 TEST(Optimize, TheOverlayIsThePoint) {
   const OptimizeRig rig;
@@ -223,42 +231,6 @@ TEST(Optimize, TheOverlayIsThePoint) {
   }
 }
 
-std::string all_of(const std::string& dir, const std::vector<std::string>& files) {
-  std::string out;
-  for (const std::string& file : files) {
-    const std::string path = dir + "/" + file;
-    out += std::filesystem::exists(path) ? read_whole(path) : "(absent)";
-  }
-  return out;
-}
-
-/// Runs it whole by two threads, then stopped again and again by one, and expects the same files.
-OptimizationResult expect_same_files(const OptimizeRig& rig, const std::string& text,
-                                     const std::vector<std::string>& files) {
-  OptimizationOptions options;
-  options.threads = 2;
-  options.out = rig.here.path("whole");
-  EXPECT_FALSE(run_optimization(rig.read(text), options).stopped);
-  const std::string whole = all_of(options.out, files);
-  EXPECT_EQ(whole.find("(absent)"), std::string::npos);
-  options.out = rig.here.path("parts");
-  std::atomic<bool> stop{false};
-  options.stop = &stop;
-  options.threads = 1;
-  OptimizationResult result;
-  result.stopped = true;
-  for (int calls = 0; result.stopped && calls < 60; ++calls) {
-    stop = false;
-    int told = 0;  // of a race what is done already is told again
-    options.progress = [&](double, const std::string&) {
-      if (++told > calls / 2) stop = true;
-    };
-    result = run_optimization(rig.read(text), options);
-  }
-  EXPECT_EQ(all_of(options.out, files), whole);
-  return result;
-}
-
 TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
   const OptimizeRig rig;
   const OptimizationResult result = expect_same_files(
@@ -272,64 +244,45 @@ TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
   EXPECT_TRUE(study.plan().until_settled);
 }
 
-/// Corners of three: the target has two rulesets, of which the scenario's own is one.
-class RaceTest : public testing::Test {
- protected:
-  RaceTest() {
-    rig_.here.write("corner.rules",
-                    "lilytank ruleset 1\nname corner\nhops counter-clockwise\n"
-                    "target\n  #.\n  ##\nend\n"
-                    "r1: (0,0) (0,0) -> (1,1)-(2,1)  p=1\nr2: (1,4) (0,0) -> (3,1)-(4,1)  p=1\n"
-                    "r1_reverse: (1,1)-(2,1) -> (0,0) (0,0)  p=0.01\n"
-                    "r2_reverse: (3,1)-(4,1) -> (1,2) (0,0)  p=0\n");
-    rig_.here.write("corner.toml",
-                    "base = \"pair.toml\"\n[run]\nduration = 30\n[ruleset]\nfile = "
-                    "\"corner.rules\"\n");
+// A study has no scenario twice: an overlay that says what the optimum says is left out.
+TEST(Optimize, TheOptimumIsNotComparedWithItself) {
+  const OptimizeRig rig;
+  rig.here.write("half.toml", "[rules]\npart.p = 0.5\n");
+  const Optimization what =
+      rig.read(kHead + kPart +
+               "[compare]\nreplicates = 3\noverlays = [\"sticky.toml\", \"half.toml\"]\n"
+               "labels = [\"sticky\", \"as it is\"]\n");
+  for (const double p : {0.5, 0.25}) {
+    const std::string optimum =
+        rig.here.write("out/optimum.toml", what.overlay({p}, "optimum", "").front().content);
+    const OptimumComparison made = comparison_with(what.source(), optimum);
+    const bool same = p == 0.5;
+    EXPECT_EQ(made.left_out, std::vector<std::string>(same ? 1 : 0, "as it is"));
+    EXPECT_EQ(made.text.find("# Left out") != std::string::npos, same) << made.text;
+    const Study study(rig.here.write("out/compare.toml", made.text));
+    EXPECT_EQ(study.plan().settings.size(), same ? 2u : 3u);
   }
-  /// Races, expects the same files after interruptions, and that the overlay is what won.
-  OptimizationResult race(const std::string& keys) {
-    const OptimizationResult result = expect_same_files(
-        rig_,
-        "[optimize]\nscenario = \"corner.toml\"\nfitness = \"yield_area\"\n" + kSearch + keys +
-            "[[parameter]]\npath = \"rules.*_reverse.p\"\nlow = 0.001\nhigh = 1\n"
-            "[race]\nrulesets = 2\nevaluations = 4\n",
-        {"race.csv", "search.state", "evaluations.csv", "optimum.toml", "optimum.rules"});
-    const Scenario read = load_scenario({rig_.here.path("corner.toml"), result.optimum}, {});
-    rules_ = read.model.rulesets.front();
-    std::vector<double> searched;
-    for (const Rule& rule : rules_.rules) {
-      if (rule.kind == RuleKind::unlink && rule.p > 0) searched.push_back(rule.p);
-    }
-    EXPECT_EQ(searched, result.best.point);
-    return result;
-  }
-  OptimizeRig rig_;
-  Ruleset rules_;
-};
-
-TEST_F(RaceTest, ARulesetThatBuildsNothingLoses) {
-  std::string own = rig_.here.read("corner.rules");
-  own.replace(own.find("(4,1)  p=1") + 9, 1, "0");
-  rig_.here.write("corner.rules", own);
-  const OptimizationResult result = race("");
-  ASSERT_EQ(result.race.size(), 2u);
-  EXPECT_EQ(rules_.name, result.race[1].ruleset);
-  ASSERT_TRUE(result.race[0].last && result.race[1].last);
-  EXPECT_EQ(*result.race[0].last, 60);  // two copies that never stand
-  EXPECT_LT(*result.race[1].last, 60);
-  EXPECT_EQ(result.best.mean, *result.race[1].last);
 }
 
-// The other ruleset is its mirror image and no better. With this seed luck lets it win the race,
-// and worlds that had no part in that tell.
-TEST_F(RaceTest, ItsOwnRulesetIsGivenUpOnlyForABetterOne) {
-  const OptimizationResult result = race("seed = 2\n");
-  EXPECT_TRUE(result.race[1].kept);
-  ASSERT_TRUE(result.race[0].last && result.race[1].last);
-  EXPECT_LT(*result.race[0].last, *result.race[1].last);
-  EXPECT_EQ(rules_.name, result.race[0].ruleset);
-  EXPECT_EQ(result.best.mean, *result.race[0].last);
-  EXPECT_EQ(result.best.point, std::vector<double>{0.01});  // as it was
+// What the comparison would refuse after the search is refused before.
+TEST(Optimize, OverlaysToCompareWithAreCheckedFirst) {
+  const OptimizeRig rig;
+  rig.here.write("wrong.toml", "[rules]\nprat.p = 0\n");
+  rig.here.write("crowd.toml", "[module]\ncount = 500\n");
+  rig.here.write("glued.toml", "[rules]\npart.p = 0\n");
+  const auto refused = [&](const std::string& overlays, const std::vector<std::string>& sets = {}) {
+    return rig.refused(kHead + kPart + "[compare]\nreplicates = 3\noverlays = [" + overlays + "]\n",
+                       sets);
+  };
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(refused("\"wrong.toml\""), "wrong.toml:2:1: unknown key 'rules.prat.p'");
+  expect(refused("\"crowd.toml\""), "crowd: ");
+  expect(refused("\"sticky.toml\", \"glued.toml\""),
+         "optimize.toml:9:12: overlays 'sticky' and 'glued' make one and the same scenario");
+  expect(refused("\"sticky.toml\"", {"run.seed=3"}), "worlds have seeds of their own");
+  EXPECT_EQ(refused("\"sticky.toml\""), "(accepted)");
 }
 
 TEST(Optimize, WhatMakesNoSenseIsRefused) {

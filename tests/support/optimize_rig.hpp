@@ -1,0 +1,75 @@
+// Files of optimisations over tiny scenarios, what they are read as and how they end.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+#include "lilytank/optimize.hpp"
+#include "support/study_rig.hpp"
+
+namespace lilytank::test {
+
+inline const std::string kHead = "[optimize]\nscenario = \"pair.toml\"\n";
+inline const std::string kPart = "[[parameter]]\npath = \"rules.part.p\"\nlow = 0.001\nhigh = 1\n";
+inline const std::string kSearch = "evaluations = 24\npopulation = 4\nfinal_evaluations = 6\n";
+
+struct OptimizeRig : StudyRig {
+  Optimization read(const std::string& text, const std::vector<std::string>& sets = {}) const {
+    return Optimization(here.write("optimize.toml", text), {}, sets);
+  }
+  std::string refused(const std::string& text, const std::vector<std::string>& sets = {}) const {
+    try {
+      read(text, sets);
+    } catch (const InputError& e) {
+      std::string what = e.what();
+      const std::string dir = here.path();
+      for (auto at = what.find(dir); at != std::string::npos; at = what.find(dir)) {
+        what.erase(at, dir.size());
+      }
+      return what;
+    }
+    return "(accepted)";
+  }
+};
+
+inline std::string all_of(const std::string& dir, const std::vector<std::string>& files) {
+  std::string out;
+  for (const std::string& file : files) {
+    const std::string path = dir + "/" + file;
+    out += std::filesystem::exists(path) ? read_whole(path) : "(absent)";
+  }
+  return out;
+}
+
+/// Runs it whole by two threads, then stopped again and again by one, and expects the same files.
+inline OptimizationResult expect_same_files(const OptimizeRig& rig, const std::string& text,
+                                            const std::vector<std::string>& files) {
+  OptimizationOptions options;
+  options.threads = 2;
+  options.out = rig.here.path("whole");
+  EXPECT_FALSE(run_optimization(rig.read(text), options).stopped);
+  const std::string whole = all_of(options.out, files);
+  EXPECT_EQ(whole.find("(absent)"), std::string::npos);
+  options.out = rig.here.path("parts");
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.threads = 1;
+  OptimizationResult result;
+  result.stopped = true;
+  for (int calls = 0; result.stopped && calls < 60; ++calls) {
+    stop = false;
+    int told = 0;  // of a race what is done already is told again
+    options.progress = [&](double, const std::string&) {
+      if (++told > calls / 2) stop = true;
+    };
+    result = run_optimization(rig.read(text), options);
+  }
+  EXPECT_EQ(all_of(options.out, files), whole);
+  return result;
+}
+
+}  // namespace lilytank::test
