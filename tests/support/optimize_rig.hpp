@@ -22,17 +22,7 @@ struct OptimizeRig : StudyRig {
     return Optimization(here.write("optimize.toml", text), {}, sets);
   }
   std::string refused(const std::string& text, const std::vector<std::string>& sets = {}) const {
-    try {
-      read(text, sets);
-    } catch (const InputError& e) {
-      std::string what = e.what();
-      const std::string dir = here.path();
-      for (auto at = what.find(dir); at != std::string::npos; at = what.find(dir)) {
-        what.erase(at, dir.size());
-      }
-      return what;
-    }
-    return "(accepted)";
+    return refusal_of([&] { read(text, sets); });
   }
 };
 

@@ -31,8 +31,13 @@ class StudyRig {
   }
   /// Why a study file is refused, without the directory's name.
   std::string refusal(const std::string& text, const std::vector<std::string>& sets = {}) const {
+    return refusal_of([&] { study(text, sets); });
+  }
+  /// Why what is done is refused.
+  template <class Deed>
+  std::string refusal_of(const Deed& deed) const {
     try {
-      study(text, sets);
+      deed();
     } catch (const InputError& e) {
       std::string what = e.what();
       const std::string dir = here.path();
