@@ -14,21 +14,35 @@ namespace {
 
 constexpr double kMostMissing = 0.1;  // share of unseen frames beyond which cameras are at fault
 
-// Holes that cut tracks count as well as those within. Of Lilies; balls may come and go. A body
-// that a tracker makes up now and then is none: there are as many as in one frame of a hundred or
-// more.
-double unseen_share(const Experiment& experiment) {
-  double all = 0, sightings = 0;
-  for (const Recording& r : experiment.recordings) {
-    if (r.body != BodyKind::lily) continue;
-    std::vector<int> seen = seen_by_frame(r);
-    for (const int n : seen) sightings += n;
-    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(99 * seen.size() / 100);
-    if (at == seen.end()) continue;
-    std::nth_element(seen.begin(), at, seen.end());
-    all += static_cast<double>(*at) * r.frames;
+// In how many body frames of a recording a body should have been seen. Of Lilies all frames count,
+// holes that cut tracks as well as those within, for as many bodies as one frame of a hundred or
+// more shows: one that a tracker makes up now and then is none. Balls may come and go.
+double expected_sightings(const Recording& r, std::vector<int> seen) {
+  double all = 0;
+  if (r.body != BodyKind::lily) {
+    for (const Track& t : r.tracks) all += static_cast<double>(t.x.size());
+    return all;
   }
-  return all > 0 ? std::max(0.0, 1 - sightings / all) : 0;
+  if (seen.empty()) return 0;
+  const auto at = seen.begin() + static_cast<std::ptrdiff_t>(99 * seen.size() / 100);
+  std::nth_element(seen.begin(), at, seen.end());
+  return static_cast<double>(*at) * r.frames;
+}
+
+// Of Lilies or of balls, whichever were seen less.
+double unseen_share(const Experiment& experiment) {
+  double worst = 0;
+  for (const bool lilies : {true, false}) {
+    double all = 0, sightings = 0;
+    for (const Recording& r : experiment.recordings) {
+      if ((r.body == BodyKind::lily) != lilies) continue;
+      const std::vector<int> seen = seen_by_frame(r);
+      for (const int n : seen) sightings += n;
+      all += expected_sightings(r, seen);
+    }
+    if (all > 0) worst = std::max(worst, 1 - sightings / all);
+  }
+  return worst;
 }
 
 // Faults of the camera and the tracker: named as such, and no force is looked for behind them.

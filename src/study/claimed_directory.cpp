@@ -30,7 +30,10 @@ ClaimedDirectory::ClaimedDirectory(const std::string& dir, bool force, const Dir
   if (claimed && read_whole(mark.string()) == mine) return;
   const std::string advice = ": choose another --out, or replace it with --force";
   if (claimed && !force) {
-    throw InputError(dir + " holds another " + job.kind + " (other data, options or program)" +
+    const bool alike = read_whole(mark.string()).starts_with("lilytank " + job.kind + " ");
+    throw InputError(dir + " holds " +
+                     (alike ? "another " + job.kind + " (other data, options or program)"
+                            : "results that are not of a " + job.kind) +
                      advice);
   }
   if (const std::string name = result_in(dir, job); !name.empty() && !force) {

@@ -38,6 +38,11 @@ TEST(ClaimedDirectory, isKeptForTheSameJobAndRefusedToOthers) {
   EXPECT_EQ(refusal(here, job("2")),
             " holds another diagnosis (other data, options or program): choose another --out, or "
             "replace it with --force");
+  DirectoryJob other = job("1");
+  other.kind = "proof";
+  EXPECT_EQ(refusal(here, other),
+            " holds results that are not of a proof: choose another --out, or replace it with "
+            "--force");
   EXPECT_EQ(here.read("out/work/nulls.rows"), "kept");
   EXPECT_EQ(here.read("out/diagnosis.txt"), "complete");
 }

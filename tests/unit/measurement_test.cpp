@@ -1,6 +1,8 @@
 // Recordings that are at fault are told as such, before any force is looked for.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lilytank/diagnosis.hpp"
 #include "lilytank/emulator.hpp"
 #include "support/temporary_directory.hpp"
@@ -42,6 +44,22 @@ TEST(Measurement, bodiesThatAreUnseenForLongAreTold) {
   const std::string text = diagnosis_text(d);
   EXPECT_NE(text.find("1 recording of up to 2 Lilies"), std::string::npos) << text;
   EXPECT_NE(text.find("lost_frames  (depends on time)"), std::string::npos) << text;
+}
+
+// Balls may come and go, but within a track they must be seen.
+TEST(Measurement, ballsThatFlickerAreTold) {
+  Experiment e = with_holes();
+  Recording balls = e.recordings[0];
+  balls.body = BodyKind::ball;
+  for (Track& t : balls.tracks) {
+    for (std::size_t k = 1; k + 1 < t.x.size(); k += 2) t.x[k] = t.y[k] = std::nan("");
+  }
+  for (Track& t : e.recordings[0].tracks) t.first = 0;
+  e.recordings[0].frames = 30;
+  e.recordings.push_back(balls);
+  const Diagnosis d = diagnose(e, {}).value();
+  EXPECT_EQ(d.verdict, Verdict::measurement);
+  EXPECT_EQ(d.findings.at(0).text, "bodies are unseen in 47 % of the frames");
 }
 
 TEST(Measurement, replacesNoOtherDiagnosis) {
