@@ -6,7 +6,7 @@
 #include "analysis/median.hpp"
 #include "bodies/law.hpp"
 #include "io/bodies_file.hpp"
-#include "recording/table.hpp"
+#include "io/table.hpp"
 
 namespace lilytank {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "recording/table.hpp"
+#include "io/table.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

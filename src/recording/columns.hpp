@@ -1,6 +1,6 @@
 // The rows of one file as sightings.
 #pragma once
-#include "recording/line_source.hpp"
+#include "io/line_source.hpp"
 #include "recording/sightings.hpp"
 
 namespace lilytank {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "io/table.hpp"
 #include "recording/columns.hpp"
-#include "recording/table.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

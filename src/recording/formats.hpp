@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "io/line_source.hpp"
 #include "recording/columns.hpp"
-#include "recording/line_source.hpp"
 #include "recording/sightings.hpp"
 
 namespace lilytank {

@@ -1,4 +1,4 @@
-#include "recording/table.hpp"
+#include "io/table.hpp"
 
 #include <algorithm>
 #include <charconv>

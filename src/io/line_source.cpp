@@ -1,4 +1,4 @@
-#include "recording/line_source.hpp"
+#include "io/line_source.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

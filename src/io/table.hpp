@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "recording/line_source.hpp"
+#include "io/line_source.hpp"
 
 namespace lilytank {
 
