@@ -41,10 +41,10 @@ TEST(diagnoseVerb, refusesWithOneLine) {
   }
 }
 
-// The proofs that the documents tell of, told together again.
+// Finished benchmarks, summarised alone and pooled.
 TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Program lilytank;
-  const std::string seed16 = std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/seed16";
+  const std::string seed16 = std::string(LILYTANK_SOURCE_DIR) + "/tests/data/proofs/seed16";
   const Answer said = lilytank("prove " + seed16);
   EXPECT_EQ(said.code, 0) << said.err;
   EXPECT_TRUE(
@@ -57,8 +57,8 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Answer twice = lilytank("prove " + seed16 + " " + seed16 + " --out r");
   EXPECT_EQ(twice.code, 2);
   EXPECT_NE(twice.err.find("has the same key as"), std::string::npos) << twice.err;
-  const Answer nulls =
-      lilytank("prove " + seed16 + " " + std::string(LILYTANK_SOURCE_DIR) + "/docs/proof/nulls15");
+  const std::string nulls15 = std::string(LILYTANK_SOURCE_DIR) + "/tests/data/proofs/nulls15";
+  const Answer nulls = lilytank("prove " + seed16 + " " + nulls15);
   EXPECT_EQ(nulls.code, 0) << nulls.err;
   EXPECT_TRUE(
       nulls.out.starts_with("proof on 160 of 160 sealed experiments in 2 tanks or sets of balls\n"))
