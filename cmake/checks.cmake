@@ -1,7 +1,9 @@
-# Tests of the tree itself: its layers, its layout, and that another project can use what it installs.
+# Tests of the tree itself: its layers, its layout, its words, and that another project can use what it
+# installs.
 add_test(NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/layers.sh)
 add_test(NAME style COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/style.sh)
 set_tests_properties(style PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME words COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/words.sh)
 
 # The same program inside and outside the tree; both must print the same fingerprint.
 add_executable(package_inside ${PROJECT_SOURCE_DIR}/tests/package/main.cpp)
@@ -10,7 +12,7 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -DSOURCE=${PROJECT_SOURCE_DIR}/tests/package -DINSIDE=$<TARGET_FILE:package_inside>
   -DGENERATOR=${CMAKE_GENERATOR} -DCOMPILER=${CMAKE_CXX_COMPILER} -DRENDER=${LILYTANK_HAS_RENDER}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
-set_tests_properties(layers style package PROPERTIES LABELS tree TIMEOUT 300)
+set_tests_properties(layers style words package PROPERTIES LABELS tree TIMEOUT 300)
 
 # Studies under a real Slurm of one node; skipped, with the reason, where only root could start one or
 # the package is not to be had. It mostly waits for Slurm, so it goes first and beside other tests.
