@@ -14,7 +14,7 @@ const std::vector<std::string> kBodies{"lily", "ball", "point"};
 const std::vector<std::string> kFormats{
     "auto",      "tidy",      "swistrack-tracks", "swistrack-particles",
     "trackpy",   "idtracker", "idtracker-wide",   "trex",
-    "fasttrack", "table"};
+    "fasttrack", "boxes",     "table"};
 const std::vector<std::string> kYAxes{"", "up", "down"};
 const std::vector<std::string> kAngleUnits{"", "rad", "deg"};
 const std::vector<std::string> kTreatments{"keep", "mark", "split", "refuse"};
@@ -148,7 +148,8 @@ std::string treatment_word(Treatment treatment) {
 std::string check_word(Check check) {
   constexpr std::array<const char*, kChecks> words{"gap",   "duplicate", "spike",  "jump",
                                                    "swap",  "link",      "speed",  "outside",
-                                                   "clock", "units",     "heading"};
+                                                   "clock", "units",     "heading",
+                                                   "repeat", "columns"};
   return words[static_cast<std::size_t>(check)];
 }
 
@@ -202,6 +203,7 @@ void assign_camera_option(const Assignment& from, Camera& c) {
 RecordingFormat format_to_write(const std::string& word, const SourcePlace& place) {
   std::vector<std::string> written(kFormats.begin(), kFormats.end());
   std::erase(written, format_word(RecordingFormat::automatic));
+  std::erase(written, format_word(RecordingFormat::boxes));
   std::erase(written, format_word(RecordingFormat::table));
   if (std::find(written.begin(), written.end(), word) == written.end()) {
     throw unknown_word(place, "format", word, written);

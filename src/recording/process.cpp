@@ -24,8 +24,10 @@ void make_recording(Sightings& s, const RecordingOptions& options, Report& repor
                  return !std::isnan(row.theta);
                });
   to_metres(s, options, report);
-  if (report.refused()) return;
   const bool single = !s.identities && one_body(s);
+  if (s.identities || single) check_repeats(s, report);
+  check_lengths(s, options, report);
+  if (report.refused()) return;
   const FrameClock clock = find_clock(s, options, report);
   if (report.refused()) return;
   if (!s.identities && !single) link(s, clock, options, report);
