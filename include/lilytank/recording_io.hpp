@@ -10,6 +10,7 @@
 
 #include "lilytank/error.hpp"
 #include "lilytank/recording.hpp"
+#include "lilytank/table_layout.hpp"
 
 namespace lilytank {
 
@@ -105,6 +106,7 @@ struct RecordingOptions {
   BodyKind body = BodyKind::lily;
   bool latches = true, held_out = false;
   ColumnNames columns;
+  TableLayout layout;
   Calibration calibration;
   double rate = 0;                  ///< frames per second; 0: from the file's times
   std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
@@ -120,6 +122,7 @@ struct CheckedRecording {
   RecordingFormat format = RecordingFormat::tidy;
   std::vector<std::string> files;
   std::int64_t rows = 0;                    ///< sightings in the files
+  std::int64_t comment_lines = 0;           ///< passed over below the names
   std::vector<Finding> findings;            ///< by frame and id
   std::vector<std::string> names;           ///< of bodies, by id, where the file has words for ids
   std::vector<std::string> unused_columns;  ///< of the last file

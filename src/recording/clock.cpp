@@ -168,7 +168,7 @@ class ClockFinder {
   void check_unit() {
     constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
     const bool told = options_->rate > 0 || options_->time_unit;
-    const bool dates = !std::isnan(s_->first_date);
+    const bool dates = s_->times.dated();
     if (told || dates || !options_->in_tank || clock_.rate >= kSlowest) return;
     std::string hint;
     for (const auto& [scale, name] : {std::pair{1e-3, "ms"}, {1e-6, "us"}}) {

@@ -89,7 +89,7 @@ std::string nearest(const std::string& wanted, const Table& table) {
 class ColumnReader {
  public:
   ColumnReader(Table& table, const RecordingOptions& options, Sightings& out)
-      : table_(&table), time_unit_(options.time_unit.value_or(1)), out_(&out) {
+      : table_(&table), time_unit_(options.time_unit), out_(&out) {
     const Naming names = naming_of(out.format);
     const ColumnNames& own = options.columns;
     at_.frame = find(own.frame, names.frame), at_.time = find(own.time, names.time);
@@ -148,7 +148,7 @@ class ColumnReader {
     Sighting s;
     s.line = table_->line(), s.file = file_;
     if (at_.frame >= 0) s.frame = whole(at_.frame);
-    if (at_.time >= 0) s.time = time();
+    if (at_.time >= 0) s.time = time_of(*table_, at_.time, out_->times, time_unit_);
     if (id) s.id = *id;
     s.x = bounded(*table_, at_.x), s.y = bounded(*table_, at_.y);
     if (at_.theta >= 0) s.theta = bounded(*table_, at_.theta);
@@ -168,21 +168,6 @@ class ColumnReader {
     return *value;
   }
 
-  double time() {
-    const std::string_view text = table_->cell(at_.time);
-    if (text.size() >= 15) {
-      if (const auto date = parse_date(text)) {
-        if (std::isnan(out_->first_date)) out_->first_date = *date;
-        return *date - out_->first_date;
-      }
-    }
-    const double value = bounded(*table_, at_.time) * time_unit_;
-    if (std::isnan(value)) {
-      table_->refuse(at_.time, table_->quoted(at_.time) + " is not a time");
-    }
-    return value;
-  }
-
   // Ids are whole numbers, or words that are numbered as they come.
   std::int64_t identity() {
     const auto number = table_->whole(at_.id);
@@ -199,7 +184,7 @@ class ColumnReader {
   }
 
   Table* table_;
-  double time_unit_;
+  std::optional<double> time_unit_;
   Sightings* out_;
   Columns at_;
   std::int32_t file_ = 0;
@@ -281,12 +266,10 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
   const int time = wide_time(table, options.columns);
   const auto file = static_cast<std::int32_t>(out.files.size() - 1);
   for (std::int64_t frame = 0; table.next(); ++frame) {
+    frame += table.empty_rows_before();
     Sighting s;
     s.frame = frame, s.line = table.line(), s.file = file;
-    if (time >= 0) s.time = bounded(table, time) * options.time_unit.value_or(1);
-    if (time >= 0 && std::isnan(s.time)) {
-      table.refuse(time, table.quoted(time) + " is not a time");
-    }
+    if (time >= 0) s.time = time_of(table, time, out.times, options.time_unit);
     for (const WideBody& body : bodies) {
       s.id = body.id, s.x = bounded(table, body.x), s.y = bounded(table, body.y);
       if (!std::isnan(s.x) && !std::isnan(s.y)) out.rows.push_back(s);
@@ -296,14 +279,13 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
 
 }  // namespace
 
-void read_columns(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+void read_columns(Table& table, const RecordingOptions& options, Sightings& out) {
   out.units = units_of(out.format);
-  const bool swistrack_track = out.format == RecordingFormat::swistrack_tracks;
-  Table table = swistrack_track ? Table(lines, {"Frame number", "x", "y"}) : Table(lines);
+  if (out.format == RecordingFormat::swistrack_tracks) table.rename({"Frame number", "x", "y"});
   if (out.format == RecordingFormat::idtracker_wide) return read_wide(table, options, out);
   ColumnReader reader(table, options, out);
   std::optional<std::int64_t> id;
-  if (one_file_a_track(out.format)) id = track_of(lines.file());
+  if (one_file_a_track(out.format)) id = track_of(table.file());
   reader.read(id);
 }
 

@@ -55,33 +55,30 @@ bool one_file_a_track(RecordingFormat format) {
   return format == RecordingFormat::swistrack_tracks || format == RecordingFormat::trex;
 }
 
-RecordingFormat detect_format(LineSource& lines) {
-  std::string_view line;
-  do {
-    if (!lines.next(line)) throw InputError({lines.file(), 1, 1}, "there is no table in it");
-  } while (trimmed(line).empty() || trimmed(line).front() == '#');
-  std::vector<std::string_view> names;
+RecordingFormat detect_format(const Table& table) {
+  const std::vector<std::string_view> names(table.names().begin(), table.names().end());
   auto format = RecordingFormat::automatic;
-  if (trimmed(line).starts_with("% Frame number")) {
-    const bool particles = line.find("(world)") != std::string_view::npos;
+  if (trimmed(table.header()).starts_with("% Frame number")) {
+    const bool particles = table.header().find("(world)") != std::string::npos;
     format = particles ? RecordingFormat::swistrack_particles : RecordingFormat::swistrack_tracks;
   } else {
-    split_cells(line, separator_of(line), names);
     format = format_of_header(names);
   }
   if (format == RecordingFormat::automatic) {
-    throw InputError(lines.place(1),
+    throw InputError({table.file(), table.header_line(), 1},
                      "these columns are of no format that is known: name the format, or say what "
                      "the columns mean (format = \"table\")" +
                          tidy_if_small(names));
   }
-  lines.again();
   return format;
 }
 
 void read_sightings(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+  Table table(lines, options.layout);
+  if (out.format == RecordingFormat::automatic) out.format = detect_format(table);
   out.files.push_back(lines.file());
-  read_columns(lines, options, out);
+  read_columns(table, options, out);
+  out.comment_lines += table.comment_lines();
 }
 
 Sightings read_sightings(const std::vector<std::string>& files, const RecordingOptions& options) {
@@ -89,7 +86,6 @@ Sightings read_sightings(const std::vector<std::string>& files, const RecordingO
   out.format = options.format;
   for (const std::string& file : files) {
     LineSource lines(file);
-    if (out.format == RecordingFormat::automatic) out.format = detect_format(lines);
     read_sightings(lines, options, out);
   }
   return out;

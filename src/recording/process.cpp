@@ -64,6 +64,7 @@ CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
   out.format = sightings.format, out.files = sightings.files;
   out.rows = static_cast<std::int64_t>(sightings.rows.size());
   out.unused_columns = sightings.unused;
+  out.comment_lines = sightings.comment_lines;
   out.names = sightings.names;
   Report report(options.rules);
   make_recording(sightings, options, report, r);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "io/time_text.hpp"
 #include "lilytank/recording_io.hpp"
 
 namespace lilytank {
@@ -43,8 +44,9 @@ struct Sightings {
   bool headings = false;           ///< there is a column of headings
   std::vector<std::string> names;  ///< of bodies, by id, if the file has words for ids
   std::unordered_map<std::string, std::int64_t> words;  ///< their ids
-  double first_date = kUnknown;     ///< s since 1970 of the first row, if times are dates
-  std::vector<std::string> unused;  ///< columns that were not read
+  TimeText times;                                       ///< which kind of times the files have
+  std::int64_t comment_lines = 0;                       ///< passed over below the names
+  std::vector<std::string> unused;                      ///< columns that were not read
   SourcePlace place(const Sighting& row) const {
     return {files[static_cast<std::size_t>(row.file)], row.line, 0};
   }
