@@ -76,7 +76,7 @@ bool is_not_seen(std::string_view text) {
   if (text.size() > kLongest) return false;
   const std::string lower = in_small_letters(text);
   std::string_view word = lower;
-  if (word.front() == '-' || word.front() == '+') word.remove_prefix(1);
+  if (word.size() > 2 && (word.front() == '-' || word.front() == '+')) word.remove_prefix(1);
   if (word.starts_with("nan")) {
     return word.size() == 3 || (word[3] == '(' && word.back() == ')');
   }
@@ -84,8 +84,10 @@ bool is_not_seen(std::string_view text) {
     word.remove_prefix(3);
     return std::any_of(word.begin(), word.end(), [](char c) { return c == 'n'; });
   }
-  constexpr std::array<std::string_view, 10> kWords{"inf",  "infinity", "na",   "n/a", "#n/a",
-                                                    "<na>", "null",     "none", "nat", "#na"};
+  constexpr std::array<std::string_view, 22> kWords{
+      "inf",   "infinity", "na",     "n/a",     "#n/a",    "<na>",     "#na", "n.a.",
+      "null",  "nil",      "none",   "nat",     "missing", "-",        "--",  "?",
+      "#num!", "#ref!",    "#null!", "#div/0!", "#value!", "undefined"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 

@@ -10,8 +10,9 @@
 namespace lilytank {
 
 /// Words for "not seen": an empty cell, nan (also with a sign, or as "nan(ind)"), "1.#IND",
-/// "1.#QNAN" and "1.#INF" of Visual C++, inf, "#N/A" of Excel, "<NA>" and "NaT" of pandas, NA, N/A,
-/// null and None; in any letters.
+/// "1.#QNAN" and "1.#INF" of Visual C++, inf, "#N/A" and the errors of Excel ("#DIV/0!"), "<NA>"
+/// and "NaT" of pandas, NA, N/A, n.a., null, nil, None, missing, undefined, "-", "--" and "?"; in
+/// any letters.
 bool is_not_seen(std::string_view text);
 
 /// A cell that is a number or a word for "not seen", with a decimal point or comma.
