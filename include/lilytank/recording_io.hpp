@@ -10,6 +10,7 @@
 
 #include "lilytank/error.hpp"
 #include "lilytank/recording.hpp"
+#include "lilytank/table_layout.hpp"
 
 namespace lilytank {
 
@@ -109,6 +110,7 @@ struct RecordingOptions {
   BodyKind body = BodyKind::lily;
   bool latches = true, held_out = false;
   ColumnNames columns;
+  TableLayout layout;
   Calibration calibration;
   double rate = 0;                  ///< frames per second; 0: from the file's times
   std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1

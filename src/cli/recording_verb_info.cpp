@@ -9,6 +9,7 @@
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -39,6 +40,20 @@ std::string findings_line(const std::vector<Finding>& findings) {
     out += (out.empty() ? "" : ", ") + std::to_string(count) + " " + check_word(check);
   }
   return out.empty() ? "none" : out;
+}
+
+/// "2 rows without identity, 4 sightings without a position, of 900 rows read"; "" if nothing is.
+std::string left_out_line(const RowCounts& counts) {
+  const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+  std::string out;
+  const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
+  if (counts.without_identity > 0) {
+    add(counted(size(counts.without_identity), "row") + " without identity");
+  }
+  if (counts.not_seen > 0) add(counted(size(counts.not_seen), "sighting") + " without a position");
+  if (!out.empty()) out += ", of " + counted(size(counts.read), "row") + " read";
+  if (counts.comments > 0) add(counted(size(counts.comments), "comment line"));
+  return out;
 }
 
 struct Numbers {
@@ -73,7 +88,11 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
       static_cast<double>(n.seen) / (static_cast<double>(n.bodies) * static_cast<double>(r.frames));
   std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
             << with_digits(r.rate, 6) << " /s, from " << with_digits(r.start, 6) << " s to "
-            << with_digits(r.time(r.frames - 1), 6) << " s\n"
+            << with_digits(r.time(r.frames - 1), 6) << " s"
+            << (checked.frame_step > 1 ? "; frame numbers have a common step of " +
+                                             std::to_string(checked.frame_step)
+                                       : "")
+            << "\n"
             << "  bodies    " << n.bodies << " in " << counted(r.tracks.size(), "track")
             << ", seen " << with_digits(100 * share, 4) << " % of the time"
             << (r.has_heading() ? ", with headings" : "") << "\n"
@@ -91,15 +110,12 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
             << counted(static_cast<std::size_t>(checked.rows), "row") << "; body "
             << body_word(r.body) << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
             << (r.held_out ? ", held out" : "") << "\n";
-  const bool ours =
-      checked.format == RecordingFormat::tidy || checked.format == RecordingFormat::table;
-  if (ours && !checked.unused_columns.empty()) {
-    std::cout << "  not used  ";
-    for (std::size_t i = 0; i < checked.unused_columns.size(); ++i) {
-      std::cout << (i == 0 ? "" : ", ") << checked.unused_columns[i];
-    }
-    std::cout << "\n";
+  if (!checked.unused_columns.empty()) {
+    std::cout << "  not used  " << joined(checked.unused_columns, ", ") << "\n";
   }
+  const std::string left_out = left_out_line(checked.counts);
+  if (!left_out.empty()) std::cout << "  left out  " << left_out << "\n";
+  if (!checked.times.empty()) std::cout << "  times     " << checked.times << "\n";
   if (!checked.refused()) print_tracks(checked, named.options);
   std::cout << "  findings  " << findings_line(checked.findings) << "\n";
 }
@@ -110,7 +126,7 @@ std::string csv_row(const Finding& f) {
   std::replace(what.begin(), what.end(), '"', '\'');
   return f.place.file + "," + (f.place.line > 0 ? std::to_string(f.place.line) : "") + "," +
          (f.frame >= 0 ? std::to_string(f.frame) : "") + "," +
-         (f.id >= 0 ? std::to_string(f.id) : "") + "," + check_word(f.check) + "," +
+         (f.id < 0 ? "" : f.name.empty() ? std::to_string(f.id) : f.name) + "," + check_word(f.check) + "," +
          treatment_word(f.treatment) + "," + what + "\n";
 }
 
@@ -181,6 +197,8 @@ int recording_check(const Arguments& arguments) {
     } else {
       std::cout << "; " << counted(r.tracks.size(), "track") << "\n";
     }
+    const std::string left_out = left_out_line(checked.counts);
+    if (!left_out.empty()) std::cout << "left out: " << left_out << "\n";
     for (const Finding& finding : checked.findings) csv += csv_row(finding);
   };
   const int code = for_each(all, act);

@@ -156,6 +156,7 @@ std::string check_word(Check check) {
 void assign_recording_option(const Assignment& from, const std::string& prefix,
                              RecordingOptions& o) {
   const Value v(from, prefix);
+  constexpr std::int64_t kMostLines = 1'000'000'000;
   std::vector<Key> keys{
       {"name", [&] { o.name = v.text(); }},
       {"body", [&] { v.word(kBodies, o.body); }},
@@ -163,6 +164,9 @@ void assign_recording_option(const Assignment& from, const std::string& prefix,
       {"held_out", [&] { o.held_out = v.on(); }},
       {"format", [&] { v.word(kFormats, o.format); }},
       {"rate", [&] { o.rate = v.number("1/s", 1e-9, 1e6); }},
+      {"header_line", [&] { o.layout.header_line = static_cast<int>(v.whole(0, kMostLines)); }},
+      {"first_row", [&] { o.layout.first_row = static_cast<int>(v.whole(1, kMostLines)); }},
+      {"decimal_comma", [&] { o.layout.decimal_comma = v.on(); }},
       {"time_unit", [&] { o.time_unit = v.number("s", 1e-9, 1e6); }},
       {"tank",
        [&] {

@@ -253,7 +253,7 @@ class ClockFinder {
   void check_unit() {
     constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
     const bool given = options_->rate > 0 || options_->time_unit;
-    const bool dates = !std::isnan(s_->first_date);
+    const bool dates = s_->times.dated();
     const bool usual = clock_.rate >= kSlowest && clock_.rate <= kFastest;
     if (given || dates || !options_->in_tank || usual) return;
     std::string hint;

@@ -30,7 +30,7 @@ void refuse_missing(const Table& table, const std::vector<std::string>& names) {
   }
   std::string wanted = "'" + names.front() + "'";
   for (std::size_t i = 1; i < names.size(); ++i) wanted += " or '" + names[i] + "'";
-  throw InputError({table.file(), 1, 1}, "there is no column " + wanted + near + "; there are " +
+  throw InputError({table.file(), table.header_line(), 1}, "there is no column " + wanted + near + "; there are " +
                                              short_list(table.names()));
 }
 
@@ -47,11 +47,6 @@ int find_column(const Table& table, const std::string& own, const std::vector<st
   return -1;
 }
 
-bool no_cell(const Table& table, int column) {
-  const std::string word = in_small_letters(table.cell(column));
-  return word.empty() || word == "nan" || word == "none" || word == "na" || word == "null";
-}
-
 double bounded(const Table& table, int column) {
   const double value = table.number(column);
   if (std::fabs(value) > kLargest) table.refuse(column, table.quoted(column) + " is too large");
@@ -62,19 +57,6 @@ std::int64_t whole_cell(const Table& table, int column) {
   const auto value = table.whole(column);
   if (!value) table.refuse(column, table.quoted(column) + " is not a whole number");
   return *value;
-}
-
-double time_cell(const Table& table, int column, const RecordingOptions& options, Sightings& out) {
-  const std::string_view text = table.cell(column);
-  if (text.size() >= 15) {
-    if (const auto date = parse_date(text)) {
-      if (std::isnan(out.first_date)) out.first_date = *date;
-      return *date - out.first_date;
-    }
-  }
-  const double value = bounded(table, column) * options.time_unit.value_or(1);
-  if (std::isnan(value)) table.refuse(column, table.quoted(column) + " is not a time");
-  return value;
 }
 
 void add_sighting(const Table& table, const Sighting& sighting, Sightings& out) {

@@ -16,16 +16,11 @@ int find_column(const Table& table, const std::string& own, const std::vector<st
 /// Throws InputError: there is no column of these names.
 [[noreturn]] void refuse_missing(const Table& table, const std::vector<std::string>& names);
 
-/// Whether a cell is empty or a word for "not seen".
-bool no_cell(const Table& table, int column);
 /// A cell as a number; NaN where it is a word for "not seen". Throws InputError: no number, or beyond
 /// 1e12, which is no length or angle and would overflow later.
 double bounded(const Table& table, int column);
 /// A whole number. Throws InputError.
 std::int64_t whole_cell(const Table& table, int column);
-/// A time in s; dates count from the first one of `out`. Throws InputError.
-double time_cell(const Table& table, int column, const RecordingOptions& options, Sightings& out);
-
 /// Adds a sighting. Throws InputError at 2e9 of them.
 void add_sighting(const Table& table, const Sighting& sighting, Sightings& out);
 /// Names the columns of a table that are none of `used` in out.unused.

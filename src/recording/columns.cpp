@@ -47,7 +47,7 @@ class ColumnFinder {
     }
     find_identity();
     if (at_.frame < 0 && at_.time < 0) {
-      throw InputError({table_->file(), 1, 1},
+      throw InputError({table_->file(), table_->header_line(), 1},
                        "there is neither a column of frames nor of times; there are " +
                            short_list(table_->names()) + suggested_keys(table_->names()));
     }
@@ -71,7 +71,7 @@ class ColumnFinder {
     }
     if (!own_->x.empty() || !own_->y.empty()) at_.box.reset(), names_.x = {"x"}, names_.y = {"y"};
     if (at_.box || !own_->x.empty()) return;
-    throw InputError({table_->file(), 1, 1},
+    throw InputError({table_->file(), table_->header_line(), 1},
                      "there are no columns of a bounding box: x1, y1, x2, y2, or xmin, ymin, xmax, "
                      "ymax, or left, top, width, height, or x_center, y_center, width, height; "
                      "there are " +
@@ -89,7 +89,7 @@ class ColumnFinder {
       return;
     }
     const std::string& name = table_->names()[static_cast<std::size_t>(likely)];
-    throw InputError({table_->file(), 1, 1},
+    throw InputError({table_->file(), table_->header_line(), 1},
                      "no column 'id', but '" + name +
                          "' looks like identities: columns.id = \"" + name +
                          "\" reads it, columns.id = \"-\" links rows by their positions; there "
@@ -151,7 +151,7 @@ class ColumnReader {
     Sighting s;
     s.line = table_->line(), s.file = file_;
     if (at_.frame >= 0) s.frame = whole_cell(*table_, at_.frame);
-    if (at_.time >= 0) s.time = time_cell(*table_, at_.time, *options_, *out_);
+    if (at_.time >= 0) s.time = time_of(*table_, at_.time, out_->times, options_->time_unit);
     place(s);
     const bool missing = at_.missing >= 0 && table_->number(at_.missing) != 0;
     const bool nowhere = std::isnan(s.x) || std::isnan(s.y);
@@ -210,7 +210,7 @@ class ColumnReader {
   // Ids are whole numbers; if one is a word, all are words, which are numbered as they come.
   // Nothing: the row belongs to nobody.
   std::optional<std::int64_t> identity() {
-    if (no_cell(*table_, at_.id)) return std::nullopt;
+    if (table_->not_seen(at_.id)) return std::nullopt;
     const auto number = table_->whole(at_.id);
     if (out_->names.empty()) {
       if (number) return *number;
@@ -266,14 +266,13 @@ FormatUnits units_of(RecordingFormat format) {
 
 }  // namespace
 
-void read_columns(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+void read_columns(Table& table, const RecordingOptions& options, Sightings& out) {
   out.units = units_of(out.format);
-  const bool swistrack_track = out.format == RecordingFormat::swistrack_tracks;
-  Table table = swistrack_track ? Table(lines, {"Frame number", "x", "y"}) : Table(lines);
+  if (out.format == RecordingFormat::swistrack_tracks) table.rename({"Frame number", "x", "y"});
   if (out.format == RecordingFormat::idtracker_wide) return read_wide(table, options, out);
   ColumnReader reader(table, options, out);
   std::optional<std::int64_t> id;
-  if (one_file_a_track(out.format)) id = track_of(lines.file());
+  if (one_file_a_track(out.format)) id = track_of(table.file());
   reader.read(id);
 }
 

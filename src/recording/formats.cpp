@@ -58,15 +58,13 @@ std::string tidy_if_small(const Names& names) {
 }
 
 /// What a table without names may be.
-std::string without_names(const Names& names) {
-  const bool numbers = std::all_of(names.begin(), names.end(), [](const std::string& name) {
-    return parse_number(name).has_value();
-  });
-  if (!numbers) return "";
-  return std::string("; it has no line of names, so the columns are called 1, 2, ...") +
-         (names.size() >= 6 ? "; format = \"boxes\" reads frame, id, left, top, width, height, ... "
-                              "of MOT challenge"
-                            : "");
+std::string without_names(const Table& table) {
+  if (!table.header().empty()) return "";
+  const bool mot = table.names().size() >= 6;
+  return std::string("; it has no line of names") +
+         (mot ? "; format = \"boxes\" reads frame, id, left, top, width, height, ... of MOT "
+                "challenge"
+              : "");
 }
 
 /// x and y beside a width and a height may be the middle of a box or its corner.
@@ -85,37 +83,30 @@ bool one_file_a_track(RecordingFormat format) {
   return format == RecordingFormat::swistrack_tracks || format == RecordingFormat::trex;
 }
 
-RecordingFormat detect_format(LineSource& lines) {
-  std::string_view line;
-  do {
-    if (!lines.next(line)) throw InputError({lines.file(), 1, 1}, "there is no table in it");
-  } while (trimmed(line).empty() || trimmed(line).front() == '#');
-  Names names;
-  auto format = RecordingFormat::automatic;
-  if (trimmed(line).starts_with("% Frame number")) {
-    const bool particles = line.find("(world)") != std::string_view::npos;
-    format = particles ? RecordingFormat::swistrack_particles : RecordingFormat::swistrack_tracks;
-  } else {
-    std::vector<std::string_view> cells;
-    split_cells(line, separator_of(line), cells);
-    names.assign(cells.begin(), cells.end());
-    format = format_of_header(names);
-    refuse_ambiguous_box(names, lines.place(1));
+RecordingFormat detect_format(const Table& table) {
+  using enum RecordingFormat;
+  if (trimmed(table.header()).starts_with("% Frame number")) {
+    const bool particles = table.header().find("(world)") != std::string::npos;
+    return particles ? swistrack_particles : swistrack_tracks;
   }
-  if (format == RecordingFormat::automatic) {
-    throw InputError(lines.place(1),
-                     "these columns are of no format that is known: name the format, or say what "
-                     "the columns mean (format = \"table\")" +
-                         tidy_if_small(names) + without_names(names) + suggested_keys(names) + "; there are " +
-                         short_list(names));
-  }
-  lines.again();
-  return format;
+  const SourcePlace place{table.file(), table.header_line(), 1};
+  const Names& names = table.names();
+  const RecordingFormat format = format_of_header(names);
+  refuse_ambiguous_box(names, place);
+  if (format != automatic) return format;
+  throw InputError(place,
+                   "these columns are of no format that is known: name the format, or say what "
+                   "the columns mean (format = \"table\")" +
+                       tidy_if_small(names) + without_names(table) + suggested_keys(names) +
+                       "; there are " + short_list(names));
 }
 
 void read_sightings(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+  Table table(lines, options.layout);
+  if (out.format == RecordingFormat::automatic) out.format = detect_format(table);
   out.files.push_back(lines.file());
-  read_columns(lines, options, out);
+  read_columns(table, options, out);
+  out.counts.comments += table.comment_lines();
 }
 
 Sightings read_sightings(const std::vector<std::string>& files, const RecordingOptions& options) {
@@ -123,7 +114,6 @@ Sightings read_sightings(const std::vector<std::string>& files, const RecordingO
   out.format = options.format;
   for (const std::string& file : files) {
     LineSource lines(file);
-    if (out.format == RecordingFormat::automatic) out.format = detect_format(lines);
     read_sightings(lines, options, out);
   }
   return out;

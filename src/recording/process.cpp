@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <unordered_set>
 
 #include "recording/checks.hpp"
+#include "recording/column_names.hpp"
+#include "recording/columns.hpp"
 
 namespace lilytank {
 namespace {
@@ -18,7 +21,47 @@ bool one_body(const Sightings& s) {
   });
 }
 
-void make_recording(Sightings& s, const RecordingOptions& options, Report& report, Recording& out) {
+/// Columns that are not used but may matter, and ids that number rows instead of bodies.
+void check_columns(const Sightings& s, Report& report) {
+  for (const std::string& hint : s.hints) {
+    report.add(Check::columns, {s.files.front(), 0, 0}, -1, -1, hint);
+  }
+  constexpr std::size_t kFewest = 5;
+  if (!s.identities || s.rows.size() < kFewest || one_file_a_track(s.format)) return;
+  std::unordered_set<std::int64_t> ids;
+  const auto first = s.rows.front();
+  bool moments = false;  // more than one
+  for (const Sighting& row : s.rows) {
+    if (!ids.insert(row.id).second) return;
+    moments = moments || row.frame != first.frame ||
+              (row.frame == kNoFrame && row.time != first.time);
+  }
+  if (!moments) return;
+  report.add(Check::columns, {s.files.front(), 0, 0}, -1, -1,
+             "every row has an identity of its own: does the column of identities number "
+             "sightings? columns.id says which to read; not used: " +
+                 short_list(s.unused));
+}
+
+/// How times were read, where that is more than numbers of a given unit.
+std::string times_text(const Sightings& s, const RecordingOptions& options) {
+  switch (s.times.kind()) {
+    case TimeText::Kind::epoch:
+      return "counts since 1970 in " + time_text(s.times.unit()) +
+             (options.time_unit ? "" : " (by their size)") + ", from the first row on";
+    case TimeText::Kind::date:
+      return "dates without a zone, from the first row on";
+    case TimeText::Kind::zoned_date:
+      return "dates, from the first row on";
+    case TimeText::Kind::clock:
+      return "hours, minutes and seconds";
+    default:
+      return "";
+  }
+}
+
+FrameClock make_recording(Sightings& s, const RecordingOptions& options, Report& report,
+                          Recording& out) {
   // An empty column of headings is none.
   s.headings = s.headings && std::any_of(s.rows.begin(), s.rows.end(), [](const Sighting& row) {
                  return !std::isnan(row.theta);
@@ -27,19 +70,20 @@ void make_recording(Sightings& s, const RecordingOptions& options, Report& repor
   const bool single = !s.identities && one_body(s);
   if (s.identities || single) check_repeats(s, report);
   check_lengths(s, options, report);
-  if (report.refused()) return;
+  if (report.refused()) return {};
   const FrameClock clock = find_clock(s, options, report);
-  if (report.refused()) return;
+  if (report.refused()) return {};
   if (!s.identities && !single) link(s, clock, options, report);
   std::vector<Path> paths = make_paths(s, clock, report);
-  if (report.refused()) return;
+  if (report.refused()) return {};
   const CheckContext context{s, clock, options, report};
   check_gaps(paths, context);
   if (options.in_tank) check_outside(paths, context);
   check_motion(paths, context);
-  if (report.refused()) return;
+  if (report.refused()) return {};
   out.rate = clock.rate, out.start = clock.start, out.frames = clock.frames;
   out.tracks = make_tracks(paths, context);
+  return clock;
 }
 
 std::string name_of(const RecordingOptions& options, const std::string& file) {
@@ -66,10 +110,17 @@ CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
   out.format = sightings.format, out.files = sightings.files;
   out.rows = static_cast<std::int64_t>(sightings.rows.size());
   out.unused_columns = sightings.unused;
+  out.counts = sightings.counts;
   out.names = sightings.names;
   Report report(options.rules);
-  make_recording(sightings, options, report, r);
+  check_columns(sightings, report);
+  out.times = times_text(sightings, options);
+  out.frame_step = make_recording(sightings, options, report, r).step;
   out.findings = report.take();
+  for (Finding& finding : out.findings) {
+    const auto id = static_cast<std::size_t>(finding.id);
+    if (finding.id >= 0 && id < out.names.size()) finding.name = out.names[id];
+  }
   if (!report.refused() && r.tracks.empty()) {
     throw InputError(file, "nothing is left of it after what the checks marked");
   }

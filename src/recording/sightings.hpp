@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "io/time_text.hpp"
 #include "lilytank/recording_io.hpp"
 
 namespace lilytank {
@@ -44,7 +45,7 @@ struct Sightings {
   bool headings = false;           ///< there is a column of headings
   std::vector<std::string> names;  ///< of bodies, by id, if the file has words for ids
   std::unordered_map<std::string, std::int64_t> words;  ///< their ids
-  double first_date = kUnknown;     ///< s since 1970 of the first row, if times are dates
+  TimeText times;                   ///< which kind of times the files have
   std::vector<std::string> unused;  ///< columns that were not read
   std::vector<std::string> hints;   ///< what columns that were not read may mean
   RowCounts counts;

@@ -30,7 +30,7 @@ std::vector<WideBody> wide_bodies(const Table& table) {
       if (!id) continue;
       const std::string partner = other + name.substr(1);
       if (table.find(partner) < 0) {
-        throw InputError({table.file(), 1, 1},
+        throw InputError({table.file(), table.header_line(), 1},
                          "there is a column '" + name + "' but no '" + partner + "'");
       }
       if (axis == 'x') bodies.push_back({*id, table.find(name), table.find(partner)});
@@ -46,14 +46,14 @@ void refuse_other_layouts(const Table& table, const ColumnNames& own) {
   for (const auto& [role, name] :
        {std::pair{"id", &own.id}, {"x", &own.x}, {"y", &own.y}, {"theta", &own.theta}}) {
     if (name->empty() || *name == "-") continue;
-    throw InputError({table.file(), 1, 1}, "columns." + std::string(role) + " = \"" + *name +
+    throw InputError({table.file(), table.header_line(), 1}, "columns." + std::string(role) + " = \"" + *name +
                                                "\": of a table of x1, y1, x2, y2, ... only "
                                                "columns.frame and columns.time can be named");
   }
   const auto identities = names_of_role(table.names(), ColumnRole::identity);
   if (identities.empty() || own.id == "-") return;
   throw InputError(
-      {table.file(), 1, 1},
+      {table.file(), table.header_line(), 1},
       quoted_names(identities) +
           (identities.size() == 1 ? " looks like a column of identities"
                                   : " look like columns of identities") +
@@ -112,10 +112,11 @@ class WideReader {
     BoxSuspicion box;
     for (std::int64_t frame = 0; table_->next(); ++frame) {
       ++out_->counts.read;
+      frame += table_->empty_rows_before();
       Sighting s;
       s.line = table_->line(), s.file = file;
       s.frame = frame_ >= 0 ? whole_cell(*table_, frame_) : frame;
-      if (time_ >= 0) s.time = time_cell(*table_, time_, *options_, *out_);
+      if (time_ >= 0) s.time = time_of(*table_, time_, out_->times, options_->time_unit);
       for (const WideBody& body : bodies_) add(s, body);
       if (bodies_.size() == 2) {
         box.add(table_->number(bodies_[0].x), table_->number(bodies_[0].y),
@@ -137,7 +138,7 @@ class WideReader {
   }
 
   [[noreturn]] void refuse_box() const {
-    throw InputError({table_->file(), 1, 1},
+    throw InputError({table_->file(), table_->header_line(), 1},
                      "the second body is always at larger x and y than the first, at nearly the "
                      "same distance: they look like the corners of a bounding box, which format = "
                      "\"boxes\" reads; format = \"idtracker-wide\" reads two bodies");
