@@ -84,16 +84,16 @@ bool one_file_a_track(RecordingFormat format) {
 }
 
 RecordingFormat detect_format(const Table& table) {
-  using enum RecordingFormat;
+  using Format = RecordingFormat;
   if (trimmed(table.header()).starts_with("% Frame number")) {
     const bool particles = table.header().find("(world)") != std::string::npos;
-    return particles ? swistrack_particles : swistrack_tracks;
+    return particles ? Format::swistrack_particles : Format::swistrack_tracks;
   }
   const SourcePlace place{table.file(), table.header_line(), 1};
   const Names& names = table.names();
   const RecordingFormat format = format_of_header(names);
   refuse_ambiguous_box(names, place);
-  if (format != automatic) return format;
+  if (format != Format::automatic) return format;
   throw InputError(place,
                    "these columns are of no format that is known: name the format, or say what "
                    "the columns mean (format = \"table\")" +
