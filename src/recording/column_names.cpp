@@ -83,7 +83,7 @@ std::string without_box(const std::string& word) {
 
 }  // namespace
 
-Naming naming_of(RecordingFormat format) {
+FormatColumns columns_of(RecordingFormat format) {
   using enum RecordingFormat;
   switch (format) {
     case trackpy:

@@ -10,10 +10,10 @@
 namespace lilytank {
 
 /// The names that a format gives its columns, most wanted first.
-struct Naming {
+struct FormatColumns {
   std::vector<std::string> frame, time, id, x, y, theta, missing;
 };
-Naming naming_of(RecordingFormat format);
+FormatColumns columns_of(RecordingFormat format);
 
 /// What a column seems to hold by its name, whatever the format.
 enum class ColumnRole : unsigned char { other, frame, time, identity, x, y, score };

@@ -31,7 +31,7 @@ bool has_numbers_for_names(const Table& table) {
 class ColumnFinder {
  public:
   ColumnFinder(const Table& table, const RecordingOptions& options, RecordingFormat format)
-      : table_(&table), own_(&options.columns), format_(format), names_(naming_of(format)) {}
+      : table_(&table), own_(&options.columns), format_(format), names_(columns_of(format)) {}
 
   Columns find() {
     if (format_ == RecordingFormat::boxes) find_box_columns();
@@ -100,7 +100,7 @@ class ColumnFinder {
   const Table* table_;
   const ColumnNames* own_;
   RecordingFormat format_;
-  Naming names_;
+  FormatColumns names_;
   Columns at_;
 };
 

@@ -96,7 +96,7 @@ class WideReader {
       : table_(&table), options_(&options), out_(&out) {
     refuse_other_layouts(table, options.columns);
     bodies_ = wide_bodies(table);
-    const Naming names = naming_of(RecordingFormat::idtracker_wide);
+    const FormatColumns names = columns_of(RecordingFormat::idtracker_wide);
     frame_ = find_column(table, options.columns.frame, names.frame);
     if (frame_ < 0 && options.columns.frame.empty()) {
       frame_ = find_role(table.names(), ColumnRole::frame);
