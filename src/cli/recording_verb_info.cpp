@@ -89,9 +89,9 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
   std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
             << with_digits(r.rate, 6) << " /s, from " << with_digits(r.start, 6) << " s to "
             << with_digits(r.time(r.frames - 1), 6) << " s"
-            << (checked.frame_step > 1 ? "; frame numbers have a common step of " +
-                                             std::to_string(checked.frame_step)
-                                       : "")
+            << (checked.frame_step > 1
+                    ? "; frame numbers have a common step of " + std::to_string(checked.frame_step)
+                    : "")
             << "\n"
             << "  bodies    " << n.bodies << " in " << counted(r.tracks.size(), "track")
             << ", seen " << with_digits(100 * share, 4) << " % of the time"
@@ -126,8 +126,10 @@ std::string csv_row(const Finding& f) {
   std::replace(what.begin(), what.end(), '"', '\'');
   return f.place.file + "," + (f.place.line > 0 ? std::to_string(f.place.line) : "") + "," +
          (f.frame >= 0 ? std::to_string(f.frame) : "") + "," +
-         (f.id < 0 ? "" : f.name.empty() ? std::to_string(f.id) : f.name) + "," + check_word(f.check) + "," +
-         treatment_word(f.treatment) + "," + what + "\n";
+         (f.id < 0         ? ""
+          : f.name.empty() ? std::to_string(f.id)
+                           : f.name) +
+         "," + check_word(f.check) + "," + treatment_word(f.treatment) + "," + what + "\n";
 }
 
 /// Findings, of each kind so many that one reads them.

@@ -11,10 +11,17 @@ namespace {
 
 /// Words of enums, in the order of their values.
 const std::vector<std::string> kBodies{"lily", "ball", "point"};
-const std::vector<std::string> kFormats{
-    "auto",      "tidy",      "swistrack-tracks", "swistrack-particles",
-    "trackpy",   "idtracker", "idtracker-wide",   "trex",
-    "fasttrack", "boxes",     "table"};
+const std::vector<std::string> kFormats{"auto",
+                                        "tidy",
+                                        "swistrack-tracks",
+                                        "swistrack-particles",
+                                        "trackpy",
+                                        "idtracker",
+                                        "idtracker-wide",
+                                        "trex",
+                                        "fasttrack",
+                                        "boxes",
+                                        "table"};
 const std::vector<std::string> kYAxes{"", "up", "down"};
 const std::vector<std::string> kAngleUnits{"", "rad", "deg"};
 const std::vector<std::string> kTreatments{"keep", "mark", "split", "refuse"};
@@ -146,10 +153,9 @@ std::string treatment_word(Treatment treatment) {
 }
 
 std::string check_word(Check check) {
-  constexpr std::array<const char*, kChecks> words{"gap",   "duplicate", "spike",  "jump",
-                                                   "swap",  "link",      "speed",  "outside",
-                                                   "clock", "units",     "heading",
-                                                   "repeat", "columns"};
+  constexpr std::array<const char*, kChecks> words{
+      "gap",     "duplicate", "spike", "jump",    "swap",   "link",   "speed",
+      "outside", "clock",     "units", "heading", "repeat", "columns"};
   return words[static_cast<std::size_t>(check)];
 }
 

@@ -18,8 +18,8 @@ inline double length(double x, double y) {
 /// radians, and looks for degrees. Throws InputError if the size of a pixel is not known.
 void to_metres(Sightings& sightings, const RecordingOptions& options, Report& report);
 
-/// Looks for sightings that repeat the pose before them exactly although the body moves: poses that the
-/// tracker held, frames that were written twice, and 0, 0 for what was not seen.
+/// Looks for sightings that repeat the pose before them exactly although the body moves: poses that
+/// the tracker held, frames that were written twice, and 0, 0 for what was not seen.
 void check_repeats(Sightings& sightings, Report& report);
 
 /// Looks for lengths in another unit than said, in a tank.
@@ -35,9 +35,10 @@ struct FrameClock {
   /// The file's number of a frame.
   std::int64_t number(std::int64_t frame) const { return first + step * frame; }
 };
-/// Finds rate and start, counts the frames of the rows from 0 on this clock, and looks for times that
-/// are not where they should be. Where frames have no numbers, times count them. Rows that are unseen
-/// in frames between those of the clock are removed. Throws InputError if the rate cannot be known.
+/// Finds rate and start, counts the frames of the rows from 0 on this clock, and looks for times
+/// that are not where they should be. Where frames have no numbers, times count them. Rows that are
+/// unseen in frames between those of the clock are removed. Throws InputError if the rate cannot be
+/// known.
 FrameClock find_clock(Sightings& sightings, const RecordingOptions& options, Report& report);
 
 /// Gives ids to rows without identities: a row goes on with the track whose prediction is nearest;

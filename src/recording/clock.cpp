@@ -32,10 +32,9 @@ class ClockFinder {
 
   FrameClock find() {
     if (!has_times_ && options_->rate == 0) {
-      throw InputError(file_, "there are no times in it: give rate, the frames per second" +
-                                  (s_->unused.empty()
-                                       ? ""
-                                       : "; columns not used: " + short_list(s_->unused)));
+      throw InputError(
+          file_, "there are no times in it: give rate, the frames per second" +
+                     (s_->unused.empty() ? "" : "; columns not used: " + short_list(s_->unused)));
     }
     if (has_times_) refuse_whole_seconds();
     if (!has_frames_) {
@@ -171,10 +170,11 @@ class ClockFinder {
     if (count < kFewest) return;
     for (const auto& [step, times] : steps) {
       if (step == 1 || static_cast<double>(times) < kUsual * static_cast<double>(count)) continue;
-      report_->add(Check::clock, Treatment::keep, file_, -1, -1,
-                   "most sightings are " + std::to_string(step) +
-                       " frames after the last one of their body, but frame numbers have no step "
-                       "in common: frames are counted one by one, and most are holes of the tracks");
+      report_->add(
+          Check::clock, Treatment::keep, file_, -1, -1,
+          "most sightings are " + std::to_string(step) +
+              " frames after the last one of their body, but frame numbers have no step "
+              "in common: frames are counted one by one, and most are holes of the tracks");
     }
   }
 
@@ -184,8 +184,7 @@ class ClockFinder {
     if (span <= kMostFrames && span <= 1e6 + 20 * seen) return;
     throw InputError(file_, "frames run from " + std::to_string(clock_.first) + " to " +
                                 std::to_string(clock_.number(instants_.back().frame)) +
-                                ", but only " +
-                                std::to_string(instants_.size()) +
+                                ", but only " + std::to_string(instants_.size()) +
                                 " of them hold anything: are frame numbers or times right?");
   }
 
@@ -248,8 +247,8 @@ class ClockFinder {
     return static_cast<double>(instant.frame) / rate;
   }
 
-  // Nobody tracks what floats in a tank by a frame in more than two seconds, or thousands of frames a
-  // second. Where the user gave the unit of the times, or the rate, it is believed.
+  // Nobody tracks what floats in a tank by a frame in more than two seconds, or thousands of frames
+  // a second. Where the user gave the unit of the times, or the rate, it is believed.
   void check_unit() {
     constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
     const bool given = options_->rate > 0 || options_->time_unit;

@@ -30,8 +30,9 @@ void refuse_missing(const Table& table, const std::vector<std::string>& names) {
   }
   std::string wanted = "'" + names.front() + "'";
   for (std::size_t i = 1; i < names.size(); ++i) wanted += " or '" + names[i] + "'";
-  throw InputError({table.file(), table.header_line(), 1}, "there is no column " + wanted + near + "; there are " +
-                                             short_list(table.names()));
+  throw InputError(
+      {table.file(), table.header_line(), 1},
+      "there is no column " + wanted + near + "; there are " + short_list(table.names()));
 }
 
 int find_column(const Table& table, const std::string& own, const std::vector<std::string>& names) {

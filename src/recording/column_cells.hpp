@@ -10,14 +10,14 @@
 
 namespace lilytank {
 
-/// The column that the user names (`own`), or the first one that has one of the format's names; -1 if
-/// there is none or `own` is "-". Throws InputError where the user's column is not there.
+/// The column that the user names (`own`), or the first one that has one of the format's names; -1
+/// if there is none or `own` is "-". Throws InputError where the user's column is not there.
 int find_column(const Table& table, const std::string& own, const std::vector<std::string>& names);
 /// Throws InputError: there is no column of these names.
 [[noreturn]] void refuse_missing(const Table& table, const std::vector<std::string>& names);
 
-/// A cell as a number; NaN where it is a word for "not seen". Throws InputError: no number, or beyond
-/// 1e12, which is no length or angle and would overflow later.
+/// A cell as a number; NaN where it is a word for "not seen". Throws InputError: no number, or
+/// beyond 1e12, which is no length or angle and would overflow later.
 double bounded(const Table& table, int column);
 /// A whole number. Throws InputError.
 std::int64_t whole_cell(const Table& table, int column);

@@ -21,34 +21,34 @@ std::string plain(std::string_view name) {
 
 const std::vector<std::string_view>& words_of(ColumnRole role) {
   static const std::vector<std::string_view> frame{
-      "frame",      "frames",      "frameno", "framenr", "framenumber", "frameindex",
-      "frameidx",   "frameid",     "framenum", "image",  "imageid",     "imagenumber",
-      "imageindex", "slice",       "framecount"};
+      "frame",      "frames",      "frameno",    "framenr",  "framenumber",
+      "frameindex", "frameidx",    "frameid",    "framenum", "image",
+      "imageid",    "imagenumber", "imageindex", "slice",    "framecount"};
   static const std::vector<std::string_view> time{
       "time",    "times",     "timestamp", "timestamps", "timestampms", "timems", "timesec",
       "seconds", "positiont", "datetime",  "date",       "msec",        "t"};
   static const std::vector<std::string_view> identity{
-      "id",           "ids",        "trackid",    "track",     "trackno",    "tracknumber",
-      "trackindex",   "tracklet",   "trackletid", "trackerid", "particle",   "particleid",
-      "individual",   "individualid", "label",    "labelid",   "object",     "objectid",
-      "objid",        "obj",        "identity",   "identityid", "animal",    "animalid",
-      "animalname",   "target",     "targetid",   "agent",     "agentid",    "body",
-      "bodyid",       "robot",      "robotid",    "ball",      "ballid",     "marker",
-      "markerid",     "tag",        "tagid",      "trajectory", "trajectoryid", "fish",
-      "fishid",       "fly",        "flyid",      "ant",       "antid",      "bee",
-      "beeid",        "subject",    "subjectid",  "instance",  "instanceid", "blob",
-      "blobid",       "spotid",     "detection",  "detectionid", "name"};
+      "id",         "ids",          "trackid",    "track",       "trackno",      "tracknumber",
+      "trackindex", "tracklet",     "trackletid", "trackerid",   "particle",     "particleid",
+      "individual", "individualid", "label",      "labelid",     "object",       "objectid",
+      "objid",      "obj",          "identity",   "identityid",  "animal",       "animalid",
+      "animalname", "target",       "targetid",   "agent",       "agentid",      "body",
+      "bodyid",     "robot",        "robotid",    "ball",        "ballid",       "marker",
+      "markerid",   "tag",          "tagid",      "trajectory",  "trajectoryid", "fish",
+      "fishid",     "fly",          "flyid",      "ant",         "antid",        "bee",
+      "beeid",      "subject",      "subjectid",  "instance",    "instanceid",   "blob",
+      "blobid",     "spotid",       "detection",  "detectionid", "name"};
   static const std::vector<std::string_view> x{
-      "x", "xpos", "posx", "positionx", "xposition", "cx", "xc", "xcenter", "xcentre", "centerx",
-      "centrex", "centroidx", "xcentroid", "xbody", "xpx", "xpixel", "pixelx", "px", "xmm", "xcm",
-      "xworld", "worldx", "xcoord", "coordx"};
+      "x",       "xpos",    "posx",    "positionx", "xposition", "cx",     "xc",     "xcenter",
+      "xcentre", "centerx", "centrex", "centroidx", "xcentroid", "xbody",  "xpx",    "xpixel",
+      "pixelx",  "px",      "xmm",     "xcm",       "xworld",    "worldx", "xcoord", "coordx"};
   static const std::vector<std::string_view> y{
-      "y", "ypos", "posy", "positiony", "yposition", "cy", "yc", "ycenter", "ycentre", "centery",
-      "centrey", "centroidy", "ycentroid", "ybody", "ypx", "ypixel", "pixely", "py", "ymm", "ycm",
-      "yworld", "worldy", "ycoord", "coordy"};
+      "y",       "ypos",    "posy",    "positiony", "yposition", "cy",     "yc",     "ycenter",
+      "ycentre", "centery", "centrey", "centroidy", "ycentroid", "ybody",  "ypx",    "ypixel",
+      "pixely",  "py",      "ymm",     "ycm",       "yworld",    "worldy", "ycoord", "coordy"};
   static const std::vector<std::string_view> score{
-      "conf",  "confidence", "score",   "cls",      "class",    "classid",  "classname", "classes",
-      "category", "categoryid", "detconf", "visibility", "objectness"};
+      "conf",    "confidence", "score",      "cls",     "class",      "classid",   "classname",
+      "classes", "category",   "categoryid", "detconf", "visibility", "objectness"};
   static const std::vector<std::string_view> none;
   switch (role) {
     case ColumnRole::frame:

@@ -90,8 +90,8 @@ class ColumnFinder {
     }
     const std::string& name = table_->names()[static_cast<std::size_t>(likely)];
     throw InputError({table_->file(), table_->header_line(), 1},
-                     "no column 'id', but '" + name +
-                         "' looks like identities: columns.id = \"" + name +
+                     "no column 'id', but '" + name + "' looks like identities: columns.id = \"" +
+                         name +
                          "\" reads it, columns.id = \"-\" links rows by their positions; there "
                          "are " +
                          short_list(table_->names()));

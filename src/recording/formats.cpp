@@ -25,7 +25,8 @@ bool all_of(const Names& names, std::initializer_list<std::string_view> wanted) 
 /// Whether there are columns "X", "X (cm)", "X#wcentroid", ...
 bool has_centroid(const Names& names, char axis) {
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    const std::string_view rest = std::string_view(name).substr(std::min<std::size_t>(1, name.size()));
+    const std::string_view rest =
+        std::string_view(name).substr(std::min<std::size_t>(1, name.size()));
     return name.starts_with(axis) &&
            (rest.empty() || rest.starts_with('#') || rest.starts_with(" ("));
   });
@@ -70,11 +71,12 @@ std::string without_names(const Table& table) {
 /// x and y beside a width and a height may be the middle of a box or its corner.
 void refuse_ambiguous_box(const Names& names, const SourcePlace& place) {
   if (!has_ambiguous_box(names)) return;
-  throw InputError(place,
-                   "x, y beside a width and a height may be the middle of a box or a corner: "
-                   "format = \"table\" reads the middle, format = \"boxes\" the corner of least x and "
-                   "y; there are " +
-                       short_list(names));
+  throw InputError(
+      place,
+      "x, y beside a width and a height may be the middle of a box or a corner: "
+      "format = \"table\" reads the middle, format = \"boxes\" the corner of least x and "
+      "y; there are " +
+          short_list(names));
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ class Linker {
     const Sighting& row = s_->rows[pair.row];
     Treatment treatment = report_->rules()[Check::link];
     if (treatment == Treatment::mark) treatment = Treatment::split;
-    report_->add(Check::link, treatment, s_->place(row), clock_->number(row.frame), open_[pair.track].id,
+    report_->add(Check::link, treatment, s_->place(row), clock_->number(row.frame),
+                 open_[pair.track].id,
                  "goes on where track " + std::to_string(open_[rival].id) + " may as well");
     return treatment;
   }

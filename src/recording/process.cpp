@@ -33,8 +33,8 @@ void check_columns(const Sightings& s, Report& report) {
   bool moments = false;  // more than one
   for (const Sighting& row : s.rows) {
     if (!ids.insert(row.id).second) return;
-    moments = moments || row.frame != first.frame ||
-              (row.frame == kNoFrame && row.time != first.time);
+    moments =
+        moments || row.frame != first.frame || (row.frame == kNoFrame && row.time != first.time);
   }
   if (!moments) return;
   report.add(Check::columns, {s.files.front(), 0, 0}, -1, -1,

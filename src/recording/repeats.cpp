@@ -1,11 +1,12 @@
 // Exact repeats: sightings that have the pose of the one before to the last digit.
 //
-// Positions have noise, and bodies that move do not stand still for a frame, so an exact repeat of a
-// moving body is not a measurement: the tracker held a pose that it had lost, or a frame was written
-// twice. But a body that rests, or moves by less than the last digit, repeats its pose as well. So a
-// run of repeats is improbable only if the body arrives and leaves by steps that are far above the
-// resolution and usual for the recording, and leaves a longer run by more than a usual step. How many
-// single repeats chance explains is estimated from the steps that are shorter than usual.
+// Positions have noise, and bodies that move do not stand still for a frame, so an exact repeat of
+// a moving body is not a measurement: the tracker held a pose that it had lost, or a frame was
+// written twice. But a body that rests, or moves by less than the last digit, repeats its pose as
+// well. So a run of repeats is improbable only if the body arrives and leaves by steps that are far
+// above the resolution and usual for the recording, and leaves a longer run by more than a usual
+// step. How many single repeats chance explains is estimated from the steps that are shorter than
+// usual.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -84,7 +85,8 @@ class RepeatFinder {
     }
   }
 
-  // A body that is at 0, 0 of the file and elsewhere, but never near it in between, was not seen there.
+  // A body that is at 0, 0 of the file and elsewhere, but never near it in between, was not seen
+  // there.
   void zeros() {
     for_each_body([&](std::size_t begin, std::size_t end) {
       std::vector<std::size_t> found;
@@ -151,7 +153,8 @@ class RepeatFinder {
   void measure() {
     std::sort(steps_.begin(), steps_.end());
     usual_ = median(steps_);
-    // Where even the least changes of steps are far above the resolution, bodies at rest show noise.
+    // Where even the least changes of steps are far above the resolution, bodies at rest show
+    // noise.
     if (!changes_.empty()) {
       const auto low = changes_.begin() + static_cast<std::ptrdiff_t>(changes_.size() / 10);
       std::nth_element(changes_.begin(), low, changes_.end());
@@ -251,9 +254,10 @@ class RepeatFinder {
     treat(rows,
           "all bodies repeat the frame before to the last digit in " +
               std::to_string(doubled_.size()) + " of " + std::to_string(instants.size()) +
-              " frames" + (2 * doubled_.size() + 1 >= instants.size() ? " (every frame is written "
-                                                                       "twice)"
-                                                                     : "") +
+              " frames" +
+              (2 * doubled_.size() + 1 >= instants.size() ? " (every frame is written "
+                                                            "twice)"
+                                                          : "") +
               list_of(rows),
           true);
   }
@@ -304,7 +308,8 @@ class RepeatFinder {
     return listed.size() == 1 ? "" : out;
   }
 
-  void treat(const std::vector<std::size_t>& rows, const std::string& what, bool all_bodies = false) {
+  void treat(const std::vector<std::size_t>& rows, const std::string& what,
+             bool all_bodies = false) {
     const Sighting& first = s_->rows[rows.front()];
     const Treatment treatment =
         report_->add(Check::repeat, s_->place(first), first.frame == kNoFrame ? -1 : first.frame,
@@ -320,13 +325,13 @@ class RepeatFinder {
   Report* report_;
   std::vector<std::size_t> order_;  ///< of the rows
   std::vector<Run> runs_;
-  std::vector<double> steps_;  ///< m, between poses that differ, in order of their lengths
-  std::vector<double> changes_;  ///< m, from one step to the next
+  std::vector<double> steps_;     ///< m, between poses that differ, in order of their lengths
+  std::vector<double> changes_;   ///< m, from one step to the next
   double resolution_ = HUGE_VAL;  ///< m, the least change of a coordinate
   bool noisy_ = false;            ///< far above the resolution
-  double usual_ = 0;           ///< m, the median step
-  double expected_ = 0;        ///< single repeats by chance
-  std::set<double> doubled_;   ///< instants of frames that were written twice
+  double usual_ = 0;              ///< m, the median step
+  double expected_ = 0;           ///< single repeats by chance
+  std::set<double> doubled_;      ///< instants of frames that were written twice
 };
 
 }  // namespace

@@ -45,9 +45,9 @@ struct Sightings {
   bool headings = false;           ///< there is a column of headings
   std::vector<std::string> names;  ///< of bodies, by id, if the file has words for ids
   std::unordered_map<std::string, std::int64_t> words;  ///< their ids
-  TimeText times;                   ///< which kind of times the files have
-  std::vector<std::string> unused;  ///< columns that were not read
-  std::vector<std::string> hints;   ///< what columns that were not read may mean
+  TimeText times;                                       ///< which kind of times the files have
+  std::vector<std::string> unused;                      ///< columns that were not read
+  std::vector<std::string> hints;  ///< what columns that were not read may mean
   RowCounts counts;
   SourcePlace place(const Sighting& row) const {
     return {files[static_cast<std::size_t>(row.file)], row.line, 0};

@@ -46,9 +46,10 @@ void refuse_other_layouts(const Table& table, const ColumnNames& own) {
   for (const auto& [role, name] :
        {std::pair{"id", &own.id}, {"x", &own.x}, {"y", &own.y}, {"theta", &own.theta}}) {
     if (name->empty() || *name == "-") continue;
-    throw InputError({table.file(), table.header_line(), 1}, "columns." + std::string(role) + " = \"" + *name +
-                                               "\": of a table of x1, y1, x2, y2, ... only "
-                                               "columns.frame and columns.time can be named");
+    throw InputError({table.file(), table.header_line(), 1},
+                     "columns." + std::string(role) + " = \"" + *name +
+                         "\": of a table of x1, y1, x2, y2, ... only "
+                         "columns.frame and columns.time can be named");
   }
   const auto identities = names_of_role(table.names(), ColumnRole::identity);
   if (identities.empty() || own.id == "-") return;
@@ -63,8 +64,8 @@ void refuse_other_layouts(const Table& table, const ColumnNames& own) {
           short_list(table.names()));
 }
 
-/// Two bodies of which the second is always right of and below the first, at a distance that changes
-/// less than both move: the corners of a box.
+/// Two bodies of which the second is always right of and below the first, at a distance that
+/// changes less than both move: the corners of a box.
 class BoxSuspicion {
  public:
   void add(double x1, double y1, double x2, double y2) {

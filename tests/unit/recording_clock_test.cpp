@@ -66,8 +66,7 @@ TEST(FrameNumbers, areCountedAtTheRateThatIsGiven) {
 TEST(FrameNumbers, oneBetweenTheOthersIsNamed) {
   RecordingOptions options;
   options.rate = 30;
-  const CheckedRecording c =
-      read(numbered(5, 0, {}, false) + "402,0,0.1,0.0\n", options);
+  const CheckedRecording c = read(numbered(5, 0, {}, false) + "402,0,0.1,0.0\n", options);
   EXPECT_EQ(c.frame_step, 1);
   const auto found = of_kind(c, Check::clock);
   ASSERT_EQ(found.size(), 1u) << all_texts(c);
@@ -94,9 +93,8 @@ TEST(Times, thatAreWholeSecondsAreRefusedWithTheKey) {
 }
 
 TEST(Times, thatCountFrom1970CountFromTheFirstRow) {
-  for (const auto& [first, seconds] : {std::pair{1700000000000, 1e-3},
-                                       {1700000000000000, 1e-6},
-                                       {1700000000000000000, 1e-9}}) {
+  for (const auto& [first, seconds] :
+       {std::pair{1700000000000, 1e-3}, {1700000000000000, 1e-6}, {1700000000000000000, 1e-9}}) {
     std::string table = "time,id,x,y\n";
     for (int f = 0; f < 50; ++f) {
       const auto count = static_cast<std::int64_t>(0.04 * f / seconds + 0.5);  // 25 frames/s

@@ -20,7 +20,8 @@ CheckedRecording read(const std::string& content, const RecordingOptions& option
   return check_recording(here.write("tracks.csv", content), options);
 }
 
-/// A wide table of two bodies on circles, at every `step`-th frame from 3 on but for those in `lost`.
+/// A wide table of two bodies on circles, at every `step`-th frame from 3 on but for those in
+/// `lost`.
 std::string wide_table(const std::string& head, int step, const std::vector<int>& lost = {}) {
   std::string out = head + "\n";
   for (int i = 0; i < 60; ++i) {
@@ -36,7 +37,8 @@ std::string wide_table(const std::string& head, int step, const std::vector<int>
 
 TEST(WideTables, framesAreThoseOfTheirColumn) {
   for (const char* name : {"frame", "Frame", "frame_idx"}) {
-    const CheckedRecording c = read(wide_table(std::string(name) + ",x1,y1,x2,y2", 1, {20, 21, 22}));
+    const CheckedRecording c =
+        read(wide_table(std::string(name) + ",x1,y1,x2,y2", 1, {20, 21, 22}));
     EXPECT_EQ(c.format, RecordingFormat::idtracker_wide);
     EXPECT_EQ(c.recording.frames, 60) << name;
     EXPECT_DOUBLE_EQ(c.recording.start, 3 / 25.0);
@@ -53,9 +55,9 @@ TEST(WideTables, framesAreThoseOfTheirColumn) {
 TEST(WideTables, unusedColumnsAreNamed) {
   const CheckedRecording c = read("time,x1,y1,note\n0,200,200,a\n0.04,201,200,b\n0.08,202,200,c\n");
   EXPECT_EQ(c.unused_columns, std::vector<std::string>{"note"});
-  EXPECT_NE(complaint("time,x1,y1,y2\n0,1,1,1\n", in_pixels())
-                .find("there is a column 'y2' but no 'x2'"),
-            std::string::npos);
+  EXPECT_NE(
+      complaint("time,x1,y1,y2\n0,1,1,1\n", in_pixels()).find("there is a column 'y2' but no 'x2'"),
+      std::string::npos);
 }
 
 TEST(WideTables, identitiesBesideThemAreAContradiction) {
@@ -97,8 +99,8 @@ struct Layout {
 class Boxes : public testing::TestWithParam<Layout> {};
 
 TEST_P(Boxes, areReadAsTheirMiddle) {
-  const CheckedRecording c = read(GetParam().head + "\n" + GetParam().first + "\n" +
-                                  GetParam().second + "\n");
+  const CheckedRecording c =
+      read(GetParam().head + "\n" + GetParam().first + "\n" + GetParam().second + "\n");
   EXPECT_EQ(c.format, RecordingFormat::boxes);
   ASSERT_EQ(c.recording.tracks.size(), 1u);
   EXPECT_EQ(c.recording.tracks[0].id, 7);
@@ -109,17 +111,16 @@ TEST_P(Boxes, areReadAsTheirMiddle) {
 
 INSTANTIATE_TEST_SUITE_P(
     layouts, Boxes,
-    testing::Values(
-        Layout{"corners", "frame,id,x1,y1,x2,y2,conf", "4,7,200,185,220,195,0.9",
-               "5,7,202,185,222,195,0.9"},
-        Layout{"fromZero", "frame,track_id,x0,y0,x1,y1", "4,7,200,185,220,195",
-               "5,7,202,185,222,195"},
-        Layout{"leastAndMost", "frame_id,track_id,xmin,ymin,xmax,ymax,class",
-               "4,7,200,185,220,195,ball", "5,7,202,185,222,195,ball"},
-        Layout{"size", "frame,id,bb_left,bb_top,bb_width,bb_height,conf", "4,7,200,185,20,10,1",
-               "5,7,202,185,20,10,1"},
-        Layout{"middle", "frame,track,x_center,y_center,width,height", "4,7,210,190,20,10",
-               "5,7,212,190,20,10"}),
+    testing::Values(Layout{"corners", "frame,id,x1,y1,x2,y2,conf", "4,7,200,185,220,195,0.9",
+                           "5,7,202,185,222,195,0.9"},
+                    Layout{"fromZero", "frame,track_id,x0,y0,x1,y1", "4,7,200,185,220,195",
+                           "5,7,202,185,222,195"},
+                    Layout{"leastAndMost", "frame_id,track_id,xmin,ymin,xmax,ymax,class",
+                           "4,7,200,185,220,195,ball", "5,7,202,185,222,195,ball"},
+                    Layout{"size", "frame,id,bb_left,bb_top,bb_width,bb_height,conf",
+                           "4,7,200,185,20,10,1", "5,7,202,185,20,10,1"},
+                    Layout{"middle", "frame,track,x_center,y_center,width,height",
+                           "4,7,210,190,20,10", "5,7,212,190,20,10"}),
     [](const auto& layout) { return layout.param.name; });
 
 TEST(BoundingBoxes, ofMotChallengeHaveNoNames) {

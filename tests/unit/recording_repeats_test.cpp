@@ -32,8 +32,8 @@ class Repeats : public testing::Test {
     for (std::size_t f = 0; f < poses_[0].size(); ++f) {
       for (std::size_t b = 0; b < poses_.size(); ++b) {
         char row[120];
-        std::snprintf(row, sizeof row, "%zu,%.4f,%zu,%.5f,%.5f\n", f, static_cast<double>(f) / 30, b,
-                      digit * std::round(poses_[b][f].x / digit),
+        std::snprintf(row, sizeof row, "%zu,%.4f,%zu,%.5f,%.5f\n", f, static_cast<double>(f) / 30,
+                      b, digit * std::round(poses_[b][f].x / digit),
                       digit * std::round(poses_[b][f].y / digit));
         table += row;
       }
