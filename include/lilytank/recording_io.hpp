@@ -15,7 +15,7 @@
 namespace lilytank {
 
 enum class RecordingFormat : std::uint8_t {
-  automatic,            ///< told by the file's first lines
+  automatic,            ///< found from the names of the columns
   tidy,                 ///< frame,time,id,x,y[,theta] in SI units: lilytank's own
   swistrack_tracks,     ///< one tab-separated file a track
   swistrack_particles,  ///< one row a particle and frame, without identities
@@ -112,7 +112,7 @@ struct RecordingOptions {
   ColumnNames columns;
   TableLayout layout;
   Calibration calibration;
-  double rate = 0;                  ///< frames per second; 0: from the file's times
+  double rate = 0;                  ///< frame numbers per second; 0: from the file's times
   std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
   bool in_tank = true;              ///< false: places are not checked against a tank
   double tank_radius = 0.30;        ///< m
@@ -133,7 +133,7 @@ struct CheckedRecording {
   Recording recording;  ///< without tracks if it was refused
   RecordingFormat format = RecordingFormat::tidy;
   std::vector<std::string> files;
-  std::int64_t rows = 0;                    ///< sightings in the files
+  std::int64_t rows = 0;  ///< sightings in the files
   RowCounts counts;
   std::int64_t frame_step = 1;  ///< common step of the frame numbers, which the rate is divided by
   std::string times;            ///< how times were read, where that was a guess; or ""
