@@ -100,6 +100,9 @@ struct Finding {
   std::string text() const;
 };
 
+/// About 3 GB of memory while a recording is read and checked.
+constexpr std::int64_t kDefaultMostRows = 20'000'000;
+
 struct RecordingOptions {
   RecordingFormat format = RecordingFormat::automatic;
   std::string name;  ///< empty: the file's name
@@ -108,11 +111,12 @@ struct RecordingOptions {
   ColumnNames columns;
   TableLayout layout;
   Calibration calibration;
-  double rate = 0;                  ///< frames per second; 0: from the file's times
-  std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
-  bool in_tank = true;              ///< false: places are not checked against a tank
-  double tank_radius = 0.30;        ///< m
-  double body_radius = 0;           ///< m, of the body's inscribed circle
+  double rate = 0;                            ///< frames per second; 0: from the file's times
+  std::optional<double> time_unit;            ///< s per unit of the file's times; not told: 1
+  bool in_tank = true;                        ///< false: places are not checked against a tank
+  double tank_radius = 0.30;                  ///< m
+  double body_radius = 0;                     ///< m, of the body's inscribed circle
+  std::int64_t most_rows = kDefaultMostRows;  ///< sightings; more are refused
   CheckRules rules;
 };
 

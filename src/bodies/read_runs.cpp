@@ -6,6 +6,7 @@
 #include "analysis/median.hpp"
 #include "bodies/law.hpp"
 #include "io/bodies_file.hpp"
+#include "io/enough_memory.hpp"
 #include "io/table.hpp"
 #include "io/time_text.hpp"
 #include "text/number.hpp"
@@ -332,7 +333,10 @@ BodyExperiment load_body_experiment(const std::string& file) {
       throw InputError(t.place, "this recording's drivers are not those of the first one");
     }
     e.masses = e.masses || t.mass.given();
-    for (BodyRun& run : TableReader(t, e).read(e.left_out)) e.runs.push_back(std::move(run));
+    for (BodyRun& run :
+         with_enough_memory(t.file, [&] { return TableReader(t, e).read(e.left_out); })) {
+      e.runs.push_back(std::move(run));
+    }
   }
   for (const BodyTable& t : read.tables) {
     if (e.masses && !t.mass.given()) {

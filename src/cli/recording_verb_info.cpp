@@ -100,6 +100,11 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
     }
     std::cout << "\n";
   }
+  if (checked.comment_lines > 0) {
+    std::cout << "  comments  "
+              << counted(static_cast<std::size_t>(checked.comment_lines), "comment line")
+              << " passed over\n";
+  }
   if (!checked.refused()) print_tracks(checked, named.options);
   std::cout << "  findings  " << findings_line(checked.findings) << "\n";
 }
@@ -175,6 +180,12 @@ int recording_check(const Arguments& arguments) {
     print_findings(checked.findings, options.has("all"));
     const Recording& r = checked.recording;
     std::cout << named.name << ": " << counted(static_cast<std::size_t>(checked.rows), "row")
+              << (checked.comment_lines > 0
+                      ? ", " +
+                            counted(static_cast<std::size_t>(checked.comment_lines),
+                                    "comment line") +
+                            " passed over"
+                      : "")
               << ", findings: " << findings_line(checked.findings);
     if (checked.refused()) {
       std::cout << "; refused\n";

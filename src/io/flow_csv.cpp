@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/enough_memory.hpp"
 #include "io/table.hpp"
 #include "lilytank/flow_field.hpp"
 #include "text/number.hpp"
@@ -99,9 +100,11 @@ void check_extent(double extent, double tank_radius, const std::string& file) {
 }  // namespace
 
 FlowField read_flow_csv(const std::string& file, Interpolation interpolation, double tank_radius) {
-  LineSource lines(file);
-  Table table(lines);
-  const std::vector<Row> rows = GridReader(table).read();
+  const std::vector<Row> rows = with_enough_memory(file, [&] {
+    LineSource lines(file);
+    Table table(lines);
+    return GridReader(table).read();
+  });
   int cells = 0;
   double extent = 0;
   for (const Row& row : rows) cells = std::max({cells, row.ix + 1, row.iy + 1});

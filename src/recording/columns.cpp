@@ -51,8 +51,6 @@ Naming naming_of(RecordingFormat format) {
 /// Numbers beyond this are no lengths, times or angles, and would overflow later.
 constexpr double kLargest = 1e12;
 
-constexpr std::size_t kMostRows = 2'000'000'000;
-
 double bounded(const Table& table, int column) {
   const double value = table.number(column);
   if (std::fabs(value) > kLargest) table.refuse(column, table.quoted(column) + " is too large");
@@ -156,10 +154,7 @@ class ColumnReader {
     const bool nowhere = std::isnan(s.x) || std::isnan(s.y);
     if (missing || nowhere) return;  // a gap, which is looked for later
     if (!id && at_.id >= 0) s.id = identity();
-    if (out_->rows.size() >= kMostRows) {
-      throw InputError({table_->file(), table_->line(), 0}, "more than two thousand million rows");
-    }
-    out_->rows.push_back(s);
+    out_->add(s);
   }
 
   std::int64_t whole(int column) const {
@@ -272,7 +267,7 @@ void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
     if (time >= 0) s.time = time_of(table, time, out.times, options.time_unit);
     for (const WideBody& body : bodies) {
       s.id = body.id, s.x = bounded(table, body.x), s.y = bounded(table, body.y);
-      if (!std::isnan(s.x) && !std::isnan(s.y)) out.rows.push_back(s);
+      if (!std::isnan(s.x) && !std::isnan(s.y)) out.add(s);
     }
   }
 }
