@@ -104,6 +104,9 @@ struct Finding {
   std::string text() const;
 };
 
+/// About 3 GB of memory while a recording is read and checked.
+constexpr std::int64_t kDefaultMostRows = 20'000'000;
+
 struct RecordingOptions {
   RecordingFormat format = RecordingFormat::automatic;
   std::string name;  ///< empty: the file's name
@@ -113,10 +116,11 @@ struct RecordingOptions {
   TableLayout layout;
   Calibration calibration;
   double rate = 0;                  ///< frame numbers per second; 0: from the file's times
-  std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
+  std::optional<double> time_unit;  ///< s per unit of the file's times; not given: 1
   bool in_tank = true;              ///< false: places are not checked against a tank
   double tank_radius = 0.30;        ///< m
   double body_radius = 0;           ///< m, of the body's inscribed circle
+  std::int64_t most_rows = kDefaultMostRows;  ///< sightings; more are refused
   CheckRules rules;
 };
 
@@ -125,7 +129,6 @@ struct RowCounts {
   std::int64_t read = 0;              ///< all rows, those below included
   std::int64_t not_seen = 0;          ///< without a position; of wide tables, cells without one
   std::int64_t without_identity = 0;  ///< seen, but assigned to no body
-  std::int64_t comments = 0;          ///< lines passed over, which are no rows
 };
 
 /// A recording and all that was found in it.
@@ -135,6 +138,7 @@ struct CheckedRecording {
   std::vector<std::string> files;
   std::int64_t rows = 0;  ///< sightings in the files
   RowCounts counts;
+  std::int64_t comment_lines = 0;  ///< passed over below the names
   std::int64_t frame_step = 1;  ///< common step of the frame numbers, which the rate is divided by
   std::string times;            ///< how times were read, where that was a guess; or ""
   std::vector<Finding> findings;            ///< by frame and id

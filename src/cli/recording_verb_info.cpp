@@ -52,7 +52,6 @@ std::string left_out_line(const RowCounts& counts) {
   }
   if (counts.not_seen > 0) add(counted(size(counts.not_seen), "sighting") + " without a position");
   if (!out.empty()) out += ", of " + counted(size(counts.read), "row") + " read";
-  if (counts.comments > 0) add(counted(size(counts.comments), "comment line"));
   return out;
 }
 
@@ -116,6 +115,11 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   const std::string left_out = left_out_line(checked.counts);
   if (!left_out.empty()) std::cout << "  left out  " << left_out << "\n";
   if (!checked.times.empty()) std::cout << "  times     " << checked.times << "\n";
+  if (checked.comment_lines > 0) {
+    std::cout << "  comments  "
+              << counted(static_cast<std::size_t>(checked.comment_lines), "comment line")
+              << " passed over\n";
+  }
   if (!checked.refused()) print_tracks(checked, named.options);
   std::cout << "  findings  " << findings_line(checked.findings) << "\n";
 }
@@ -193,6 +197,12 @@ int recording_check(const Arguments& arguments) {
     print_findings(checked.findings, options.has("all"));
     const Recording& r = checked.recording;
     std::cout << named.name << ": " << counted(static_cast<std::size_t>(checked.rows), "row")
+              << (checked.comment_lines > 0
+                      ? ", " +
+                            counted(static_cast<std::size_t>(checked.comment_lines),
+                                    "comment line") +
+                            " passed over"
+                      : "")
               << ", findings: " << findings_line(checked.findings);
     if (checked.refused()) {
       std::cout << "; refused\n";

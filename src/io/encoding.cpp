@@ -25,18 +25,18 @@ constexpr std::uint32_t kUnknown = 0xfffd;
 
 }  // namespace
 
-Encoding encoding_of(std::string_view begin) {
+TextEncoding encoding_of(std::string_view begin) {
   using namespace std::string_view_literals;
-  if (begin.starts_with("\xff\xfe"sv)) return Encoding::utf16_little;
-  if (begin.starts_with("\xfe\xff"sv)) return Encoding::utf16_big;
+  if (begin.starts_with("\xff\xfe"sv)) return TextEncoding::utf16_little;
+  if (begin.starts_with("\xfe\xff"sv)) return TextEncoding::utf16_big;
   constexpr std::size_t kLooked = 16;
-  if (begin.size() < 4) return Encoding::utf8;
+  if (begin.size() < 4) return TextEncoding::utf8;
   bool little = true, big = true;
   for (std::size_t i = 0; i + 1 < begin.size() && i < kLooked; i += 2) {
     little = little && begin[i] != 0 && begin[i + 1] == 0;
     big = big && begin[i] == 0 && begin[i + 1] != 0;
   }
-  return little ? Encoding::utf16_little : big ? Encoding::utf16_big : Encoding::utf8;
+  return little ? TextEncoding::utf16_little : big ? TextEncoding::utf16_big : TextEncoding::utf8;
 }
 
 std::string binary_kind(std::string_view begin) {
@@ -66,7 +66,7 @@ std::string binary_kind(std::string_view begin) {
   }
   constexpr std::size_t kLooked = 1024;
   const bool zeros = begin.substr(0, kLooked).find('\0') != std::string_view::npos;
-  if (!zeros || encoding_of(begin) != Encoding::utf8) return "";
+  if (!zeros || encoding_of(begin) != TextEncoding::utf8) return "";
   return "this is no text table but a binary file: it holds zero bytes";
 }
 

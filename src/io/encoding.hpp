@@ -6,10 +6,10 @@
 
 namespace lilytank {
 
-enum class Encoding : std::uint8_t { utf8, utf16_little, utf16_big };
+enum class TextEncoding : std::uint8_t { utf8, utf16_little, utf16_big };
 
 /// By a byte order mark, or for UTF-16 without one by the zero byte of every ASCII character.
-Encoding encoding_of(std::string_view begin);
+TextEncoding encoding_of(std::string_view begin);
 
 /// What a file that is no text is, by its first bytes: "a picture (PNG)"; "" if it may be text.
 std::string binary_kind(std::string_view begin);

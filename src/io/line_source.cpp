@@ -64,8 +64,8 @@ LineSource::~LineSource() = default;
 void LineSource::begin(std::string_view bytes) {
   const std::string binary = binary_kind(bytes);
   if (!binary.empty()) throw InputError({file_, 1, 1}, binary);
-  const Encoding encoding = encoding_of(bytes);
-  if (encoding != Encoding::utf8) decoder_.emplace(encoding == Encoding::utf16_big);
+  const TextEncoding encoding = encoding_of(bytes);
+  if (encoding != TextEncoding::utf8) decoder_.emplace(encoding == TextEncoding::utf16_big);
 }
 
 bool LineSource::read_block(std::string& out) {

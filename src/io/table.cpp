@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 
@@ -25,6 +26,25 @@ int Table::find(std::string_view name) const {
   const auto number = header_.in_comment ? parse_whole(name) : std::nullopt;
   const bool there = number && *number >= 1 && *number <= static_cast<int>(names().size());
   return there ? static_cast<int>(*number - 1) : -1;
+}
+
+std::vector<int> Table::fixed_columns(const std::vector<std::string>& wanted,
+                                      const std::string& what) const {
+  const SourcePlace where{file(), header_.line, 1};
+  const std::string all = "; " + what + " has the columns " + joined(wanted, ",");
+  std::vector<int> out;
+  for (const std::string& name : wanted) {
+    out.push_back(find(name));
+    if (out.back() >= 0) continue;
+    throw InputError(where,
+                     "there is no column '" + name + "'" + did_you_mean(name, names()) + all);
+  }
+  for (const std::string& name : names()) {
+    if (name.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) continue;
+    throw InputError(where,
+                     "column '" + name + "' is not known" + did_you_mean(name, wanted) + all);
+  }
+  return out;
 }
 
 // From the first rows: a decimal comma in any of them is one in all. Where commas separate cells,
@@ -155,6 +175,12 @@ double Table::number(int column) const {
   if (const auto found = value(column)) return *found;
   if (not_seen(column)) return std::numeric_limits<double>::quiet_NaN();
   refuse(column, quoted(column) + " is not a number" + comma_hint(cell(column)));
+}
+
+double Table::finite(int column) const {
+  const double value = number(column);
+  if (std::isnan(value)) refuse(column, quoted(column) + " is not a finite number");
+  return value;
 }
 
 std::string Table::comma_hint(std::string_view text) const {

@@ -33,6 +33,11 @@ class Table {
   /// name it is the first column; reading a cell of it throws InputError where the others differ.
   int find(std::string_view name) const;
 
+  /// Where the columns of these names are, in any order; others are refused, but for those without
+  /// a name. `what` is the kind of the table: "a flow grid". Throws InputError.
+  std::vector<int> fixed_columns(const std::vector<std::string>& wanted,
+                                 const std::string& what) const;
+
   /// Goes to the next row; false at the end. Throws InputError on a wrong count of cells.
   bool next();
   /// Rows of empty cells between the last row and this one: frames in which nothing was seen, where
@@ -51,6 +56,8 @@ class Table {
   std::string_view plain(int column) const;
   /// The cell as a number; NaN where it is a word for "not seen". Throws InputError on other text.
   double number(int column) const;
+  /// The same, but words for "not seen" are refused as well.
+  double finite(int column) const;
   /// A whole number, also written as "3.0"; nothing where the cell is something else.
   std::optional<std::int64_t> whole(int column) const;
 

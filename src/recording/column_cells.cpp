@@ -10,7 +10,6 @@ namespace lilytank {
 namespace {
 
 constexpr double kLargest = 1e12;
-constexpr std::size_t kMostRows = 2'000'000'000;
 
 /// The column that differs by large and small letters alone, or the nearest word.
 std::string nearest(const std::string& wanted, const Table& table) {
@@ -58,13 +57,6 @@ std::int64_t whole_cell(const Table& table, int column) {
   const auto value = table.whole(column);
   if (!value) table.refuse(column, table.quoted(column) + " is not a whole number");
   return *value;
-}
-
-void add_sighting(const Table& table, const Sighting& sighting, Sightings& out) {
-  if (out.rows.size() >= kMostRows) {
-    throw InputError({table.file(), table.line(), 0}, "more than two thousand million rows");
-  }
-  out.rows.push_back(sighting);
 }
 
 void list_unused(const Table& table, const std::vector<int>& used, Sightings& out) {

@@ -21,8 +21,6 @@ int find_column(const Table& table, const std::string& own, const std::vector<st
 double bounded(const Table& table, int column);
 /// A whole number. Throws InputError.
 std::int64_t whole_cell(const Table& table, int column);
-/// Adds a sighting. Throws InputError at 2e9 of them.
-void add_sighting(const Table& table, const Sighting& sighting, Sightings& out);
 /// Names the columns of a table that are none of `used` in out.unused.
 void list_unused(const Table& table, const std::vector<int>& used, Sightings& out);
 /// Adds a hint, once.

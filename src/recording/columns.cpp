@@ -169,7 +169,7 @@ class ColumnReader {
       s.id = *known;
     }
     if (at_.theta >= 0) s.theta = bounded(*table_, at_.theta);
-    add_sighting(*table_, s, *out_);
+    out_->add(s);
   }
 
   void place(Sighting& s) const {

@@ -107,8 +107,9 @@ void read_sightings(LineSource& lines, const RecordingOptions& options, Sighting
   Table table(lines, options.layout);
   if (out.format == RecordingFormat::automatic) out.format = detect_format(table);
   out.files.push_back(lines.file());
+  out.most_rows = options.most_rows;
   read_columns(table, options, out);
-  out.counts.comments += table.comment_lines();
+  out.comment_lines += table.comment_lines();
 }
 
 Sightings read_sightings(const std::vector<std::string>& files, const RecordingOptions& options) {

@@ -111,6 +111,7 @@ CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
   out.rows = static_cast<std::int64_t>(sightings.rows.size());
   out.unused_columns = sightings.unused;
   out.counts = sightings.counts;
+  out.comment_lines = sightings.comment_lines;
   out.names = sightings.names;
   Report report(options.rules);
   check_columns(sightings, report);

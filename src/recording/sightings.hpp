@@ -49,6 +49,17 @@ struct Sightings {
   std::vector<std::string> unused;                      ///< columns that were not read
   std::vector<std::string> hints;  ///< what columns that were not read may mean
   RowCounts counts;
+  std::int64_t comment_lines = 0;  ///< passed over below the names
+  std::int64_t most_rows = kDefaultMostRows;
+  /// Adds a row of the last file. Throws InputError beyond most_rows.
+  void add(const Sighting& row) {
+    if (static_cast<std::int64_t>(rows.size()) >= most_rows) {
+      throw InputError(place(row), "more than " + std::to_string(most_rows) +
+                                       " sightings, of about 160 bytes of memory each: most_rows "
+                                       "= N reads up to N of them");
+    }
+    rows.push_back(row);
+  }
   SourcePlace place(const Sighting& row) const {
     return {files[static_cast<std::size_t>(row.file)], row.line, 0};
   }

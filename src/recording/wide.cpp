@@ -134,7 +134,7 @@ class WideReader {
     if (std::isnan(s.x) || std::isnan(s.y)) {
       ++out_->counts.not_seen;
     } else {
-      add_sighting(*table_, s, *out_);
+      out_->add(s);
     }
   }
 

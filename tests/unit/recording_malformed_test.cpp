@@ -31,14 +31,15 @@ INSTANTIATE_TEST_SUITE_P(
              "tracks.csv:1:1: these columns are of no format that is known"},
         Case{"noX", "frame,time,id,y\n0,0,0,1\n",
              "tracks.csv:1:1: these columns are of no format that is known"},
-        Case{"twice", "frame,time,id,x,y,x\n0,0,0,1,1,1\n",
-             "tracks.csv:1:1: two columns are called 'x'"},
+        Case{"twice", "frame,time,id,x,y,x\n0,0,0,1,1,2\n",
+             "tracks.csv:2: two columns are called 'x' (4 and 6), and differ: '1', '2'"},
         Case{"tooFew", kHead + "1,0.04,0,0.1\n", "tracks.csv:3:1: 4 columns instead of 5"},
         Case{"tooMany", kHead + "1,0.04,0,0.1,0,0\n", "tracks.csv:3:1: 6 columns instead of 5"},
         Case{"text", kHead + "1,0.04,0,far,0\n", "tracks.csv:3:10: x 'far' is not a number"},
         Case{"hexadecimal", kHead + "1,0.04,0,0x1,0\n", "tracks.csv:3:10: x '0x1' is not a number"},
-        Case{"decimalComma", "frame;time;id;x;y\n0;0;0;0,1;0\n",
-             "tracks.csv:2:7: x '0,1' is not a number"},
+        Case{"ambiguousComma", "frame;time;id;x;y\n0;0;0;1,234;0\n",
+             "tracks.csv:2:7: x '1,234' is not a number: if the comma is a decimal comma, "
+             "decimal_comma = true reads it"},
         Case{"halfFrame", kHead + "1.5,0.04,0,0.1,0\n",
              "tracks.csv:3:1: frame '1.5' is not a whole number"},
         Case{"hugeFrame", kHead + "99999999999999999999,0.04,0,0.1,0\n",
@@ -74,6 +75,14 @@ TEST(MalformedFiles, cutAndDamagedCompression) {
   std::string wrong_sum = whole;
   wrong_sum[whole.size() - 6] ^= 1;  // of the checksum
   EXPECT_NE(complaint(wrong_sum, {}, "a.csv.gz").find("compression is damaged"), std::string::npos);
+}
+
+TEST(MalformedFiles, moreSightingsThanAllowed) {
+  RecordingOptions options;
+  options.most_rows = 1;
+  EXPECT_EQ(complaint(kHead + "1,0.04,0,0.1,0\n", options),
+            "tracks.csv:3: more than 1 sightings, of about 160 bytes of memory each: most_rows = N "
+            "reads up to N of them");
 }
 
 TEST(MalformedFiles, missingFilesAndEmptyFolders) {
