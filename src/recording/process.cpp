@@ -60,6 +60,29 @@ std::string times_text(const Sightings& s, const RecordingOptions& options) {
   }
 }
 
+/// Repeats are judged along tracks, which rows without identities do not have yet: they are linked
+/// on trial, and rows that the check marks are removed before the rows are linked for good.
+void check_unlinked_repeats(Sightings& s, const RecordingOptions& options, Report& report) {
+  CheckRules rules = options.rules;
+  rules[Check::clock] = rules[Check::link] = Treatment::keep;
+  rules.least_jump = 2 * std::max(rules.least_jump, options.body_radius);  // to bridge a held pose
+  Report quiet(rules);
+  Sightings trial = s;
+  const bool numbered = std::all_of(s.rows.begin(), s.rows.end(),
+                                    [](const Sighting& row) { return row.frame != kNoFrame; });
+  const FrameClock clock = find_clock(trial, options, quiet);
+  if (quiet.refused()) return;
+  link(trial, clock, options, quiet);
+  for (Sighting& row : trial.rows) row.frame = numbered ? clock.number(row.frame) : kNoFrame;
+  check_repeats(trial, report);
+  std::set<std::pair<std::int32_t, std::int32_t>> marked;
+  for (const Sighting& row : trial.rows) {
+    if (row.unseen) marked.emplace(row.file, row.line);
+  }
+  if (marked.empty()) return;
+  std::erase_if(s.rows, [&](const Sighting& row) { return marked.contains({row.file, row.line}); });
+}
+
 FrameClock make_recording(Sightings& s, const RecordingOptions& options, Report& report,
                           Recording& out) {
   // An empty column of headings is none.
@@ -68,7 +91,11 @@ FrameClock make_recording(Sightings& s, const RecordingOptions& options, Report&
                });
   to_metres(s, options, report);
   const bool single = !s.identities && one_body(s);
-  if (s.identities || single) check_repeats(s, report);
+  if (s.identities || single) {
+    check_repeats(s, report);
+  } else {
+    check_unlinked_repeats(s, options, report);
+  }
   check_lengths(s, options, report);
   if (report.refused()) return {};
   const FrameClock clock = find_clock(s, options, report);
@@ -101,7 +128,13 @@ std::string name_of(const RecordingOptions& options, const std::string& file) {
 
 CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
   const SourcePlace file{sightings.files.front(), 0, 0};
-  if (sightings.rows.empty()) throw InputError(file, "there is no sighting in it");
+  if (sightings.rows.empty()) {
+    const std::int64_t read = sightings.counts.read;
+    throw InputError(file, "there is no sighting in it" +
+                               (read > 0 ? ": " + std::to_string(read) +
+                                               " rows were read, none of them has a position"
+                                         : ""));
+  }
   CheckedRecording out;
   Recording& r = out.recording;
   r.name = name_of(options, file.file);

@@ -71,7 +71,7 @@ TEST_F(Repeats, heldPosesAreMarked) {
       "holds its pose to the last digit for 30 frames, up to frame 130, and is "))
       << found[0].what;
   for (const Track& track : c.recording.tracks) {
-    if (track.id == 2) EXPECT_TRUE(track.last() <= 100 || track.first > 130);
+    EXPECT_TRUE(track.id != 2 || track.last() <= 100 || track.first > 130);
   }
   RecordingOptions options;
   options.rules[Check::repeat] = Treatment::keep;
@@ -104,6 +104,16 @@ TEST_F(Repeats, framesWrittenTwiceHalveTheClock) {
   EXPECT_EQ(c.recording.frames, 150);
   ASSERT_EQ(c.recording.tracks.size(), 4u);
   for (const Track& track : c.recording.tracks) EXPECT_EQ(track.x.size(), 150u);
+}
+
+TEST_F(Repeats, framesWrittenTwiceAreFoundWithoutIdentities) {
+  double_frames();
+  RecordingOptions options;
+  options.columns.id = "-";
+  const CheckedRecording c = check(1e-5, options);
+  EXPECT_EQ(of_kind(c, Check::repeat).size(), 1u) << all_texts(c);
+  EXPECT_DOUBLE_EQ(c.recording.rate, 15);
+  EXPECT_EQ(c.recording.tracks.size(), 4u);
 }
 
 TEST_F(Repeats, aSingleFrameWrittenTwiceIsMarked) {
