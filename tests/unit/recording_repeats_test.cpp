@@ -109,7 +109,7 @@ TEST_F(Repeats, framesWrittenTwiceHalveTheClock) {
 TEST_F(Repeats, framesWrittenTwiceAreFoundWithoutIdentities) {
   double_frames();
   RecordingOptions options;
-  options.columns.id = "-";
+  options.columns.id = "-", options.body_radius = 0.0175;
   const CheckedRecording c = check(1e-5, options);
   EXPECT_EQ(of_kind(c, Check::repeat).size(), 1u) << all_texts(c);
   EXPECT_DOUBLE_EQ(c.recording.rate, 15);
