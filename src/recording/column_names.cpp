@@ -21,9 +21,8 @@ std::string plain(std::string_view name) {
 
 const std::vector<std::string_view>& words_of(ColumnRole role) {
   static const std::vector<std::string_view> frame{
-      "frame",      "frames",      "frameno",    "framenr",  "framenumber",
-      "frameindex", "frameidx",    "frameid",    "framenum", "image",
-      "imageid",    "imagenumber", "imageindex", "slice",    "framecount"};
+      "frame",    "frames",  "frameno",  "framenr",     "framenumber", "frameindex",
+      "frameidx", "frameid", "framenum", "imagenumber", "imageindex"};
   static const std::vector<std::string_view> time{
       "time",    "times",     "timestamp", "timestamps", "timestampms", "timems", "timesec",
       "seconds", "positiont", "datetime",  "date",       "msec",        "t"};
