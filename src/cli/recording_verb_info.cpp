@@ -62,7 +62,7 @@ struct Numbers {
 
 Numbers numbers_of(const Recording& r) {
   Numbers n;
-  std::vector<double> steps;
+  std::vector<double> steps, over_holes;  // m a frame
   std::int64_t last = -1;
   for (const Track& track : r.tracks) {
     n.bodies += n.bodies == 0 || track.id != last ? 1 : 0;
@@ -72,10 +72,15 @@ Numbers numbers_of(const Recording& r) {
       if (std::isnan(track.x[i])) continue;
       ++n.seen;
       n.farthest = std::max(n.farthest, std::hypot(track.x[i], track.y[i]));
-      if (i == 0 || std::isnan(track.x[i - 1])) continue;
-      steps.push_back(std::hypot(track.x[i] - track.x[i - 1], track.y[i] - track.y[i - 1]));
+      std::size_t before = i;
+      while (before > 0 && std::isnan(track.x[before - 1])) --before;
+      if (before == 0) continue;
+      const std::size_t from = before - 1;
+      const double way = std::hypot(track.x[i] - track.x[from], track.y[i] - track.y[from]);
+      (from + 1 == i ? steps : over_holes).push_back(way / static_cast<double>(i - from));
     }
   }
+  if (steps.empty()) steps = std::move(over_holes);
   if (!steps.empty()) n.typical_step = median(std::move(steps));
   return n;
 }
