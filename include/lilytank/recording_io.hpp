@@ -10,11 +10,12 @@
 
 #include "lilytank/error.hpp"
 #include "lilytank/recording.hpp"
+#include "lilytank/table_layout.hpp"
 
 namespace lilytank {
 
 enum class RecordingFormat : std::uint8_t {
-  automatic,            ///< told by the file's first lines
+  automatic,            ///< found from the names of the columns
   tidy,                 ///< frame,time,id,x,y[,theta] in SI units: lilytank's own
   swistrack_tracks,     ///< one tab-separated file a track
   swistrack_particles,  ///< one row a particle and frame, without identities
@@ -23,6 +24,7 @@ enum class RecordingFormat : std::uint8_t {
   idtracker_wide,       ///< time,x1,y1,x2,y2,...
   trex,                 ///< one file an individual, cm
   fasttrack,            ///< xBody, yBody, tBody, imageNumber, id in pixels
+  boxes,                ///< one row a bounding box: frame, id, x1, y1, x2, y2 in pixels, y down
   table,                ///< any other, by RecordingOptions::columns
 };
 /// The word for a format in files and on the command line: "tidy", "swistrack-tracks", ...
@@ -60,8 +62,10 @@ enum class Check : std::uint8_t {
   clock,      ///< times and frame numbers disagree, or times are uneven
   units,      ///< lengths or angles are in another unit than said
   heading,    ///< a heading leaps by more than a body can turn
+  repeat,     ///< a moving body has exactly the pose of its last sighting, or is at exactly 0, 0
+  columns,    ///< a column that is not used looks like one that matters
 };
-constexpr int kChecks = 11;
+constexpr int kChecks = 13;
 std::string check_word(Check check);
 
 /// What is done about a finding. A position is never moved, filled in, or given to another body.
@@ -95,9 +99,13 @@ struct Finding {
   std::int64_t frame = -1;  ///< the file's number; -1: the whole file
   std::int64_t id = -1;     ///< -1: all bodies
   std::string what;         ///< "not seen in 12 frames, 0.4 s"
+  std::string name;         ///< of the body, where the file has words for ids
   /// "balls.csv:120: frame 4, id 3, gap: not seen in 12 frames, 0.4 s (track cut)"
   std::string text() const;
 };
+
+/// About 3 GB of memory while a recording is read and checked.
+constexpr std::int64_t kDefaultMostRows = 20'000'000;
 
 struct RecordingOptions {
   RecordingFormat format = RecordingFormat::automatic;
@@ -105,13 +113,22 @@ struct RecordingOptions {
   BodyKind body = BodyKind::lily;
   bool latches = true, held_out = false;
   ColumnNames columns;
+  TableLayout layout;
   Calibration calibration;
-  double rate = 0;                  ///< frames per second; 0: from the file's times
-  std::optional<double> time_unit;  ///< s per unit of the file's times; not told: 1
+  double rate = 0;                  ///< frame numbers per second; 0: from the file's times
+  std::optional<double> time_unit;  ///< s per unit of the file's times; not given: 1
   bool in_tank = true;              ///< false: places are not checked against a tank
   double tank_radius = 0.30;        ///< m
   double body_radius = 0;           ///< m, of the body's inscribed circle
+  std::int64_t most_rows = kDefaultMostRows;  ///< sightings; more are refused
   CheckRules rules;
+};
+
+/// Rows of a recording's files that are no sightings.
+struct RowCounts {
+  std::int64_t read = 0;              ///< all rows, those below included
+  std::int64_t not_seen = 0;          ///< without a position; of wide tables, cells without one
+  std::int64_t without_identity = 0;  ///< seen, but assigned to no body
 };
 
 /// A recording and all that was found in it.
@@ -119,7 +136,11 @@ struct CheckedRecording {
   Recording recording;  ///< without tracks if it was refused
   RecordingFormat format = RecordingFormat::tidy;
   std::vector<std::string> files;
-  std::int64_t rows = 0;                    ///< sightings in the files
+  std::int64_t rows = 0;  ///< sightings in the files
+  RowCounts counts;
+  std::int64_t comment_lines = 0;  ///< passed over below the names
+  std::int64_t frame_step = 1;  ///< common step of the frame numbers, which the rate is divided by
+  std::string times;            ///< how times were read, where that was a guess; or ""
   std::vector<Finding> findings;            ///< by frame and id
   std::vector<std::string> names;           ///< of bodies, by id, where the file has words for ids
   std::vector<std::string> unused_columns;  ///< of the last file

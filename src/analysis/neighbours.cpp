@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/frames_view.hpp"
+#include "analysis/median.hpp"
 #include "lilytank/distributions.hpp"
 
 namespace lilytank {
@@ -87,6 +88,18 @@ double gap(const SeenBody& a, const SeenBody& b, const ContactRule& rule) {
   return std::max(gap_along(a, b, rule.size), gap_along(b, a, rule.size));
 }
 
+// Frames from one that shows bodies to the next: 1, unless most frames are holes.
+std::size_t usual_spacing(const FramesView& frames) {
+  std::vector<double> steps;
+  std::size_t last = frames.frames();
+  for (std::size_t f = 0; f < frames.frames(); ++f) {
+    if (frames.begin(f) == frames.end(f)) continue;
+    if (last < f) steps.push_back(static_cast<double>(f - last));
+    last = f;
+  }
+  return steps.empty() ? 1 : std::max<std::size_t>(1, static_cast<std::size_t>(median(steps)));
+}
+
 // A contact that goes on.
 struct Touch {
   bool on = false;
@@ -99,6 +112,7 @@ class ContactFinder {
   ContactFinder(const SmoothRecording& recording, const ContactRule& rule)
       : rule_(rule),
         frames_(recording),
+        spacing_(usual_spacing(frames_)),
         interval_(1 / recording.rate),
         touches_(frames_.bodies() * frames_.bodies()) {
     out_.begun = empty_sums(recording, frames_, 1);
@@ -115,7 +129,7 @@ class ContactFinder {
     const SeenBody* const last = frames_.end(f);
     touching_.assign(frames_.bodies(), false);
     for (const SeenBody* a = frames_.begin(f); a != last; ++a) {
-      out_.begun.weight[a->body] += interval_;
+      out_.begun.weight[a->body] += static_cast<double>(spacing_) * interval_;
       out_.touching.weight[a->body] += 1;
       for (const SeenBody* b = a + 1; b != last; ++b) look_at_pair(f, *a, *b);
     }
@@ -125,7 +139,7 @@ class ContactFinder {
     const auto [low, high] = std::minmax(a.body, b.body);
     Touch& t = touches_[low * frames_.bodies() + high];
     // One of them was lost for a while: what happened meanwhile is not known.
-    const bool known = f > 0 && t.seen + 1 == f && ever_.contains(low, high);
+    const bool known = f > 0 && t.seen + spacing_ >= f && ever_.contains(low, high);
     if (t.on && !known) end(t, t.seen, false);
     const double space = gap(a, b, rule_);
     if (t.on && space > rule_.apart) end(t, f, true);
@@ -152,6 +166,7 @@ class ContactFinder {
   };
   ContactRule rule_;
   FramesView frames_;
+  std::size_t spacing_;
   double interval_;
   std::vector<Touch> touches_;  // [low * bodies + high]
   Pairs ever_{std::vector<bool>(frames_.bodies() * frames_.bodies()), frames_.bodies()};

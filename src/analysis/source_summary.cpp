@@ -108,8 +108,12 @@ void add_velocities(const SmoothSource& source, const Values& lags, const Bootst
       ratio_values(together(source.recordings,
                             [&](const SmoothRecording& r) { return velocity_products(r, lags); }),
                    true);
-  for (std::size_t i = 1; i < acf.size() && acf[i] > 0; ++i) {
-    s.velocity_memory += 0.5 * (acf[i] + acf[i - 1]) * (lags[i] - lags[i - 1]);
+  std::size_t last = 0;  // of holes between sightings there is no product: the last one counts
+  for (std::size_t i = 1; i < acf.size(); ++i) {
+    if (std::isnan(acf[i])) continue;
+    if (!(acf[i] > 0)) break;
+    s.velocity_memory += 0.5 * (acf[i] + acf[last]) * (lags[i] - lags[last]);
+    last = i;
   }
   double seen = 0;  // s
   for (const SmoothRecording& r : source.recordings) {

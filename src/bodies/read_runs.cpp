@@ -6,7 +6,10 @@
 #include "analysis/median.hpp"
 #include "bodies/law.hpp"
 #include "io/bodies_file.hpp"
+#include "io/enough_memory.hpp"
 #include "io/table.hpp"
+#include "io/time_text.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -35,10 +38,21 @@ double of_body(const BodyFigures& numbers, std::size_t index, const std::string&
   return numbers.values.size() == 1 ? numbers.values[0] : numbers.values[index];
 }
 
-// The rows of a run as they come.
+/// A row of the table.
+struct Row {
+  double time = 0;
+  int line = 0;
+  std::size_t body = 0;   ///< index into Rows::bodies
+  std::size_t cells = 0;  ///< index into Rows::values, of its positions and then its drivers
+};
+
+/// The rows of a run, and what they say at every time.
 struct Rows {
   std::string name;
   std::vector<std::string> bodies;
+  std::vector<Row> rows;
+  std::vector<double> values;
+
   std::vector<double> time, drivers;
   std::vector<std::vector<double>> cells;
   std::vector<int> lines;  // of each body's row at the last time; 0: it has none yet
@@ -48,10 +62,18 @@ bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));  // empty cells say the same
 }
 
+/// Whether a name comes before another one; numbers by their size.
+bool name_before(const std::string& a, const std::string& b) {
+  const auto one = parse_number(a), other = parse_number(b);
+  if (one && other && *one != *other) return *one < *other;
+  if (one.has_value() != other.has_value()) return one.has_value();
+  return a < b;
+}
+
 class TableReader {
  public:
   TableReader(const BodyTable& t, const BodyExperiment& e)
-      : t_(&t), e_(&e), lines_(t.file), table_(lines_) {
+      : t_(&t), e_(&e), lines_(t.file), table_(lines_, t.layout) {
     time_ = column(table_, t.time), body_ = column(table_, t.body), run_ = column(table_, t.run);
     for (std::size_t i = 0; i < t.x.size(); ++i) {
       places_.push_back(column(table_, t.x[i]));
@@ -66,17 +88,36 @@ class TableReader {
     }
   }
 
-  // What is too short is told in `left_out`.
+  // Rows that are left out are counted in `left_out`.
   std::vector<BodyRun> read(std::vector<std::string>& left_out) {
-    while (table_.next()) row();
+    while (table_.next()) take_row();
+    count(nameless_, "row",
+          std::string(" without a ") + (body_ >= 0 ? "body" : "run") + " left out", left_out);
+    count(table_.comment_lines(), "comment line", " passed over", left_out);
+    if (!ordered_) std::sort(order_.begin(), order_.end(), name_before);
     std::vector<BodyRun> out;
-    for (const std::string& key : order_) finish(runs_.at(key), out, left_out);
+    for (const std::string& key : order_) {
+      Rows& r = runs_.at(key);
+      if (!ordered_) sort(r);
+      for (const Row& row : r.rows) put(r, row);
+      finish(r, out, left_out);
+    }
     if (out.empty()) throw InputError({t_->file, 1, 1}, "no run has eight rows or more");
     return out;
   }
 
  private:
-  void row() {
+  static constexpr std::int64_t kMostRows = 10'000'000;  // of about 200 bytes
+
+  void take_row() {
+    if ((body_ >= 0 && table_.not_seen(body_)) || (run_ >= 0 && table_.not_seen(run_))) {
+      ++nameless_;
+      return;
+    }
+    if (++rows_ > kMostRows) {
+      throw InputError({table_.file(), table_.line(), 0},
+                       "more than " + std::to_string(kMostRows) + " rows: thin the table");
+    }
     std::string name, body;
     if (body_ >= 0) name = body = std::string(table_.cell(body_));
     if (run_ >= 0) name += (name.empty() ? "" : " ") + std::string(table_.cell(run_));
@@ -85,63 +126,78 @@ class TableReader {
     auto [found, fresh] = runs_.try_emplace(name);
     Rows& r = found->second;
     if (fresh) order_.push_back(name), r.name = name;
-    const double time = table_.number(time_);
-    if (std::isnan(time)) table_.refuse(time_, table_.quoted(time_) + " is not a time");
-    if (!r.time.empty() && time < r.time.back()) {
-      table_.refuse(time_, table_.quoted(time_) + " is before the row above");
-    }
-    if (r.time.empty() || time > r.time.back()) {
-      const std::vector<double> drivers = driver_cells();
-      r.time.push_back(time), r.cells.emplace_back();
-      r.drivers.insert(r.drivers.end(), drivers.begin(), drivers.end());
-      r.lines.assign(r.bodies.size(), 0);
-    }
-    put(r, body);
+    const double time = time_of(table_, time_, times_, t_->time_unit);
+    if (!r.rows.empty() && time < r.rows.back().time) ordered_ = false;
+    r.rows.push_back({time, table_.line(), number_of(body, r), r.values.size()});
+    for (const int c : places_) r.values.push_back(position(c));
+    for (const int d : drivers_) r.values.push_back(table_.finite(d));
   }
 
-  std::vector<double> driver_cells() const {
-    std::vector<double> out;
-    for (const int d : drivers_) {
-      out.push_back(table_.number(d));
-      if (std::isnan(out.back())) table_.refuse(d, table_.quoted(d) + " is not a number");
+  double position(int column) const {
+    const double value = table_.number(column) * t_->scale;
+    if (std::fabs(value) > 1e12) table_.refuse(column, table_.quoted(column) + " is too large");
+    return value;
+  }
+
+  void count(std::int64_t lines, const std::string& noun, const std::string& done,
+             std::vector<std::string>& left_out) const {
+    if (lines == 0) return;
+    left_out.push_back(t_->file.substr(t_->file.find_last_of('/') + 1) + ": " +
+                       std::to_string(lines) + " " + noun + (lines == 1 ? "" : "s") + done);
+  }
+
+  // By time, so that rows may stand in any order; bodies by name, so that it makes no difference.
+  void sort(Rows& r) const {
+    std::stable_sort(r.rows.begin(), r.rows.end(),
+                     [](const Row& a, const Row& b) { return a.time < b.time; });
+    if (wide()) return;
+    const std::vector<std::string> before = r.bodies;
+    std::sort(r.bodies.begin(), r.bodies.end(), name_before);
+    std::vector<std::size_t> now;
+    for (const std::string& body : before) {
+      const auto at = std::find(r.bodies.begin(), r.bodies.end(), body);
+      now.push_back(static_cast<std::size_t>(at - r.bodies.begin()));
     }
-    return out;
+    for (Row& row : r.rows) row.body = now[row.body];
   }
 
   // A row of one body, or of all of them.
-  void put(Rows& r, const std::string& body) {
+  void put(Rows& r, const Row& row) const {
+    const auto here = r.values.begin() + static_cast<std::ptrdiff_t>(row.cells);
+    const auto end = here + static_cast<std::ptrdiff_t>(places_.size());
+    const auto drivers_end = end + static_cast<std::ptrdiff_t>(drivers_.size());
+    if (r.time.empty() || row.time > r.time.back()) {
+      r.time.push_back(row.time), r.cells.emplace_back();
+      r.drivers.insert(r.drivers.end(), end, drivers_end);
+      r.lines.assign(r.bodies.size(), 0);
+    }
     std::vector<double>& to = r.cells.back();
-    const std::size_t b = number_of(body, r);
-    const std::vector<double> here = cells();
-    const std::size_t at = b * static_cast<std::size_t>(e_->dimensions);
-    to.resize(std::max(to.size(), at + here.size()), NAN);
+    const std::size_t at = row.body * static_cast<std::size_t>(e_->dimensions);
+    to.resize(std::max(to.size(), at + places_.size()), NAN);
     const auto before = to.begin() + static_cast<std::ptrdiff_t>(at);
-    if (r.lines[b] != 0) {
-      // A row that a tracker wrote twice says nothing new.
-      if (!std::equal(here.begin(), here.end(), before, same) || !same_drivers(r)) {
-        refuse_second(r.lines[b]);
-      }
+    if (r.lines[row.body] == 0) {
+      r.lines[row.body] = row.line;
+      std::copy(here, end, before);
       return;
     }
-    r.lines[b] = table_.line();
-    std::copy(here.begin(), here.end(), before);
+    // A row that a tracker wrote twice says nothing new. Bodies together share the drivers of the
+    // first of them, so those of others are not compared.
+    const auto drivers_here = r.drivers.end() - static_cast<std::ptrdiff_t>(drivers_.size());
+    const bool shared = t_->together && !wide();
+    if (std::equal(here, end, before, same) &&
+        (shared || std::equal(end, drivers_end, drivers_here))) {
+      return;
+    }
+    refuse_second(r.lines[row.body], row.line);
   }
 
   bool wide() const { return t_->x.size() > 1; }
-
-  // Bodies together share the drivers of the first of them, so those of others are not looked at.
-  bool same_drivers(const Rows& r) const {
-    if (t_->together && !wide()) return true;
-    const std::vector<double> here = driver_cells();
-    return std::equal(here.rbegin(), here.rend(), r.drivers.rbegin());
-  }
 
   // The place of a row's body among those of its run; of wide tables, that of the first.
   std::size_t number_of(const std::string& body, Rows& r) const {
     if (wide()) {
       if (r.bodies.empty()) {
         for (const NamedAt& x : t_->x) r.bodies.push_back(x.name);
-        r.lines.assign(r.bodies.size(), 0);
       }
       return 0;
     }
@@ -152,18 +208,22 @@ class TableReader {
       table_.refuse(body_ >= 0 ? body_ : time_,
                     "more than " + std::to_string(most) + " bodies together");
     }
-    r.bodies.push_back(body), r.lines.push_back(0);
+    r.bodies.push_back(body);
     return r.bodies.size() - 1;
   }
 
   // Two rows of one body, run and time that say different things: one of them would be lost.
-  [[noreturn]] void refuse_second(int first) const {
+  [[noreturn]] void refuse_second(int first, int second) const {
     std::string missing;
     if (body_ < 0 && !wide()) missing = "recording.body";
     if (run_ < 0) missing += (missing.empty() ? "" : " or ") + std::string("recording.run");
-    table_.refuse(time_, table_.quoted(time_) + " is that of line " + std::to_string(first) +
-                             " too, with other values" +
-                             (missing.empty() ? "" : ": is there no column for " + missing + "?"));
+    LineSource lines(t_->file);
+    Table table(lines, t_->layout);
+    while (table.next() && table.line() < second) {
+    }
+    table.refuse(time_, table.quoted(time_) + " is that of line " + std::to_string(first) +
+                            " too, with other values" +
+                            (missing.empty() ? "" : ": is there no column for " + missing + "?"));
   }
 
   // Leaves one row in `every`.
@@ -232,16 +292,6 @@ class TableReader {
     return run;
   }
 
-  std::vector<double> cells() const {
-    std::vector<double> out;
-    for (const int c : places_) {
-      const double value = table_.number(c) * t_->scale;
-      if (std::fabs(value) > 1e12) table_.refuse(c, table_.quoted(c) + " is too large");
-      out.push_back(value);
-    }
-    return out;
-  }
-
   const BodyTable* t_;
   const BodyExperiment* e_;
   LineSource lines_;
@@ -250,6 +300,9 @@ class TableReader {
   std::vector<int> places_, drivers_;
   std::map<std::string, Rows> runs_;
   std::vector<std::string> order_;
+  TimeText times_;
+  bool ordered_ = true;  ///< times do not fall in any run
+  std::int64_t rows_ = 0, nameless_ = 0;
 };
 
 void find_latitude(const NamedAt& latitude, BodyExperiment& e) {
@@ -280,7 +333,10 @@ BodyExperiment load_body_experiment(const std::string& file) {
       throw InputError(t.place, "this recording's drivers are not those of the first one");
     }
     e.masses = e.masses || t.mass.given();
-    for (BodyRun& run : TableReader(t, e).read(e.left_out)) e.runs.push_back(std::move(run));
+    for (BodyRun& run :
+         with_enough_memory(t.file, [&] { return TableReader(t, e).read(e.left_out); })) {
+      e.runs.push_back(std::move(run));
+    }
   }
   for (const BodyTable& t : read.tables) {
     if (e.masses && !t.mass.given()) {

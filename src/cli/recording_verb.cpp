@@ -35,7 +35,7 @@ bool is_one_track(const std::string& file, const RecordingOptions& options) {
   if (!fs::is_regular_file(file, ignored)) return false;
   if (options.format != RecordingFormat::automatic) return one_file_a_track(options.format);
   LineSource lines(file);
-  return one_file_a_track(detect_format(lines));
+  return one_file_a_track(detect_format(Table(lines, options.layout)));
 }
 
 void add_experiment(const std::string& file, const VerbOptions& options,

@@ -9,6 +9,7 @@
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -41,6 +42,19 @@ std::string findings_line(const std::vector<Finding>& findings) {
   return out.empty() ? "none" : out;
 }
 
+/// "2 rows without identity, 4 sightings without a position, of 900 rows read"; "" if nothing is.
+std::string left_out_line(const RowCounts& counts) {
+  const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+  std::string out;
+  const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
+  if (counts.without_identity > 0) {
+    add(counted(size(counts.without_identity), "row") + " without identity");
+  }
+  if (counts.not_seen > 0) add(counted(size(counts.not_seen), "sighting") + " without a position");
+  if (!out.empty()) out += ", of " + counted(size(counts.read), "row") + " read";
+  return out;
+}
+
 struct Numbers {
   std::size_t bodies = 0, seen = 0, frames = 0;
   double farthest = 0, typical_step = 0;
@@ -48,7 +62,7 @@ struct Numbers {
 
 Numbers numbers_of(const Recording& r) {
   Numbers n;
-  std::vector<double> steps;
+  std::vector<double> steps, over_holes;  // m a frame
   std::int64_t last = -1;
   for (const Track& track : r.tracks) {
     n.bodies += n.bodies == 0 || track.id != last ? 1 : 0;
@@ -58,10 +72,15 @@ Numbers numbers_of(const Recording& r) {
       if (std::isnan(track.x[i])) continue;
       ++n.seen;
       n.farthest = std::max(n.farthest, std::hypot(track.x[i], track.y[i]));
-      if (i == 0 || std::isnan(track.x[i - 1])) continue;
-      steps.push_back(std::hypot(track.x[i] - track.x[i - 1], track.y[i] - track.y[i - 1]));
+      std::size_t before = i;
+      while (before > 0 && std::isnan(track.x[before - 1])) --before;
+      if (before == 0) continue;
+      const std::size_t from = before - 1;
+      const double way = std::hypot(track.x[i] - track.x[from], track.y[i] - track.y[from]);
+      (from + 1 == i ? steps : over_holes).push_back(way / static_cast<double>(i - from));
     }
   }
+  if (steps.empty()) steps = std::move(over_holes);
   if (!steps.empty()) n.typical_step = median(std::move(steps));
   return n;
 }
@@ -73,7 +92,11 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
       static_cast<double>(n.seen) / (static_cast<double>(n.bodies) * static_cast<double>(r.frames));
   std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
             << with_digits(r.rate, 6) << " /s, from " << with_digits(r.start, 6) << " s to "
-            << with_digits(r.time(r.frames - 1), 6) << " s\n"
+            << with_digits(r.time(r.frames - 1), 6) << " s"
+            << (checked.frame_step > 1
+                    ? "; frame numbers have a common step of " + std::to_string(checked.frame_step)
+                    : "")
+            << "\n"
             << "  bodies    " << n.bodies << " in " << counted(r.tracks.size(), "track")
             << ", seen " << with_digits(100 * share, 4) << " % of the time"
             << (r.has_heading() ? ", with headings" : "") << "\n"
@@ -91,14 +114,16 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
             << counted(static_cast<std::size_t>(checked.rows), "row") << "; body "
             << body_word(r.body) << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
             << (r.held_out ? ", held out" : "") << "\n";
-  const bool ours =
-      checked.format == RecordingFormat::tidy || checked.format == RecordingFormat::table;
-  if (ours && !checked.unused_columns.empty()) {
-    std::cout << "  not used  ";
-    for (std::size_t i = 0; i < checked.unused_columns.size(); ++i) {
-      std::cout << (i == 0 ? "" : ", ") << checked.unused_columns[i];
-    }
-    std::cout << "\n";
+  if (!checked.unused_columns.empty()) {
+    std::cout << "  not used  " << joined(checked.unused_columns, ", ") << "\n";
+  }
+  const std::string left_out = left_out_line(checked.counts);
+  if (!left_out.empty()) std::cout << "  left out  " << left_out << "\n";
+  if (!checked.times.empty()) std::cout << "  times     " << checked.times << "\n";
+  if (checked.comment_lines > 0) {
+    std::cout << "  comments  "
+              << counted(static_cast<std::size_t>(checked.comment_lines), "comment line")
+              << " passed over\n";
   }
   if (!checked.refused()) print_tracks(checked, named.options);
   std::cout << "  findings  " << findings_line(checked.findings) << "\n";
@@ -110,8 +135,10 @@ std::string csv_row(const Finding& f) {
   std::replace(what.begin(), what.end(), '"', '\'');
   return f.place.file + "," + (f.place.line > 0 ? std::to_string(f.place.line) : "") + "," +
          (f.frame >= 0 ? std::to_string(f.frame) : "") + "," +
-         (f.id >= 0 ? std::to_string(f.id) : "") + "," + check_word(f.check) + "," +
-         treatment_word(f.treatment) + "," + what + "\n";
+         (f.id < 0         ? ""
+          : f.name.empty() ? std::to_string(f.id)
+                           : f.name) +
+         "," + check_word(f.check) + "," + treatment_word(f.treatment) + "," + what + "\n";
 }
 
 /// Findings, of each kind so many that one reads them.
@@ -175,12 +202,20 @@ int recording_check(const Arguments& arguments) {
     print_findings(checked.findings, options.has("all"));
     const Recording& r = checked.recording;
     std::cout << named.name << ": " << counted(static_cast<std::size_t>(checked.rows), "row")
+              << (checked.comment_lines > 0
+                      ? ", " +
+                            counted(static_cast<std::size_t>(checked.comment_lines),
+                                    "comment line") +
+                            " passed over"
+                      : "")
               << ", findings: " << findings_line(checked.findings);
     if (checked.refused()) {
       std::cout << "; refused\n";
     } else {
       std::cout << "; " << counted(r.tracks.size(), "track") << "\n";
     }
+    const std::string left_out = left_out_line(checked.counts);
+    if (!left_out.empty()) std::cout << "left out: " << left_out << "\n";
     for (const Finding& finding : checked.findings) csv += csv_row(finding);
   };
   const int code = for_each(all, act);

@@ -146,9 +146,10 @@ class Reader {
   }
 
   void recording(const toml::table& from) {
-    const TomlFields f(from, "recording", file_,
-                       {"file", "time", "body", "run", "x", "y", "mass", "radius", "drivers",
-                        "scale", "every", "together", "held_out"});
+    const TomlFields f(
+        from, "recording", file_,
+        {"file", "time", "time_unit", "header_line", "first_row", "decimal_comma", "body", "run",
+         "x", "y", "mass", "radius", "drivers", "scale", "every", "together", "held_out"});
     f.need("file", "the table of the positions");
     f.need("time", "the name of the column of times, in seconds");
     f.need("x", "the name of the column of positions, or one a body");
@@ -156,6 +157,15 @@ class Reader {
     t.file = (fs::path(file_).parent_path() / f.text("file")).lexically_normal().string();
     t.place = f.place("file");
     t.time = {f.text("time"), f.place("time")};
+    constexpr int kMostLines = 1'000'000'000;
+    if (f.has("time_unit")) t.time_unit = number(f, "time_unit", "s", 1e-9);
+    if (f.has("header_line")) {
+      t.layout.header_line = static_cast<int>(f.whole("header_line", 0, kMostLines));
+    }
+    if (f.has("first_row")) {
+      t.layout.first_row = static_cast<int>(f.whole("first_row", 1, kMostLines));
+    }
+    if (f.has("decimal_comma")) t.layout.decimal_comma = f.flag("decimal_comma");
     if (f.has("body")) t.body = {f.text("body"), f.place("body")};
     if (f.has("run")) t.run = {f.text("run"), f.place("run")};
     t.x = names(f, "x");

@@ -1,10 +1,12 @@
 // Experiments of point bodies as their files say them; tables are not read here.
 #pragma once
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lilytank/bodies.hpp"
+#include "lilytank/table_layout.hpp"
 
 namespace lilytank {
 
@@ -27,6 +29,8 @@ struct BodyTable {
   std::string file;
   SourcePlace place;
   NamedAt time, body, run;
+  std::optional<double> time_unit;  ///< s per unit of times
+  TableLayout layout;
   std::vector<NamedAt> x, y, drivers;
   BodyFigures mass, radius;
   double scale = 1;  ///< m (or the experiment's unit) for 1 in the columns of positions

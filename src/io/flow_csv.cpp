@@ -1,84 +1,86 @@
 // The flow grid as a table, one row a cell.
 #include <array>
 #include <cmath>
-#include <fstream>
 
+#include "io/enough_memory.hpp"
+#include "io/table.hpp"
 #include "lilytank/flow_field.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr std::array<std::string_view, 9> kColumns = {
+enum Column { ix, iy, x, y, mean_vx, mean_vy, std_vx, std_vy, measured };
+const std::vector<std::string> kColumns{
     "ix", "iy", "x_m", "y_m", "mean_vx_mps", "mean_vy_mps", "std_vx_mps", "std_vy_mps", "measured"};
+constexpr std::int64_t kLargestIndex = 4095;
 
 struct Row {
-  int ix = 0, iy = 0;
+  int ix = 0, iy = 0, line = 0;
   double x = 0, y = 0;
   FlowSample sample;
   bool measured = false;
 };
 
-void check_header(std::string_view line, const std::string& file) {
-  std::string want;
-  for (const auto column : kColumns) want += (want.empty() ? "" : ",") + std::string(column);
-  if (line != want)
-    throw InputError({file, 1, 1}, "the header is '" + std::string(line.substr(0, 80)) +
-                                       "', a flow grid begins with '" + want + "'");
-}
+/// Reads rows; every number is checked by itself.
+class GridReader {
+ public:
+  explicit GridReader(Table& table)
+      : table_(table), at_(table.fixed_columns(kColumns, "a flow grid")) {}
 
-// Velocities beyond this are no tank's water, but may be cm/s or mm/s.
-constexpr double kFastest = 5;  // m/s
-
-// Columns of velocities, of cells that count.
-void check_speeds(const std::array<double, 9>& value, const std::array<int, 9>& column,
-                  const std::string& file, int number) {
-  if (value[8] == 0) return;
-  for (std::size_t i = 4; i < 8; ++i) {
-    if (std::fabs(value[i]) <= kFastest) continue;
-    throw InputError({file, number, column[i]}, std::string(kColumns[i]) + " = " +
-                                                    shortest(value[i]) +
-                                                    " m/s is faster than 5 m/s: are these "
-                                                    "velocities in cm/s or mm/s?");
+  std::vector<Row> read() {
+    std::vector<Row> rows;
+    while (table_.next()) rows.push_back(row());
+    return rows;
   }
-}
 
-// Splits a row and reads its nine numbers; every one is checked by itself.
-Row read_row(std::string_view line, const std::string& file, int number) {
-  std::array<double, 9> value{};
-  std::array<int, 9> column{};
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    column[i] = static_cast<int>(at) + 1;
-    const SourcePlace place{file, number, column[i]};
-    if (at > line.size())
-      throw InputError(place, "the row has " + std::to_string(i) + " of 9 values");
-    const std::size_t comma = std::min(line.find(',', at), line.size());
-    const std::string_view word = trimmed(line.substr(at, comma - at));
-    const auto parsed = parse_number(word);
-    if (!parsed)
-      throw InputError(place, std::string(kColumns[i]) + " = '" + std::string(word) +
-                                  "' is not a finite number");
-    const bool index = i < 2 || i == 8;
-    if (index && (*parsed != std::floor(*parsed) || *parsed < 0 || *parsed > 4095))
-      throw InputError(place, std::string(kColumns[i]) + " = " + std::string(word) +
-                                  " is not a whole number from 0");
-    if ((i == 6 || i == 7) && *parsed < 0)
-      throw InputError(place, std::string(kColumns[i]) + " = " + std::string(word) +
-                                  " m/s: a deviation is not negative");
-    value[i] = *parsed;
-    at = comma + 1;
+ private:
+  Row row() {
+    Row out{static_cast<int>(whole(ix)),
+            static_cast<int>(whole(iy)),
+            table_.line(),
+            number(x),
+            number(y),
+            {speed(mean_vx), speed(mean_vy), speed(std_vx), speed(std_vy)},
+            whole(measured) != 0};
+    const auto cell = static_cast<std::size_t>(out.iy * (kLargestIndex + 1) + out.ix);
+    if (seen_[cell]) {
+      table_.refuse(at_[ix], "cell (" + std::to_string(out.ix) + ", " + std::to_string(out.iy) +
+                                 ") is given twice");
+    }
+    seen_[cell] = true;
+    return out;
   }
-  if (at <= line.size())
-    throw InputError({file, number, static_cast<int>(at) + 1}, "the row has more than 9 values");
-  check_speeds(value, column, file, number);
-  return {static_cast<int>(value[0]),
-          static_cast<int>(value[1]),
-          value[2],
-          value[3],
-          {value[4], value[5], value[6], value[7]},
-          value[8] != 0};
-}
+
+  double number(Column column) const { return table_.finite(at_[column]); }
+
+  std::int64_t whole(Column column) const {
+    const auto value = table_.whole(at_[column]);
+    if (value && *value >= 0 && *value <= kLargestIndex) return *value;
+    table_.refuse(at_[column], table_.quoted(at_[column]) + " is not a whole number, 0 .. " +
+                                   std::to_string(kLargestIndex));
+  }
+
+  // Velocities beyond this are no tank's water, but may be cm/s or mm/s; cells that are not
+  // measured do not count.
+  double speed(Column column) const {
+    constexpr double kFastest = 5;  // m/s
+    const double value = number(column);
+    const std::string what = kColumns[column] + " = " + shortest(value) + " m/s";
+    if ((column == std_vx || column == std_vy) && value < 0) {
+      table_.refuse(at_[column], what + ": a standard deviation is not negative");
+    }
+    if (std::fabs(value) > kFastest && whole(measured) != 0) {
+      table_.refuse(at_[column],
+                    what + " is faster than 5 m/s: are these velocities in cm/s or mm/s?");
+    }
+    return value;
+  }
+
+  Table& table_;
+  std::vector<int> at_;
+  std::vector<bool> seen_ = std::vector<bool>((kLargestIndex + 1) * (kLargestIndex + 1));
+};
 
 // A grid of a camera's view is somewhat larger or smaller than the tank; ten times is another unit.
 void check_extent(double extent, double tank_radius, const std::string& file) {
@@ -95,25 +97,14 @@ void check_extent(double extent, double tank_radius, const std::string& file) {
                                significant(tank_radius, 3) + " m" + hint);
 }
 
-std::vector<Row> read_rows(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError({file}, "the flow grid cannot be read");
-  std::vector<Row> rows;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1)
-      check_header(line, file);
-    else if (!line.empty())
-      rows.push_back(read_row(line, file, number));
-  }
-  return rows;
-}
-
 }  // namespace
 
 FlowField read_flow_csv(const std::string& file, Interpolation interpolation, double tank_radius) {
-  const std::vector<Row> rows = read_rows(file);
+  const std::vector<Row> rows = with_enough_memory(file, [&] {
+    LineSource lines(file);
+    Table table(lines);
+    return GridReader(table).read();
+  });
   int cells = 0;
   double extent = 0;
   for (const Row& row : rows) cells = std::max({cells, row.ix + 1, row.iy + 1});
@@ -125,21 +116,17 @@ FlowField read_flow_csv(const std::string& file, Interpolation interpolation, do
   for (const Row& row : rows)
     if (row.ix == cells - 1) extent = row.x * cells / (cells - 1);
   std::vector<FlowSample> samples(size);
-  std::vector<bool> measured(size, false), seen(size, false);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Row& row = rows[k];
+  std::vector<bool> measured(size, false);
+  for (const Row& row : rows) {
     const std::size_t i = static_cast<std::size_t>(row.iy) * cells + row.ix;
-    const SourcePlace place{file, static_cast<int>(k) + 2};
-    const std::string cell =
-        "cell (" + std::to_string(row.ix) + ", " + std::to_string(row.iy) + ")";
-    if (seen[i]) throw InputError(place, cell + " is given twice");
     const double h = 2 * extent / cells;
     const double x = (row.ix + 0.5) * h - extent, y = (row.iy + 0.5) * h - extent;
     if (!(extent > 0) || std::fabs(row.x - x) > 0.01 * h || std::fabs(row.y - y) > 0.01 * h)
-      throw InputError(place, cell +
-                                  " is not where a square grid about the tank's centre has it; "
-                                  "are x_m and y_m in metres?");
-    seen[i] = true, measured[i] = row.measured, samples[i] = row.sample;
+      throw InputError({file, row.line},
+                       "cell (" + std::to_string(row.ix) + ", " + std::to_string(row.iy) +
+                           ") is not where a square grid about the tank's centre has it; "
+                           "are x_m and y_m in metres?");
+    measured[i] = row.measured, samples[i] = row.sample;
   }
   if (tank_radius > 0) check_extent(extent, tank_radius, file);
   return FlowField(cells, extent, std::move(samples), std::move(measured), interpolation);

@@ -1,17 +1,21 @@
 // Lines of a text file, plain or compressed, read in blocks: memory does not grow with the file.
+// Text is UTF-8, or UTF-16 which is decoded; byte order marks are dropped. Lines end with \n, \r\n,
+// \r\r\n or \r alone.
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "io/encoding.hpp"
 #include "lilytank/error.hpp"
 
 namespace lilytank {
 
 class LineSource {
  public:
-  /// Opens a file; gzip is told by its first bytes. Throws InputError with the system's reason.
+  /// Opens a file, compressed by gzip or not. Throws InputError: the system's reason, or what the
+  /// file is if it is no text.
   explicit LineSource(const std::string& file);
   /// Lines of a text in memory, named `file` in messages. The text must outlive this.
   LineSource(std::string_view text, std::string file);
@@ -21,10 +25,8 @@ class LineSource {
 
   /// The next line without its end, valid until the next call; false at the end of the file. Throws
   /// InputError if the file cannot be read on, is cut within its compression, or has a line of
-  /// more than a megabyte.
+  /// more than a megabyte or with a zero byte.
   bool next(std::string_view& line);
-  /// Makes the next call of next() give the present line again.
-  void again() { again_ = true; }
   /// Of the line given last, from 1.
   int line() const { return line_; }
   const std::string& file() const { return file_; }
@@ -32,15 +34,22 @@ class LineSource {
 
  private:
   struct Stream;
-  /// Moves what is left of the buffer to its front and reads on; false at the end of the file.
+  /// Drops what was given from the buffer and reads on; false at the end of the file.
   bool fill();
+  /// Bytes of the file as they are, `kBlock` at most, at the end of `out`; false at its end.
+  bool read_block(std::string& out);
+  /// Looks at the first bytes: encoding, byte order mark. Throws InputError: no text.
+  void begin(std::string_view bytes);
+  /// The length of the next line and of its end; reads on as far as needed.
+  std::pair<std::size_t, std::size_t> find_end();
   std::string file_;
   std::unique_ptr<Stream> stream_;
-  std::vector<char> buffer_;
-  std::string_view rest_;  ///< read and not yet given
-  std::string_view present_;
+  std::optional<Utf16Decoder> decoder_;
+  std::string buffer_, block_;
+  std::string_view rest_;       ///< read and not yet given
+  std::size_t no_newline_ = 0;  ///< bytes at the front of rest_ that are known to hold no '\n'
   int line_ = 0;
-  bool again_ = false, ended_ = false;
+  bool ended_ = false;
 };
 
 }  // namespace lilytank

@@ -1,21 +1,21 @@
 #include "io/poses_csv.hpp"
 
-#include <limits>
-
-#include "io/csv.hpp"
+#include "io/table.hpp"
 
 namespace lilytank {
 
 std::vector<Pose> parse_poses(const std::string& text, const std::string& file) {
   std::vector<Pose> poses;
-  CsvReader reader(text, file, {"id,x,y,theta"});
-  while (reader.next()) {
-    const auto id = reader.whole(0, 0, std::numeric_limits<std::int32_t>::max());
-    if (id != static_cast<std::int64_t>(poses.size())) {
-      reader.refuse(0,
-                    "id '" + std::to_string(id) + "' instead of " + std::to_string(poses.size()));
+  LineSource lines(text, file);
+  Table table(lines);
+  const std::vector<int> at = table.fixed_columns({"id", "x", "y", "theta"}, "a file of poses");
+  while (table.next()) {
+    const auto id = table.whole(at[0]);
+    if (!id) table.refuse(at[0], table.quoted(at[0]) + " is not a whole number");
+    if (*id != static_cast<std::int64_t>(poses.size())) {
+      table.refuse(at[0], table.quoted(at[0]) + " instead of " + std::to_string(poses.size()));
     }
-    poses.push_back({reader.number(1), reader.number(2), rotation(reader.number(3))});
+    poses.push_back({table.finite(at[1]), table.finite(at[2]), rotation(table.finite(at[3]))});
   }
   return poses;
 }

@@ -1,4 +1,5 @@
-// Start poses: `id,x,y,theta`, one row a body, ids 0, 1, ... in order; m and rad.
+// Start poses: a table of `id`, `x`, `y`, `theta`, one row a body, ids 0, 1, ... in order; m and
+// rad.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace lilytank {
 
-/// Reads poses from a file's content. Throws InputError with file, line and column.
+/// Reads poses from a file's content, as any Table. Throws InputError with file, line and column.
 std::vector<Pose> parse_poses(const std::string& text, const std::string& file);
 
 }  // namespace lilytank

@@ -11,10 +11,17 @@ namespace {
 
 /// Words of enums, in the order of their values.
 const std::vector<std::string> kBodies{"lily", "ball", "point"};
-const std::vector<std::string> kFormats{
-    "auto",      "tidy",      "swistrack-tracks", "swistrack-particles",
-    "trackpy",   "idtracker", "idtracker-wide",   "trex",
-    "fasttrack", "table"};
+const std::vector<std::string> kFormats{"auto",
+                                        "tidy",
+                                        "swistrack-tracks",
+                                        "swistrack-particles",
+                                        "trackpy",
+                                        "idtracker",
+                                        "idtracker-wide",
+                                        "trex",
+                                        "fasttrack",
+                                        "boxes",
+                                        "table"};
 const std::vector<std::string> kYAxes{"", "up", "down"};
 const std::vector<std::string> kAngleUnits{"", "rad", "deg"};
 const std::vector<std::string> kTreatments{"keep", "mark", "split", "refuse"};
@@ -146,15 +153,16 @@ std::string treatment_word(Treatment treatment) {
 }
 
 std::string check_word(Check check) {
-  constexpr std::array<const char*, kChecks> words{"gap",   "duplicate", "spike",  "jump",
-                                                   "swap",  "link",      "speed",  "outside",
-                                                   "clock", "units",     "heading"};
+  constexpr std::array<const char*, kChecks> words{
+      "gap",     "duplicate", "spike", "jump",    "swap",   "link",   "speed",
+      "outside", "clock",     "units", "heading", "repeat", "columns"};
   return words[static_cast<std::size_t>(check)];
 }
 
 void assign_recording_option(const Assignment& from, const std::string& prefix,
                              RecordingOptions& o) {
   const Value v(from, prefix);
+  constexpr std::int64_t kMostLines = 1'000'000'000;
   std::vector<Key> keys{
       {"name", [&] { o.name = v.text(); }},
       {"body", [&] { v.word(kBodies, o.body); }},
@@ -162,6 +170,10 @@ void assign_recording_option(const Assignment& from, const std::string& prefix,
       {"held_out", [&] { o.held_out = v.on(); }},
       {"format", [&] { v.word(kFormats, o.format); }},
       {"rate", [&] { o.rate = v.number("1/s", 1e-9, 1e6); }},
+      {"header_line", [&] { o.layout.header_line = static_cast<int>(v.whole(0, kMostLines)); }},
+      {"first_row", [&] { o.layout.first_row = static_cast<int>(v.whole(1, kMostLines)); }},
+      {"most_rows", [&] { o.most_rows = v.whole(1, 2 * kMostLines); }},
+      {"decimal_comma", [&] { o.layout.decimal_comma = v.on(); }},
       {"time_unit", [&] { o.time_unit = v.number("s", 1e-9, 1e6); }},
       {"tank",
        [&] {
@@ -202,6 +214,7 @@ void assign_camera_option(const Assignment& from, Camera& c) {
 RecordingFormat format_to_write(const std::string& word, const SourcePlace& place) {
   std::vector<std::string> written(kFormats.begin(), kFormats.end());
   std::erase(written, format_word(RecordingFormat::automatic));
+  std::erase(written, format_word(RecordingFormat::boxes));
   std::erase(written, format_word(RecordingFormat::table));
   if (std::find(written.begin(), written.end(), word) == written.end()) {
     throw unknown_word(place, "format", word, written);

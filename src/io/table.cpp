@@ -2,173 +2,200 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
-namespace {
 
-constexpr std::size_t kMostColumns = 20000;
-
-std::string_view bare(std::string_view cell) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!cell.empty() && blank(cell.front())) cell.remove_prefix(1);
-  while (!cell.empty() && blank(cell.back())) cell.remove_suffix(1);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-    cell.remove_prefix(1), cell.remove_suffix(1);
-  }
-  return cell;
+Table::Table(LineSource& lines, const TableLayout& layout)
+    : lines_(lines), layout_(layout), header_(read_table_header(lines_, layout)) {
+  find_decimals();
+  find_twins();
 }
 
-bool not_seen(std::string_view text) {
-  static constexpr std::string_view words[] = {"",    "nan",  "na",       "n/a",  "null",
-                                               "inf", "none", "infinity", "-inf", "-nan"};
-  std::string lower(text.substr(0, 12));
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return std::find(std::begin(words), std::end(words), lower) != std::end(words);
-}
-
-/// `count` digits at `at`; nothing if there are fewer.
-std::optional<int> digits(std::string_view text, std::size_t at, std::size_t count) {
-  if (at + count > text.size()) return std::nullopt;
-  int value = 0;
-  for (std::size_t i = at; i < at + count; ++i) {
-    if (text[i] < '0' || text[i] > '9') return std::nullopt;
-    value = 10 * value + (text[i] - '0');
-  }
-  return value;
-}
-
-}  // namespace
-
-char separator_of(std::string_view line) {
-  for (const char c : {'\t', ';', ','}) {
-    if (line.find(c) != std::string_view::npos) return c;
-  }
-  return ' ';
-}
-
-void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
-  cells.clear();
-  for (;;) {
-    if (separator == ' ') {
-      line = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-      if (line.empty()) return;
-    }
-    const auto end = line.find(separator);
-    cells.push_back(bare(line.substr(0, end)));
-    if (end == std::string_view::npos) return;
-    line.remove_prefix(end + 1);
-  }
-}
-
-// "2009-11-01T12:34:56.789", a blank instead of the T, or "20091101T123456.789".
-std::optional<double> parse_date(std::string_view text) {
-  const std::size_t dash = text.size() > 4 && text[4] == '-' ? 1 : 0;
-  const auto year = digits(text, 0, 4), month = digits(text, 4 + dash, 2),
-             day = digits(text, 6 + 2 * dash, 2);
-  const std::size_t clock = 9 + 2 * dash;
-  if (!year || !month || !day || text.size() < clock) return std::nullopt;
-  const bool dashes = dash == 0 || text[7] == '-';
-  const bool parted = text[clock - 1] == 'T' || text[clock - 1] == ' ';
-  if (!dashes || !parted) return std::nullopt;
-  const std::size_t colon = text.size() > clock + 2 && text[clock + 2] == ':' ? 1 : 0;
-  const auto hour = digits(text, clock, 2), minute = digits(text, clock + 2 + colon, 2);
-  const std::size_t seconds = clock + 4 + 2 * colon;
-  if (!hour || !minute || seconds > text.size()) return std::nullopt;
-  std::string_view rest = text.substr(seconds);
-  if (rest.ends_with('Z')) rest.remove_suffix(1);
-  const double second = digits(rest, 0, 2) ? parse_number(rest).value_or(-1) : -1;
-  const std::chrono::year_month_day date(std::chrono::year(*year),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day)));
-  if (!date.ok() || second < 0 || second >= 61 || *hour > 24 || *minute > 59) return std::nullopt;
-  const auto days = std::chrono::sys_days(date).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + 3600.0 * *hour + 60.0 * *minute + second;
-}
-
-Table::Table(LineSource& lines) : lines_(&lines) {
-  std::string_view line;
-  bool any = lines.next(line);
-  while (any && (trimmed(line).empty() || trimmed(line).front() == '#')) any = lines.next(line);
-  if (!any) throw InputError({lines.file(), 1, 1}, "there is no table in it");
-  if (trimmed(line).front() == '%') line.remove_prefix(line.find('%') + 1);
-  separator_ = separator_of(line);
-  split(line);
-  const bool numbers = std::all_of(cells_.begin(), cells_.end(), [](std::string_view cell) {
-    return parse_number(cell).has_value() || not_seen(cell);
-  });
-  if (numbers) lines.again();
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    names_.push_back(numbers ? std::to_string(i + 1) : std::string(cells_[i]));
-  }
-  check_names();
-}
-
-Table::Table(LineSource& lines, std::vector<std::string> names)
-    : lines_(&lines), names_(std::move(names)) {
-  std::string_view line;
-  if (!content(line)) return;
-  separator_ = separator_of(line);
-  lines.again();
-}
-
-void Table::check_names() const {
-  if (names_.size() > kMostColumns) {
-    throw InputError(lines_->place(1), std::to_string(names_.size()) + " columns: more than " +
-                                           std::to_string(kMostColumns));
-  }
-  std::vector<std::string_view> sorted(names_.begin(), names_.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end(),
-                                        [](auto a, auto b) { return a == b && !a.empty(); });
-  if (twice == sorted.end()) return;
-  throw InputError(lines_->place(1), "two columns are called '" + std::string(*twice) + "'");
+void Table::rename(std::vector<std::string> names) {
+  header_.names = std::move(names);
+  find_twins();
 }
 
 int Table::find(std::string_view name) const {
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+  const auto found = std::find(names().begin(), names().end(), name);
+  if (found != names().end()) return static_cast<int>(found - names().begin());
+  const auto number = header_.in_comment ? parse_whole(name) : std::nullopt;
+  const bool there = number && *number >= 1 && *number <= static_cast<int>(names().size());
+  return there ? static_cast<int>(*number - 1) : -1;
 }
 
-void Table::split(std::string_view line) {
-  row_ = line.data();
-  split_cells(line, separator_, cells_);
+std::vector<int> Table::fixed_columns(const std::vector<std::string>& wanted,
+                                      const std::string& what) const {
+  const SourcePlace where{file(), header_.line, 1};
+  const std::string all = "; " + what + " has the columns " + joined(wanted, ",");
+  std::vector<int> out;
+  for (const std::string& name : wanted) {
+    out.push_back(find(name));
+    if (out.back() >= 0) continue;
+    throw InputError(where,
+                     "there is no column '" + name + "'" + did_you_mean(name, names()) + all);
+  }
+  for (const std::string& name : names()) {
+    if (name.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) continue;
+    throw InputError(where,
+                     "column '" + name + "' is not known" + did_you_mean(name, wanted) + all);
+  }
+  return out;
 }
 
-bool Table::content(std::string_view& line) {
-  do {
-    if (!lines_->next(line)) return false;
-  } while (line.empty() || line.front() == '#' || line.front() == '%' || trimmed(line).empty());
+// From the first rows: a decimal comma in any of them is one in all. Where commas separate cells,
+// none is a decimal comma.
+void Table::find_decimals() {
+  constexpr std::size_t kRows = 200;
+  decimal_comma_ = layout_.decimal_comma.value_or(false);
+  if (layout_.decimal_comma || header_.separator == ',') return;
+  for (std::size_t i = 0; i < kRows && !decimal_comma_; ++i) {
+    const TableLines::Line* line = lines_.ahead(i);
+    if (line == nullptr) return;
+    if (line->text.find(',') == std::string::npos) continue;
+    split_cells(line->text, header_.separator, cells_, store_, {file(), line->number, 1});
+    decimal_comma_ = std::any_of(cells_.begin(), cells_.end(), [](std::string_view cell) {
+      return comma_in(cell) == Comma::decimal;
+    });
+  }
+}
+
+void Table::find_twins() {
+  twins_.clear();
+  std::vector<int> order(names().size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  const auto name = [&](int column) -> const std::string& {
+    return names()[static_cast<std::size_t>(column)];
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return name(a) < name(b); });
+  for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
+    if (name(order[i]) != name(order[first])) first = i;
+    if (i > first && !name(order[i]).empty()) twins_.push_back({order[first], order[i]});
+  }
+}
+
+void Table::check_twins(int column) const {
+  for (const Twins& twins : twins_) {
+    if (twins.first != column) continue;
+    const std::string_view one = cells_[static_cast<std::size_t>(column)];
+    const std::string_view other = cells_[static_cast<std::size_t>(twins.other)];
+    const auto a = parse_number(one), b = parse_number(other);
+    if (one == other || (a && a == b) || (is_not_seen(one) && is_not_seen(other))) continue;
+    throw InputError({file(), line(), 0}, "two columns are called '" +
+                                              names()[static_cast<std::size_t>(column)] + "' (" +
+                                              std::to_string(column + 1) + " and " +
+                                              std::to_string(twins.other + 1) + "), and differ: '" +
+                                              std::string(one) + "', '" + std::string(other) + "'");
+  }
+}
+
+/// Splits a line; false if it is a row of empty cells.
+bool Table::split(std::string_view line) {
+  row_ = line;
+  split_cells(line, header_.separator, cells_, store_, {file(), this->line(), 1});
+  const auto empty = [](std::string_view cell) { return cell.empty(); };
+  return cells_.empty() || !cells_[0].empty() || !std::all_of(cells_.begin(), cells_.end(), empty);
+}
+
+/// Whether a line is a row; splits it.
+bool Table::row(std::string_view line) {
+  if (line.empty() || trimmed(line).empty()) return false;
+  const bool comment = line.front() == '#' || line.front() == '%';
+  if (!split(line)) {
+    ++empty_rows_;
+    return false;
+  }
+  const std::size_t count = names().size();
+  // Some writers end rows, or the header alone, with separators.
+  while (cells_.size() > count && cells_.back().empty()) cells_.pop_back();
+  while (cells_.size() < count && names()[cells_.size()].empty() && !comment) {
+    cells_.emplace_back();
+  }
+  if (comment && cells_.size() != count) {
+    ++comment_lines_;
+    return false;
+  }
   return true;
 }
 
 bool Table::next() {
   std::string_view line;
-  if (!content(line)) return false;
-  split(line);
-  // Some writers end rows, or the header alone, with a separator.
-  if (cells_.size() == names_.size() + 1 && cells_.back().empty()) cells_.pop_back();
-  if (cells_.size() + 1 == names_.size() && names_.back().empty()) cells_.emplace_back();
-  if (cells_.size() != names_.size()) {
-    throw InputError(lines_->place(1), std::to_string(cells_.size()) + " columns instead of " +
-                                           std::to_string(names_.size()));
+  empty_rows_ = 0;
+  do {
+    if (!lines_.next(line)) return false;
+  } while (!row(line));
+  const std::size_t count = names().size();
+  if (cells_.size() == count) return true;
+  std::string hint;
+  if (header_.separator == ',' && cells_.size() > count) {
+    hint = ": decimal commas need ';' or tabs between the cells";
   }
-  return true;
+  if (count == 1 && !header_.text.empty()) {
+    hint = ": header_line = N says in which line the names are, if not in line " +
+           std::to_string(header_.line);
+  }
+  throw InputError(
+      {file(), this->line(), 1},
+      std::to_string(cells_.size()) + " columns instead of " + std::to_string(count) + hint);
+}
+
+std::string_view Table::plain(int column) const {
+  const std::string_view text = cell(column);
+  if (!decimal_comma_) return text;
+  const Comma comma = comma_in(text);
+  if (comma != Comma::decimal && comma != Comma::ambiguous) return text;
+  plain_ = text;
+  plain_[text.find(',')] = '.';
+  return plain_;
+}
+
+// Beside decimal commas, a point may part thousands: "1.234" is no number there.
+std::optional<double> Table::value(int column) const {
+  const std::string_view text = plain(column);
+  if (decimal_comma_ && text.data() != plain_.data()) {
+    std::string commas(text);
+    std::replace(commas.begin(), commas.end(), '.', ',');
+    if (comma_in(commas) == Comma::ambiguous) return std::nullopt;
+  }
+  return parse_number(text);
 }
 
 double Table::number(int column) const {
-  const std::string_view text = cell(column);
-  double value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = end == text.data() + text.size();
-  if (problem == std::errc() && whole && std::isfinite(value)) return value;
-  if (not_seen(text)) return std::numeric_limits<double>::quiet_NaN();
-  if (const auto plus = parse_number(text)) return *plus;
-  refuse(column, quoted(column) + " is not a number");
+  if (!decimal_comma_) {
+    const std::string_view text = cell(column);
+    double value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = end == text.data() + text.size();
+    if (problem == std::errc() && whole && std::isfinite(value)) return value;
+  }
+  if (const auto found = value(column)) return *found;
+  if (not_seen(column)) return std::numeric_limits<double>::quiet_NaN();
+  refuse(column, quoted(column) + " is not a number" + comma_hint(cell(column)));
+}
+
+double Table::finite(int column) const {
+  const double value = number(column);
+  if (std::isnan(value)) refuse(column, quoted(column) + " is not a finite number");
+  return value;
+}
+
+std::string Table::comma_hint(std::string_view text) const {
+  if (decimal_comma_ && parse_number(text)) {
+    return ": other numbers have a decimal comma, and this point may part thousands; "
+           "decimal_comma = false takes it for a decimal point";
+  }
+  switch (comma_in(text)) {
+    case Comma::none:
+      return "";
+    case Comma::thousands:
+      return ": write it without separators of thousands";
+    default:
+      return ": if the comma is a decimal comma, decimal_comma = true reads it";
+  }
 }
 
 std::optional<std::int64_t> Table::whole(int column) const {
@@ -177,15 +204,18 @@ std::optional<std::int64_t> Table::whole(int column) const {
   if (const auto value = parse_whole(text)) {
     return *value <= kLargest && *value >= -kLargest ? value : std::nullopt;
   }
-  const auto value = parse_number(text);
-  if (value && std::fabs(*value) <= static_cast<double>(kLargest) && *value == std::floor(*value)) {
-    return static_cast<std::int64_t>(*value);
+  const auto number = value(column);
+  if (number && std::fabs(*number) <= static_cast<double>(kLargest) &&
+      *number == std::floor(*number)) {
+    return static_cast<std::int64_t>(*number);
   }
   return std::nullopt;
 }
 
 SourcePlace Table::place(int column) const {
-  return {lines_->file(), lines_->line(), static_cast<int>(cell(column).data() - row_) + 1};
+  const char* at = cells_[static_cast<std::size_t>(column)].data();
+  const bool inside = at >= row_.data() && at <= row_.data() + row_.size();
+  return {file(), line(), inside ? static_cast<int>(at - row_.data()) + 1 : 0};
 }
 
 void Table::refuse(int column, const std::string& message) const {
@@ -193,8 +223,8 @@ void Table::refuse(int column, const std::string& message) const {
 }
 
 std::string Table::quoted(int column) const {
-  return names_[static_cast<std::size_t>(column)] + " '" + std::string(cell(column).substr(0, 40)) +
-         "'";
+  return names()[static_cast<std::size_t>(column)] + " '" +
+         std::string(cells_[static_cast<std::size_t>(column)].substr(0, 40)) + "'";
 }
 
 }  // namespace lilytank

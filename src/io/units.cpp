@@ -1,5 +1,6 @@
 #include "io/units.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -36,12 +37,47 @@ constexpr NamedUnit kUnits[] = {
     {"W", {{2, 1, -3, 0}, 0, 1}, true},
 };
 
+/// Letters that keyboards and word processors put in units, as they are read here: both micro
+/// signs, blanks that do not break, dots of products, degrees, minus signs, powers.
+constexpr std::pair<std::string_view, std::string_view> kLetters[] = {
+    {"\u00b5", "u"}, {"\u03bc", "u"},   {"\u00a0", " "}, {"\u202f", " "},
+    {"\u2009", " "}, {"\u2007", " "},   {"\u2002", " "}, {"\u2003", " "},
+    {"\u200a", " "}, {"\u3000", " "},   {"\u00b7", " "}, {"\u22c5", " "},
+    {"\u2212", "-"}, {"\u00b0", "deg"}, {"\u2215", "/"}, {"\u2044", "/"}};
+constexpr std::pair<std::string_view, char> kSuperscripts[] = {
+    {"\u207b", '-'}, {"\u2070", '0'}, {"\u00b9", '1'}, {"\u00b2", '2'},
+    {"\u00b3", '3'}, {"\u2074", '4'}, {"\u2075", '5'}, {"\u2076", '6'},
+    {"\u2077", '7'}, {"\u2078", '8'}, {"\u2079", '9'}};
+
+/// The text in ASCII: "3 um" of "3\u00a0\u03bcm", "m/s^2" of "m/s\u00b2". Other letters stay.
+std::string in_ascii(std::string_view text) {
+  std::string out;
+  bool raised = false;  // within a power
+  while (!text.empty()) {
+    const auto begins = [&](const auto& letter) { return text.starts_with(letter.first); };
+    const auto power = std::find_if(std::begin(kSuperscripts), std::end(kSuperscripts), begins);
+    const auto letter = std::find_if(std::begin(kLetters), std::end(kLetters), begins);
+    std::size_t length = 1;
+    if (power != std::end(kSuperscripts)) {
+      out += raised ? "" : "^";
+      out += power->second, length = power->first.size();
+    } else if (letter != std::end(kLetters)) {
+      out += letter->second, length = letter->first.size();
+    } else {
+      out += text.front();
+    }
+    raised = power != std::end(kSuperscripts);
+    text.remove_prefix(length);
+  }
+  return out;
+}
+
 struct Prefix {
   std::string_view name;
   int ten;
 };
-constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"\u00b5", -6}, {"m", -3},
-                                {"c", -2}, {"d", -1}, {"k", 3},       {"M", 6}};
+constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"m", -3}, {"c", -2},
+                                {"d", -1}, {"k", 3},  {"M", 6}};
 
 std::optional<Unit> named_unit(std::string_view word) {
   for (const NamedUnit& known : kUnits) {
@@ -177,7 +213,7 @@ std::string_view dimension_name(std::string_view unit) {
 }  // namespace
 
 std::optional<Unit> parse_unit(std::string_view text) {
-  return UnitReader(text).whole();
+  return UnitReader(in_ascii(text)).whole();
 }
 
 std::string described(std::string_view unit) {
@@ -189,7 +225,8 @@ std::string described(std::string_view unit) {
 double read_quantity(std::string_view text, std::string_view unit, std::string_view path,
                      const SourcePlace& place) {
   const std::string quoted = "\"" + std::string(text) + "\"", name(path);
-  std::string_view rest = trimmed(text);
+  const std::string plain_text = in_ascii(text);
+  std::string_view rest = trimmed(plain_text);
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
   double plain = 0;
   const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), plain);
@@ -200,6 +237,14 @@ double read_quantity(std::string_view text, std::string_view unit, std::string_v
         place, name + " = " + quoted + " is not a number; " + name + " is " + described(unit));
   }
   const std::string_view given = trimmed(rest.substr(digits.size()));
+  if (given.starts_with(',')) {
+    std::string pointed(rest);
+    pointed[digits.size()] = '.';
+    throw InputError(place, name + " = " + quoted +
+                                " has a comma in its number, which is not read: "
+                                "write \"" +
+                                pointed + "\" if it is a decimal comma");
+  }
   if (given.empty()) {
     // As TOML takes it: not ".3" or "3.".
     throw InputError(place, name + " = " + quoted + " has no unit - write " + shortest(plain) +

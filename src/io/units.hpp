@@ -19,7 +19,9 @@ struct Unit {
 };
 
 /// Reads a product of units such as "N m", "kg/m^3", "kg/(m s)", "1/s", "%", "1"; nothing if a part
-/// of it is unknown. Prefixes n, u, m, c, d, k, M go with m, g, s, N, Hz, rad, l, Pa, J, W.
+/// of it is unknown. Prefixes n, u, m, c, d, k, M go with m, g, s, N, Hz, rad, l, Pa, J, W. Letters
+/// as people type them are read as well: both micro signs, blanks that do not break, raised
+/// powers, a degree sign, the dot of a product.
 std::optional<Unit> parse_unit(std::string_view text);
 
 /// What is measured in a unit: "a length in m", "a number without a unit".

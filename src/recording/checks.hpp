@@ -15,19 +15,30 @@ inline double length(double x, double y) {
 }
 
 /// Turns positions into metres from the tank's centre, y up, and headings into counter-clockwise
-/// radians, and looks for another unit than said. Throws InputError if the size of a pixel is not
-/// known.
+/// radians, and looks for degrees. Throws InputError if the size of a pixel is not known.
 void to_metres(Sightings& sightings, const RecordingOptions& options, Report& report);
+
+/// Looks for sightings that repeat the pose before them exactly although the body moves: poses that
+/// the tracker held, frames that were written twice, and 0, 0 for what was not seen.
+void check_repeats(Sightings& sightings, Report& report);
+
+/// Looks for lengths in another unit than said, in a tank.
+void check_lengths(const Sightings& sightings, const RecordingOptions& options, Report& report);
 
 /// Frames at even times.
 struct FrameClock {
   double rate = 0;         ///< 1/s
   double start = 0;        ///< s, of frame `first`
   std::int64_t first = 0;  ///< the file's number of the recording's frame 0
+  std::int64_t step = 1;   ///< of the file's numbers, from one frame to the next
   int frames = 0;
+  /// The file's number of a frame.
+  std::int64_t number(std::int64_t frame) const { return first + step * frame; }
 };
-/// Finds rate and start, numbers frames where the file has only times, and looks for times that are
-/// not where they should be. Throws InputError if the rate cannot be known.
+/// Finds rate and start, counts the frames of the rows from 0 on this clock, and looks for times
+/// that are not where they should be. Where frames have no numbers, times count them. Rows that are
+/// unseen in frames between those of the clock are removed. Throws InputError if the rate cannot be
+/// known.
 FrameClock find_clock(Sightings& sightings, const RecordingOptions& options, Report& report);
 
 /// Gives ids to rows without identities: a row goes on with the track whose prediction is nearest;
@@ -61,7 +72,7 @@ struct CheckContext {
   SourcePlace place(const Point& point) const {
     return sightings.place(sightings.rows[static_cast<std::size_t>(point.row)]);
   }
-  std::int64_t frame(const Point& point) const { return clock.first + point.frame; }
+  std::int64_t frame(const Point& point) const { return clock.number(point.frame); }
 };
 
 void check_gaps(const std::vector<Path>& paths, const CheckContext& context);

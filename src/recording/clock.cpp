@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
 
 #include "analysis/median.hpp"
 #include "recording/checks.hpp"
+#include "recording/column_names.hpp"
 
 namespace lilytank {
 namespace {
@@ -28,17 +32,24 @@ class ClockFinder {
 
   FrameClock find() {
     if (!has_times_ && options_->rate == 0) {
-      throw InputError(file_, "there are no times in it: give rate, the frames per second");
+      throw InputError(
+          file_, "there are no times in it: give rate, the frames per second" +
+                     (s_->unused.empty() ? "" : "; columns not used: " + short_list(s_->unused)));
     }
+    if (has_times_) refuse_whole_seconds();
     if (!has_frames_) {
       collect(false);
       number_frames();
     } else {
       collect(true);
     }
-    check_span();
+    if (instants_.empty()) {
+      throw InputError(file_, "nothing is left of it after what the checks marked");
+    }
     clock_.first = instants_.front().frame;
-    clock_.frames = static_cast<int>(instants_.back().frame - clock_.first) + 1;
+    take_step();
+    check_span();
+    clock_.frames = static_cast<int>(instants_.back().frame) + 1;
     fit();
     if (has_times_) check_unit();
     if (has_times_ && !report_->refused()) check();
@@ -53,6 +64,7 @@ class ClockFinder {
     };
     for (std::size_t i = 0; i < s_->rows.size(); ++i) {
       const Sighting& row = s_->rows[i];
+      if (row.unseen) continue;
       const Instant instant{row.frame, row.time, i};
       if (!instants_.empty() && !before(instants_.back(), instant) &&
           !before(instant, instants_.back())) {
@@ -63,6 +75,35 @@ class ClockFinder {
     std::stable_sort(instants_.begin(), instants_.end(), before);
     const auto same = [&](const Instant& a, const Instant& b) { return !before(a, b); };
     instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
+  }
+
+  // Times that are rounded to seconds tell nothing about frames that follow each other faster.
+  void refuse_whole_seconds() const {
+    const double unit = options_->time_unit.value_or(1);
+    std::set<double> times;
+    std::set<std::pair<std::int64_t, double>> sightings;
+    for (const Sighting& row : s_->rows) {
+      const double count = row.time / unit;
+      if (std::fabs(count - std::round(count)) > 1e-9 * std::max(1.0, std::fabs(count))) return;
+      times.insert(row.time);
+      sightings.emplace(has_frames_ ? row.frame : row.id, row.time);
+    }
+    constexpr double kShared = 1.5;  // frames, or sightings of a body, at one time
+    const std::string what =
+        unit == 1 ? "times are whole seconds" : "times are whole numbers of time_unit";
+    const auto n = static_cast<double>(times.size());
+    if (has_frames_ && static_cast<double>(sightings.size()) > kShared * n) {
+      throw InputError(file_, what + ", and " + brief(static_cast<double>(sightings.size()) / n) +
+                                  " frames share one: say columns.time = \"-\" and rate, the "
+                                  "frames per second");
+    }
+    const auto rows = static_cast<double>(s_->rows.size());
+    if (has_frames_ || !s_->identities || rows < kShared * static_cast<double>(sightings.size())) {
+      return;
+    }
+    throw InputError(file_, what + ", and a body is seen " +
+                                brief(rows / static_cast<double>(sightings.size())) +
+                                " times in one: the table needs a column of frame numbers");
   }
 
   // Only times: the usual distance of two is a frame; then each time has the nearest frame.
@@ -91,23 +132,67 @@ class ClockFinder {
     }
     std::unordered_map<double, std::int64_t> frames;
     for (const Instant& instant : instants_) frames.emplace(instant.time, instant.frame);
+    std::erase_if(s_->rows, [&](const Sighting& row) { return !frames.contains(row.time); });
     for (Sighting& row : s_->rows) row.frame = frames.at(row.time);
   }
 
+  // Frames are counted from the first one by the greatest step that all of them have in common.
+  void take_step() {
+    if (instants_.size() > 2) {
+      std::int64_t step = 0;
+      for (const Instant& i : instants_) step = std::gcd(step, i.frame - clock_.first);
+      clock_.step = step;
+    }
+    for (Instant& i : instants_) i.frame = (i.frame - clock_.first) / clock_.step;
+    std::erase_if(s_->rows, [&](const Sighting& row) {
+      const std::int64_t frames = row.frame - clock_.first;
+      return row.unseen && (frames < 0 || frames % clock_.step != 0 ||
+                            frames / clock_.step > instants_.back().frame);
+    });
+    for (Sighting& row : s_->rows) row.frame = (row.frame - clock_.first) / clock_.step;
+    find_usual_step();
+  }
+
+  // Nearly all sightings follow the last one of their body after the same number of frames, but the
+  // frames have no step in common: bodies in turns, or a single frame between the others.
+  void find_usual_step() {
+    if (clock_.step > 1 || !s_->identities) return;
+    constexpr double kUsual = 0.9;
+    constexpr std::size_t kFewest = 20;
+    std::unordered_map<std::int64_t, std::int64_t> last;
+    std::map<std::int64_t, std::size_t> steps;
+    std::size_t count = 0;
+    for (const Sighting& row : s_->rows) {
+      const auto [before, first] = last.emplace(row.id, row.frame);
+      if (!first && row.frame > before->second) ++steps[row.frame - before->second], ++count;
+      before->second = row.frame;
+    }
+    if (count < kFewest) return;
+    for (const auto& [step, times] : steps) {
+      if (step == 1 || static_cast<double>(times) < kUsual * static_cast<double>(count)) continue;
+      report_->add(Check::clock, Treatment::keep, file_, -1, -1,
+                   "most sightings are " + std::to_string(step) +
+                       " frames after the last one of their body, but frame numbers have no step "
+                       "in common: frames are counted one by one, most are holes of the tracks, "
+                       "and contacts "
+                       "of bodies that are seen in turns are not found");
+    }
+  }
+
   void check_span() const {
-    const auto span = static_cast<double>(instants_.back().frame - instants_.front().frame) + 1;
+    const auto span = static_cast<double>(instants_.back().frame) + 1;
     const auto seen = static_cast<double>(instants_.size());
     if (span <= kMostFrames && span <= 1e6 + 20 * seen) return;
-    throw InputError(file_, "frames run from " + std::to_string(instants_.front().frame) + " to " +
-                                std::to_string(instants_.back().frame) + ", but only " +
-                                std::to_string(instants_.size()) +
+    throw InputError(file_, "frames run from " + std::to_string(clock_.first) + " to " +
+                                std::to_string(clock_.number(instants_.back().frame)) +
+                                ", but only " + std::to_string(instants_.size()) +
                                 " of them hold anything: are frame numbers or times right?");
   }
 
   void fit() {
-    clock_.rate = options_->rate;
+    clock_.rate = options_->rate / static_cast<double>(clock_.step);
     if (!has_times_) {
-      clock_.start = static_cast<double>(clock_.first) / clock_.rate;
+      clock_.start = static_cast<double>(clock_.first) / options_->rate;
       return;
     }
     if (clock_.rate == 0) clock_.rate = likely_rate();
@@ -160,18 +245,20 @@ class ClockFinder {
     return median(starts);
   }
   double offset(const Instant& instant, double rate) const {
-    return static_cast<double>(instant.frame - clock_.first) / rate;
+    return static_cast<double>(instant.frame) / rate;
   }
 
-  // Nobody tracks what floats in a tank by a frame in more than two seconds. Where the user said
-  // what the times count, or how many frames there are, that is believed.
+  // Nobody tracks what floats in a tank by a frame in more than two seconds, or thousands of frames
+  // a second. Where the user gave the unit of the times, or the rate, it is believed.
   void check_unit() {
     constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
-    const bool told = options_->rate > 0 || options_->time_unit;
-    const bool dates = !std::isnan(s_->first_date);
-    if (told || dates || !options_->in_tank || clock_.rate >= kSlowest) return;
+    const bool given = options_->rate > 0 || options_->time_unit;
+    const bool dates = s_->times.dated();
+    const bool usual = clock_.rate >= kSlowest && clock_.rate <= kFastest;
+    if (given || dates || !options_->in_tank || usual) return;
     std::string hint;
-    for (const auto& [scale, name] : {std::pair{1e-3, "ms"}, {1e-6, "us"}}) {
+    for (const auto& [scale, name] :
+         {std::pair{1e-3, "ms"}, {1e-6, "us"}, {3600.0, "h"}, {86400.0, "d"}}) {
       if (clock_.rate >= kSlowest * scale && clock_.rate < kFastest * scale) {
         hint = "; if times are in " + std::string(name) + ", say time_unit = \"1 " + name + "\"";
       }
@@ -182,7 +269,7 @@ class ClockFinder {
   }
 
   double error(const Sighting& row) const {
-    return (row.time - clock_.start) * clock_.rate - static_cast<double>(row.frame - clock_.first);
+    return (row.time - clock_.start) * clock_.rate - static_cast<double>(row.frame);
   }
 
   // Neighbouring frames that are off are one finding.
@@ -213,9 +300,10 @@ class ClockFinder {
   void note(std::size_t first, std::size_t last, double worst) {
     const Sighting& a = s_->rows[first];
     const std::int64_t from = a.frame, to = s_->rows[last].frame;
-    const std::string until = to > from ? " up to frame " + std::to_string(to) + ", at most" : "";
+    const std::string until =
+        to > from ? " up to frame " + std::to_string(clock_.number(to)) + ", at most" : "";
     const Treatment treatment = report_->add(
-        Check::clock, s_->place(a), from, -1,
+        Check::clock, s_->place(a), clock_.number(from), -1,
         "taken" + until + " " + brief(std::fabs(worst)) + " frames (" +
             time_text(std::fabs(worst) / clock_.rate) + ") " + (worst > 0 ? "late" : "early") +
             " on a clock of " + brief(clock_.rate) + " frames/s");

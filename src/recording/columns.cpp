@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "io/table.hpp"
+#include "recording/column_cells.hpp"
+#include "recording/wide.hpp"
 #include "text/number.hpp"
-#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -14,184 +14,212 @@ namespace {
 /// Where the columns are; -1: there is none.
 struct Columns {
   int frame = -1, time = -1, id = -1, x = -1, y = -1, theta = -1, missing = -1;
+  std::optional<BoxColumns> box;
 };
 
-/// The names that a format gives its columns, most wanted first.
-struct Naming {
-  std::vector<std::string> frame, time, id, x, y, theta, missing;
+/// Whether the table is one of lilytank's own trajectories, of which "label" is a module's state.
+bool is_own_trajectory(const Table& table) {
+  return table.find("bonded") >= 0 && table.find("latched") >= 0 && table.find("label") >= 0;
+}
+
+/// MOT challenge files have no names: frame, id, left, top, width, height, ...
+bool has_numbers_for_names(const Table& table) {
+  return table.names().size() >= 6 && table.names().front() == "1";
+}
+
+/// Finds the columns of a table of one row a sighting.
+class ColumnFinder {
+ public:
+  ColumnFinder(const Table& table, const RecordingOptions& options, RecordingFormat format)
+      : table_(&table), own_(&options.columns), format_(format), names_(columns_of(format)) {}
+
+  Columns find() {
+    if (format_ == RecordingFormat::boxes) find_box_columns();
+    at_.frame = find_column(*table_, own_->frame, names_.frame);
+    if (at_.frame < 0 && own_->frame.empty()) {
+      at_.frame = find_role(table_->names(), ColumnRole::frame);
+    }
+    at_.time = find_column(*table_, own_->time, names_.time);
+    at_.theta = find_column(*table_, own_->theta, names_.theta);
+    at_.missing = find_column(*table_, "", names_.missing);
+    if (!at_.box) {
+      at_.x = needed(own_->x, names_.x), at_.y = needed(own_->y, names_.y);
+    }
+    find_identity();
+    if (at_.frame < 0 && at_.time < 0) {
+      throw InputError({table_->file(), table_->header_line(), 1},
+                       "there is neither a column of frames nor of times; there are " +
+                           short_list(table_->names()) + suggested_keys(table_->names()));
+    }
+    return at_;
+  }
+
+ private:
+  int needed(const std::string& own, const std::vector<std::string>& names) const {
+    const int found = find_column(*table_, own, names);
+    if (found < 0) refuse_missing(*table_, own.empty() ? names : std::vector{own});
+    return found;
+  }
+
+  // The user may name x and y of the middle instead.
+  void find_box_columns() {
+    if (has_numbers_for_names(*table_)) {
+      names_.frame = {"1"}, names_.id = {"2"};
+      at_.box = BoxColumns{BoxColumns::Kind::corner_and_size, 2, 3, 4, 5};
+    } else {
+      at_.box = find_box(table_->names());
+    }
+    if (!own_->x.empty() || !own_->y.empty()) at_.box.reset(), names_.x = {"x"}, names_.y = {"y"};
+    if (at_.box || !own_->x.empty()) return;
+    throw InputError({table_->file(), table_->header_line(), 1},
+                     "there are no columns of a bounding box: x1, y1, x2, y2, or xmin, ymin, xmax, "
+                     "ymax, or left, top, width, height, or x_center, y_center, width, height; "
+                     "there are " +
+                         short_list(table_->names()));
+  }
+
+  void find_identity() {
+    at_.id = find_column(*table_, own_->id, names_.id);
+    if (!own_->id.empty() || one_file_a_track(format_)) return;
+    if (at_.id >= 0 || is_own_trajectory(*table_)) return;
+    const int likely = find_role(table_->names(), ColumnRole::identity);
+    if (likely < 0) return;
+    if (format_ == RecordingFormat::boxes) {
+      at_.id = likely;
+      return;
+    }
+    const std::string& name = table_->names()[static_cast<std::size_t>(likely)];
+    throw InputError({table_->file(), table_->header_line(), 1},
+                     "no column 'id', but '" + name + "' looks like identities: columns.id = \"" +
+                         name +
+                         "\" reads it, columns.id = \"-\" links rows by their positions; there "
+                         "are " +
+                         short_list(table_->names()));
+  }
+
+  const Table* table_;
+  const ColumnNames* own_;
+  RecordingFormat format_;
+  FormatColumns names_;
+  Columns at_;
 };
-
-Naming naming_of(RecordingFormat format) {
-  using enum RecordingFormat;
-  switch (format) {
-    case trackpy:
-      return {{"frame"}, {}, {"particle"}, {"x"}, {"y"}, {}, {}};
-    case idtracker:
-      return {{"frame"}, {"time", "seconds"}, {"individual"}, {"x"}, {"y"}, {}, {}};
-    case fasttrack:
-      return {{"imageNumber"}, {}, {"id"}, {"xBody"}, {"yBody"}, {"tBody"}, {}};
-    case swistrack_tracks:
-      return {{"Frame number"}, {}, {}, {"x"}, {"y"}, {}, {}};
-    case swistrack_particles:
-      return {{"Frame number"}, {"Time"}, {}, {"X (world)"}, {"Y (world)"}, {}, {}};
-    case trex:
-      return {
-          {"frame"},
-          {"time", "time (s)"},
-          {},
-          {"X#wcentroid (cm)", "X#wcentroid", "X (cm)", "X", "X#pcentroid (cm)", "X#centroid (cm)"},
-          {"Y#wcentroid (cm)", "Y#wcentroid", "Y (cm)", "Y", "Y#pcentroid (cm)", "Y#centroid (cm)"},
-          {"ANGLE", "ANGLE (rad)", "ANGLE#wcentroid"},
-          {"missing"}};
-    default:
-      return {{"frame"}, {"time"}, {"id"}, {"x"}, {"y"}, {"theta"}, {}};
-  }
-}
-
-/// Numbers beyond this are no lengths, times or angles, and would overflow later.
-constexpr double kLargest = 1e12;
-
-constexpr std::size_t kMostRows = 2'000'000'000;
-
-double bounded(const Table& table, int column) {
-  const double value = table.number(column);
-  if (std::fabs(value) > kLargest) table.refuse(column, table.quoted(column) + " is too large");
-  return value;
-}
-
-std::string names_text(const std::vector<std::string>& names) {
-  const std::string list = joined(names, ", ");
-  return list.size() > 200 ? list.substr(0, 200) + ", ..." : list;
-}
-
-/// The column that differs by large and small letters alone, or the nearest word.
-std::string nearest(const std::string& wanted, const Table& table) {
-  for (const std::string& name : table.names()) {
-    if (in_small_letters(name) != in_small_letters(wanted)) continue;
-    return " - did you mean '" + name + "'?";
-  }
-  return did_you_mean(wanted, table.names());
-}
-
-/// `called`: what the column may be called; the user's one name, or all of the format's.
-[[noreturn]] void refuse_missing(const Table& table, const std::vector<std::string>& called) {
-  std::string near;
-  for (const std::string& name : called) {
-    if (near.empty()) near = nearest(name, table);
-  }
-  std::string wanted = "'" + called.front() + "'";
-  for (std::size_t i = 1; i < called.size(); ++i) wanted += " or '" + called[i] + "'";
-  throw InputError({table.file(), 1, 1}, "there is no column " + wanted + near + "; there are " +
-                                             names_text(table.names()));
-}
 
 /// Reads the rows of one table.
 class ColumnReader {
  public:
   ColumnReader(Table& table, const RecordingOptions& options, Sightings& out)
-      : table_(&table), time_unit_(options.time_unit.value_or(1)), out_(&out) {
-    const Naming names = naming_of(out.format);
-    const ColumnNames& own = options.columns;
-    at_.frame = find(own.frame, names.frame), at_.time = find(own.time, names.time);
-    at_.id = find(own.id, names.id), at_.theta = find(own.theta, names.theta);
-    at_.x = needed(own.x, names.x), at_.y = needed(own.y, names.y);
-    at_.missing = find("", names.missing);
+      : table_(&table),
+        options_(&options),
+        out_(&out),
+        at_(ColumnFinder(table, options, out.format).find()) {
     if (options.body != BodyKind::lily) at_.theta = -1;  // balls do not turn
-    if (at_.frame < 0 && at_.time < 0) {
-      throw InputError({table.file(), 1, 1}, "there is neither a column of frames nor of times");
-    }
     out.headings = at_.theta >= 0;
-    list_unused();
+    std::vector<int> used{at_.frame, at_.time, at_.id, at_.x, at_.y, at_.theta, at_.missing};
+    if (at_.box) used.insert(used.end(), {at_.box->x1, at_.box->y1, at_.box->x2, at_.box->y2});
+    list_unused(table, used, out);
+    hint_at_identities();
   }
 
   /// `id`: of all rows, if the file is one track.
   void read(std::optional<std::int64_t> id) {
     file_ = static_cast<std::int32_t>(out_->files.size() - 1);
     if (!id && at_.id < 0) out_->identities = false;
+    const std::int64_t before = out_->counts.without_identity;
+    const std::size_t rows = out_->rows.size();
     while (table_->next()) row(id);
+    const std::int64_t nobody = out_->counts.without_identity - before;
+    if (nobody == 0 || out_->rows.size() > rows) return;
+    throw InputError({table_->file(), 0, 0},
+                     "no row has an identity in column '" +
+                         table_->names()[static_cast<std::size_t>(at_.id)] +
+                         "': columns.id = \"-\" links rows by their positions");
   }
 
  private:
-  /// "-": the user wants none.
-  int find(const std::string& own, const std::vector<std::string>& names) const {
-    if (own == "-") return -1;
-    if (!own.empty()) {
-      const int found = table_->find(own);
-      if (found < 0) refuse_missing(*table_, {own});
-      return found;
-    }
-    for (const std::string& name : names) {
-      if (const int found = table_->find(name); found >= 0) return found;
-    }
-    return -1;
-  }
-
-  int needed(const std::string& own, const std::vector<std::string>& names) const {
-    const int found = find(own, names);
-    if (found < 0) refuse_missing(*table_, own.empty() ? names : std::vector{own});
-    return found;
-  }
-
-  void list_unused() {
-    out_->unused.clear();
-    const auto& names = table_->names();
-    for (int c = 0; c < static_cast<int>(names.size()); ++c) {
-      const auto used = {at_.frame, at_.time, at_.id, at_.x, at_.y, at_.theta, at_.missing};
-      const std::string& name = names[static_cast<std::size_t>(c)];
-      if (std::find(used.begin(), used.end(), c) == used.end() && !name.empty()) {
-        out_->unused.push_back(name);
-      }
-    }
+  void hint_at_identities() const {
+    if (!options_->columns.id.empty() || at_.id < 0 || is_own_trajectory(*table_)) return;
+    const auto others = names_of_role(out_->unused, ColumnRole::identity);
+    if (others.empty()) return;
+    const std::string& used = table_->names()[static_cast<std::size_t>(at_.id)];
+    add_hint("identities are read from '" + used + "'; " + quoted_names(others) +
+                 " may be identities, too: columns.id says which to read",
+             *out_);
   }
 
   void row(std::optional<std::int64_t> id) {
+    ++out_->counts.read;
     Sighting s;
     s.line = table_->line(), s.file = file_;
-    if (at_.frame >= 0) s.frame = whole(at_.frame);
-    if (at_.time >= 0) s.time = time();
-    if (id) s.id = *id;
-    s.x = bounded(*table_, at_.x), s.y = bounded(*table_, at_.y);
-    if (at_.theta >= 0) s.theta = bounded(*table_, at_.theta);
+    if (at_.frame >= 0) s.frame = whole_cell(*table_, at_.frame);
+    if (at_.time >= 0) s.time = time_of(*table_, at_.time, out_->times, options_->time_unit);
+    place(s);
     const bool missing = at_.missing >= 0 && table_->number(at_.missing) != 0;
     const bool nowhere = std::isnan(s.x) || std::isnan(s.y);
-    if (missing || nowhere) return;  // a gap, which is looked for later
-    if (!id && at_.id >= 0) s.id = identity();
-    if (out_->rows.size() >= kMostRows) {
-      throw InputError({table_->file(), table_->line(), 0}, "more than two thousand million rows");
+    if (missing || nowhere) {  // a gap, which is looked for later
+      ++out_->counts.not_seen;
+      return;
     }
-    out_->rows.push_back(s);
-  }
-
-  std::int64_t whole(int column) const {
-    const auto value = table_->whole(column);
-    if (!value) table_->refuse(column, table_->quoted(column) + " is not a whole number");
-    return *value;
-  }
-
-  double time() {
-    const std::string_view text = table_->cell(at_.time);
-    if (text.size() >= 15) {
-      if (const auto date = parse_date(text)) {
-        if (std::isnan(out_->first_date)) out_->first_date = *date;
-        return *date - out_->first_date;
+    if (id) s.id = *id;
+    if (!id && at_.id >= 0) {
+      const auto known = identity();
+      if (!known) {
+        ++out_->counts.without_identity;
+        return;
       }
+      s.id = *known;
     }
-    const double value = bounded(*table_, at_.time) * time_unit_;
-    if (std::isnan(value)) {
-      table_->refuse(at_.time, table_->quoted(at_.time) + " is not a time");
-    }
-    return value;
+    if (at_.theta >= 0) s.theta = bounded(*table_, at_.theta);
+    out_->add(s);
   }
 
-  // Ids are whole numbers, or words that are numbered as they come.
-  std::int64_t identity() {
-    const auto number = table_->whole(at_.id);
-    const bool first = out_->rows.empty() && out_->names.empty();
-    if (number && (first || out_->names.empty())) return *number;
-    const std::string word(table_->cell(at_.id));
-    if (word.empty() || (!first && out_->names.empty())) {
-      table_->refuse(at_.id, table_->quoted(at_.id) + " is not a whole number as the others are");
+  void place(Sighting& s) const {
+    if (at_.box) {
+      place_box(s);
+    } else {
+      s.x = bounded(*table_, at_.x), s.y = bounded(*table_, at_.y);
     }
+    s.zero = s.x == 0 && s.y == 0;
+  }
+
+  /// The middle of a box.
+  void place_box(Sighting& s) const {
+    const BoxColumns& box = *at_.box;
+    const double x1 = bounded(*table_, box.x1), y1 = bounded(*table_, box.y1);
+    const double x2 = bounded(*table_, box.x2), y2 = bounded(*table_, box.y2);
+    using Kind = BoxColumns::Kind;
+    if (box.kind != Kind::corners && (x2 < 0 || y2 < 0)) {
+      const int column = x2 < 0 ? box.x2 : box.y2;
+      table_->refuse(column, table_->quoted(column) + " is no width or height of a box");
+    }
+    if (box.kind == Kind::corners && (x2 < x1 || y2 < y1)) {
+      const int column = x2 < x1 ? box.x2 : box.y2;
+      table_->refuse(column, table_->quoted(column) + " is before the box's other corner, " +
+                                 table_->quoted(x2 < x1 ? box.x1 : box.y1) +
+                                 ": are these corners of a bounding box?");
+    }
+    // A box of no size is how some trackers write what they did not see.
+    s.x = s.y = kUnknown;
+    if (box.kind == Kind::corners) {
+      if (x2 > x1 || y2 > y1) s.x = 0.5 * (x1 + x2), s.y = 0.5 * (y1 + y2);
+    } else if (x2 > 0 || y2 > 0) {
+      const double part = box.kind == Kind::corner_and_size ? 0.5 : 0.0;
+      s.x = x1 + part * x2, s.y = y1 + part * y2;
+    }
+  }
+
+  // Ids are whole numbers; if one is a word, all are words, which are numbered as they come.
+  // Nothing: the row belongs to nobody.
+  std::optional<std::int64_t> identity() {
+    if (table_->not_seen(at_.id)) return std::nullopt;
+    const auto number = table_->whole(at_.id);
+    if (out_->names.empty()) {
+      if (number) return *number;
+      for (Sighting& row : out_->rows) row.id = number_of(std::to_string(row.id));
+    }
+    return number_of(number ? std::to_string(*number) : std::string(table_->cell(at_.id)));
+  }
+
+  std::int64_t number_of(const std::string& word) const {
     const auto [found, added] =
         out_->words.emplace(word, static_cast<std::int64_t>(out_->names.size()));
     if (added) out_->names.push_back(word);
@@ -199,7 +227,7 @@ class ColumnReader {
   }
 
   Table* table_;
-  double time_unit_;
+  const RecordingOptions* options_;
   Sightings* out_;
   Columns at_;
   std::int32_t file_ = 0;
@@ -225,6 +253,7 @@ FormatUnits units_of(RecordingFormat format) {
     case trackpy:
     case idtracker:
     case idtracker_wide:
+    case boxes:
       return {0, true, true};
     case fasttrack:
       return {0, true, false};  // angles are counter-clockwise as seen
@@ -235,75 +264,15 @@ FormatUnits units_of(RecordingFormat format) {
   }
 }
 
-/// A body's columns in a wide table.
-struct WideBody {
-  std::int64_t id;
-  int x, y;
-};
-
-std::vector<WideBody> wide_bodies(const Table& table) {
-  std::vector<WideBody> bodies;
-  for (const std::string& name : table.names()) {
-    const auto id = name.starts_with('x') ? parse_whole(name.substr(1)) : std::nullopt;
-    if (!id) continue;
-    bodies.push_back({*id, table.find(name), table.find("y" + name.substr(1))});
-    if (bodies.back().y < 0) {
-      throw InputError({table.file(), 1, 1},
-                       "there is a column '" + name + "' but no 'y" + name.substr(1) + "'");
-    }
-  }
-  return bodies;
-}
-
-/// The column of times of a wide table, -1 if there is none. Rows are frames and columns bodies, so
-/// no other column can be named.
-int wide_time(const Table& table, const ColumnNames& own) {
-  for (const auto& [role, name] : {std::pair{"frame", &own.frame},
-                                   {"id", &own.id},
-                                   {"x", &own.x},
-                                   {"y", &own.y},
-                                   {"theta", &own.theta}}) {
-    if (name->empty() || *name == "-") continue;
-    throw InputError({table.file(), 1, 1},
-                     "columns." + std::string(role) + " = \"" + *name +
-                         "\": a table of x1, y1, x2, y2, ... has a column of times alone "
-                         "(columns.time)");
-  }
-  if (own.time == "-") return -1;
-  const int named = table.find(own.time.empty() ? "time" : own.time);
-  if (named < 0 && !own.time.empty()) refuse_missing(table, {own.time});
-  return named >= 0 ? named : table.find("seconds");
-}
-
-/// time,x1,y1,x2,y2,...: one row a frame; the numbers are the bodies.
-void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
-  const std::vector<WideBody> bodies = wide_bodies(table);
-  const int time = wide_time(table, options.columns);
-  const auto file = static_cast<std::int32_t>(out.files.size() - 1);
-  for (std::int64_t frame = 0; table.next(); ++frame) {
-    Sighting s;
-    s.frame = frame, s.line = table.line(), s.file = file;
-    if (time >= 0) s.time = bounded(table, time) * options.time_unit.value_or(1);
-    if (time >= 0 && std::isnan(s.time)) {
-      table.refuse(time, table.quoted(time) + " is not a time");
-    }
-    for (const WideBody& body : bodies) {
-      s.id = body.id, s.x = bounded(table, body.x), s.y = bounded(table, body.y);
-      if (!std::isnan(s.x) && !std::isnan(s.y)) out.rows.push_back(s);
-    }
-  }
-}
-
 }  // namespace
 
-void read_columns(LineSource& lines, const RecordingOptions& options, Sightings& out) {
+void read_columns(Table& table, const RecordingOptions& options, Sightings& out) {
   out.units = units_of(out.format);
-  const bool swistrack_track = out.format == RecordingFormat::swistrack_tracks;
-  Table table = swistrack_track ? Table(lines, {"Frame number", "x", "y"}) : Table(lines);
+  if (out.format == RecordingFormat::swistrack_tracks) table.rename({"Frame number", "x", "y"});
   if (out.format == RecordingFormat::idtracker_wide) return read_wide(table, options, out);
   ColumnReader reader(table, options, out);
   std::optional<std::int64_t> id;
-  if (one_file_a_track(out.format)) id = track_of(lines.file());
+  if (one_file_a_track(out.format)) id = track_of(table.file());
   reader.read(id);
 }
 

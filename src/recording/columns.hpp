@@ -1,6 +1,6 @@
 // The rows of one file as sightings.
 #pragma once
-#include "io/line_source.hpp"
+#include "io/table.hpp"
 #include "recording/sightings.hpp"
 
 namespace lilytank {
@@ -10,6 +10,6 @@ bool one_file_a_track(RecordingFormat format);
 
 /// Adds the rows of a file, whose name is the last of out.files and whose format is known. Throws
 /// InputError.
-void read_columns(LineSource& lines, const RecordingOptions& options, Sightings& out);
+void read_columns(Table& table, const RecordingOptions& options, Sightings& out);
 
 }  // namespace lilytank

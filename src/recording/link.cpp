@@ -19,7 +19,7 @@ constexpr std::size_t kMostInFrame = 1000;
 class Linker {
  public:
   Linker(Sightings& s, const FrameClock& clock, const RecordingOptions& options, Report& report)
-      : s_(&s), report_(&report) {
+      : s_(&s), clock_(&clock), report_(&report) {
     const CheckRules& rules = report.rules();
     // Two bodies are never nearer than twice this, so one prediction has one body.
     gate_ = std::max(options.body_radius, rules.least_jump);
@@ -115,7 +115,8 @@ class Linker {
     const Sighting& row = s_->rows[pair.row];
     Treatment treatment = report_->rules()[Check::link];
     if (treatment == Treatment::mark) treatment = Treatment::split;
-    report_->add(Check::link, treatment, s_->place(row), row.frame, open_[pair.track].id,
+    report_->add(Check::link, treatment, s_->place(row), clock_->number(row.frame),
+                 open_[pair.track].id,
                  "goes on where track " + std::to_string(open_[rival].id) + " may as well");
     return treatment;
   }
@@ -128,6 +129,7 @@ class Linker {
   }
 
   Sightings* s_;
+  const FrameClock* clock_;
   Report* report_;
   double gate_ = 0;
   std::int64_t longest_gap_ = 1;

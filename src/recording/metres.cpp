@@ -52,15 +52,17 @@ std::string length_hint(const RecordingOptions& options, double reach, double x,
   return "; are lengths in pixels? then say where the tank is: tank_circle = [x, y, radius]";
 }
 
-void check_lengths(const Sightings& s, const RecordingOptions& options, const Map& map,
-                   Report& report) {
+void check_lengths_with(const Map& map, const Sightings& s, const RecordingOptions& options,
+                        Report& report) {
   constexpr double kMostOutside = 0.1;  // of the sightings
   const double limit = 1.1 * options.tank_radius;
   std::vector<double> radii, xs, ys;
   for (const Sighting& row : s.rows) {
+    if (row.unseen) continue;
     radii.push_back(length(row.x, row.y));
     xs.push_back(row.x), ys.push_back(row.y);
   }
+  if (radii.empty()) return;
   const auto n = static_cast<double>(radii.size());
   const auto outside = static_cast<double>(
       std::count_if(radii.begin(), radii.end(), [&](double r) { return !(r <= limit); }));
@@ -124,7 +126,10 @@ void to_metres(Sightings& s, const RecordingOptions& options, Report& report) {
     row.y = map.y_sign * map.pixel * (row.y - map.origin_y);
     row.theta *= map.angle;
   }
-  if (options.in_tank) check_lengths(s, options, map, report);
+}
+
+void check_lengths(const Sightings& s, const RecordingOptions& options, Report& report) {
+  if (options.in_tank) check_lengths_with(map_of(s, options), s, options, report);
 }
 
 }  // namespace lilytank

@@ -54,7 +54,7 @@ std::vector<Path> make_paths(const Sightings& s, const FrameClock& clock, Report
     const Sighting& row = s.rows[i];
     const auto [found, added] = index.emplace(row.id, paths.size());
     if (added) paths.push_back({row.id, {}});
-    const Point point{static_cast<int>(row.frame - clock.first),
+    const Point point{static_cast<int>(row.frame),
                       static_cast<std::int32_t>(i),
                       row.x,
                       row.y,
@@ -88,7 +88,7 @@ void check_gaps(const std::vector<Path>& paths, const CheckContext& c) {
     const double seconds = count / c.clock.rate;
     const Treatment rule = c.report.rules()[Check::gap];
     const bool cut = rule == Treatment::mark && seconds > c.report.rules().longest_gap;
-    c.report.add(Check::gap, cut ? Treatment::split : rule, place, c.clock.first + frame, id,
+    c.report.add(Check::gap, cut ? Treatment::split : rule, place, c.clock.number(frame), id,
                  std::string(id < 0 ? "nothing" : "not") + " seen in " + std::to_string(count) +
                      (count == 1 ? " frame" : " frames, " + brief(seconds) + " s"));
   };

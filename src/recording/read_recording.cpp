@@ -1,3 +1,4 @@
+#include "io/enough_memory.hpp"
 #include "lilytank/recording_io.hpp"
 #include "recording/files.hpp"
 #include "recording/formats.hpp"
@@ -41,7 +42,8 @@ CheckedRecording check_recording(const std::vector<std::string>& names,
   for (const std::string& name : names) {
     for (std::string& file : files_of(name)) files.push_back(std::move(file));
   }
-  return process(read_sightings(files, options), options);
+  return with_enough_memory(files.front(),
+                            [&] { return process(read_sightings(files, options), options); });
 }
 
 Recording read_recording(const std::string& file, const RecordingOptions& options) {

@@ -42,7 +42,10 @@ std::string time_text(double seconds) {
 CheckRules::CheckRules() {
   using enum Treatment;
   treatments.fill(split);
-  for (const Check check : {Check::gap, Check::spike, Check::outside}) (*this)[check] = mark;
+  for (const Check check : {Check::gap, Check::spike, Check::outside, Check::repeat}) {
+    (*this)[check] = mark;
+  }
+  (*this)[Check::columns] = keep;
   for (const Check check : {Check::duplicate, Check::clock, Check::units}) {
     (*this)[check] = refuse;
   }
@@ -52,7 +55,7 @@ std::string Finding::text() const {
   static constexpr const char* done[] = {"kept", "marked", "track cut", "refused"};
   std::string out = place.text() + ": ";
   if (frame >= 0) out += "frame " + std::to_string(frame) + ", ";
-  if (id >= 0) out += "id " + std::to_string(id) + ", ";
+  if (id >= 0) out += "id " + (name.empty() ? std::to_string(id) : name) + ", ";
   return out + check_word(check) + ": " + what + " (" + done[static_cast<std::size_t>(treatment)] +
          ")";
 }

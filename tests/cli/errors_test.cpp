@@ -85,8 +85,8 @@ TEST_F(ErrorsTest, Scenarios) {
        "is "
        "0.00625 s, 25 ms / 4"},
       {"run flow.toml",
-       "flow.csv:1:1: the header is 'x,y', a flow grid begins with "
-       "'ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured'"},
+       "flow.csv:1:1: there is no column 'ix' - did you mean 'x'?; a flow grid has the columns "
+       "ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured"},
   });
   const Answer rules = lilytank_("run rules.toml");
   EXPECT_EQ(rules.code, 2);

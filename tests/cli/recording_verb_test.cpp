@@ -30,6 +30,23 @@ TEST_F(RecordingVerb, infoTellsWhatIsThere) {
   }
 }
 
+TEST_F(RecordingVerb, whatIsNotReadIsAccountedFor) {
+  lilytank_.here.write("steps.csv",
+                       "frame,particle,x,y,mass\n0,1,0,0,5\n2,1,1,0,5\n2,,40,40,5\n"
+                       "4,1,nan,nan,5\n6,1,3,0,5\n8,1,4,0,5\n");
+  const std::string reading = "--read rate=30 --read pixel=1mm";
+  Answer a = lilytank_("recording info steps.csv " + reading);
+  EXPECT_EQ(a.code, 0) << a.err;
+  for (const char* text :
+       {"trackpy, 1 file, 4 rows", "not used  mass\n",
+        "left out  1 row without identity, 1 sighting without a position, of 6 rows read\n",
+        "5 frames at 15 /s, from 0 s to 0.266667 s; frame numbers have a common step of 2\n"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+  a = lilytank_("recording check steps.csv " + reading);
+  EXPECT_NE(a.out.find("left out: 1 row without identity"), std::string::npos) << a.out;
+}
+
 TEST_F(RecordingVerb, checkNamesWhatIsWrongAndGoesOn) {
   const Answer a = lilytank_("recording check duplicate.csv none.csv small.csv --csv found.csv");
   EXPECT_EQ(a.code, 2);

@@ -53,7 +53,6 @@ bool read_as(RecordingFormat format, std::string_view bytes, bool lenient) {
     LineSource lines(bytes, "track00000007.csv");
     Sightings sightings;
     sightings.format = format;
-    if (format == RecordingFormat::automatic) sightings.format = detect_format(lines);
     read_sightings(lines, options, sightings);
     check_promises(process(std::move(sightings), options));
     return true;
@@ -163,6 +162,9 @@ std::vector<Reader> make_readers() {
        rows("frame,time,individual,x,y,probability", "ftixy1", ',')},
       {"idtracker-wide", read_format<idtracker_wide>,
        "time,x1,y1,x2,y2\n0,1,2,3,4\n0.1,1,2,nan,nan\n0.2,1,2.5,3,4.5\n0.3,1,2,3,4\n"},
+      {"boxes", read_format<boxes>,
+       "frame,id,x1,y1,x2,y2,conf\n0,1,1,2,3,4,1\n1,1,1,2,3.5,4,1\n2,,1,2,3,4,1\n4,1,nan,2,3,4,"
+       "1\n"},
       {"trex", read_format<trex>,
        rows("frame,X#wcentroid (cm),Y#wcentroid (cm),ANGLE,time,missing", "fxyat0", ',')},
       {"fasttrack", read_format<fasttrack>,

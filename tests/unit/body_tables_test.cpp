@@ -1,6 +1,8 @@
 // Tables of point bodies: which rows are refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "lilytank/bodies.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -53,6 +55,61 @@ TEST(BodyExperiment, refusesRowsOfOneTimeThatDiffer) {
             "recording.body or recording.run?");
   EXPECT_EQ(complaint_about("t,ball,h", "0,a,\n0,a,\n", x + "body = \"ball\"\n"), "");
   EXPECT_EQ(complaint_about("t,h,wind", "0,1,1\n0,1,1\n", x + "drivers = [\"wind\"]\n"), "");
+}
+
+BodyExperiment load(const std::string& table, const std::string& keys) {
+  const TemporaryDirectory here;
+  here.write("t.csv", table);
+  return load_body_experiment(
+      here.write("e.toml",
+                 "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"t.csv\"\n"
+                 "time = \"t\"\nx = \"h\"\n" +
+                     keys));
+}
+
+// Rows of two bodies together, by time or not.
+TEST(BodyExperiment, takesRowsInAnyOrder) {
+  std::vector<std::string> rows;
+  for (int k = 0; k < 12; ++k) {
+    for (const char* body : {"a", "b"}) {
+      rows.push_back(std::to_string(k) + "," + body + "," + std::to_string(k * k) + "\n");
+    }
+  }
+  const auto read = [&] {
+    std::string table = "t,ball,h\n";
+    for (const std::string& row : rows) table += row;
+    return load(table, "body = \"ball\"\ntogether = true\n").runs.at(0);
+  };
+  const BodyRun ordered = read();
+  std::rotate(rows.begin(), rows.begin() + 7, rows.end());
+  std::swap(rows[2], rows[19]);
+  const BodyRun shuffled = read();
+  EXPECT_EQ(shuffled.bodies, ordered.bodies);
+  EXPECT_EQ(shuffled.time, ordered.time);
+  EXPECT_EQ(shuffled.position, ordered.position);
+}
+
+TEST(BodyExperiment, takesDatesClocksAndEpochs) {
+  const auto times = [](const std::string& before, const std::string& after,
+                        const std::string& keys = "") {
+    std::string table = "t;h\n";
+    for (int k = 10; k < 20; ++k) table += before + std::to_string(k) + after + ";0,5\n";
+    return load(table, keys).runs.at(0).time;
+  };
+  const std::vector<double> seconds = times("", "");
+  EXPECT_EQ(seconds.back(), 9);
+  EXPECT_EQ(times("2018-05-01T00:00:", "Z"), seconds);
+  EXPECT_EQ(times("00:00:", ""), seconds);
+  EXPECT_DOUBLE_EQ(times("17000000", "000").back(), 9);  // ms
+  EXPECT_EQ(times("", "", "time_unit = \"1 min\"\n").back(), 540);
+}
+
+TEST(BodyExperiment, countsRowsWithoutABodyAndComments) {
+  std::string table = "t,ball,h\n";
+  for (int k = 0; k < 9; ++k) table += std::to_string(k) + ",a,1\n";
+  const BodyExperiment e = load(table + "9,,1\n10,NaN,1\n# end\n", "body = \"ball\"\n");
+  EXPECT_EQ(e.left_out, (std::vector<std::string>{"t.csv: 2 rows without a body left out",
+                                                  "t.csv: 1 comment line passed over"}));
 }
 
 // Eight rows are the least; what has fewer is told, not lost.

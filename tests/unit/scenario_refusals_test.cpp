@@ -161,7 +161,7 @@ TEST_F(ScenarioRefusals, RefusesFilesThatDoNotFit) {
   EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"), "p.csv:2:1: 3 columns instead of 4");
   dir_.write("p.csv", "x,y\n");
   EXPECT_EQ(refusal("[start]\nfile = \"p.csv\"\n"),
-            "p.csv:1:1: the first line is not \"id,x,y,theta\"");
+            "p.csv:1:1: there is no column 'id'; a file of poses has the columns id,x,y,theta");
   EXPECT_EQ(refusal("[[command]]\nat = 1\ndo = \"ruleset\"\nfile = \"r.rules\"\n"),
             "command: a command replaces the ruleset, but no ruleset.file is set to begin with");
   EXPECT_EQ(refusal("[[command]]\ncopies = 1\ndo = \"pump_power\"\npower = 5\n"),

@@ -105,6 +105,20 @@ TEST_F(ScenarioTest, NamingAFileChoosesIt) {
   EXPECT_NEAR(s.model.start.poses[1].r.s, 1, 1e-15);
 }
 
+// As spreadsheets leave them: byte order mark, other separators and order of columns, blank lines.
+TEST_F(ScenarioTest, FlowsAndPosesAreTextTables) {
+  dir_.write("flow.csv",
+             "\xef\xbb\xbfmeasured;ix;iy;x_m;y_m;mean_vx_mps;mean_vy_mps;std_vx_mps;std_vy_mps\r\n"
+             "1;0;0;-0,15;-0,15;0,1;0;0;0\r\n\r\n1;1;0;0,15;-0,15;0,1;0;0;0\r\n"
+             "1;1;1;0,15;0,15;0,1;0;0;0\r\n1;0;1;-0,15;0,15;0,1;0;0;0\r\n;;;;;;;;\r\n");
+  dir_.write("poses.csv", "theta\tid\t\"x\"\ty\r0\t0\t0.1\t0\r0.5\t1\t-0.1\t0.02\r\r");
+  const Scenario s =
+      load("[flow]\nfile = \"flow.csv\"\n[start]\nfile = \"poses.csv\"\n[module]\ncount = 2\n");
+  EXPECT_EQ(s.model.field->at(0, 0).mu_x, 0.1);
+  ASSERT_EQ(s.model.start.poses.size(), 2u);
+  EXPECT_EQ(s.model.start.poses[1].y, 0.02);
+}
+
 TEST_F(ScenarioTest, RulesHaveProbabilitiesThatCanBeSet) {
   dir_.write("r/pair.rules", kRules);
   const std::string text = "[ruleset]\nfile = \"r/pair.rules\"\n[rules]\npart.p = 0.25\n";

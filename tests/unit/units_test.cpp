@@ -54,6 +54,21 @@ TEST(Units, ProductsPowersAndGroups) {
   EXPECT_EQ(read("3 \u00b5m", "m"), 3e-6);
 }
 
+// As keyboards and word processors write them.
+TEST(Units, LettersAsPeopleTypeThem) {
+  EXPECT_EQ(read("3 \u03bcm", "m"), 3e-6);
+  EXPECT_EQ(read("30\u00a0cm", "m"), 0.3);
+  EXPECT_EQ(read("30\u202fcm", "m"), 0.3);
+  EXPECT_EQ(read("30\u2009cm", "m"), 0.3);
+  EXPECT_EQ(read("7 cm\u00b2", "m^2"), 7e-4);
+  EXPECT_EQ(read("2 m\u00b7s\u207b\u00b2", "m/s^2"), 2);
+  EXPECT_EQ(read("\u22128\u00a0cm", "m"), -0.08);
+  EXPECT_DOUBLE_EQ(read("15 \u00b0", "rad"), 0.2617993877991494);
+  EXPECT_EQ(refusal("0,30 m", "m"),
+            "t.toml:3:10: tank.radius = \"0,30 m\" has a comma in its number, which is not read: "
+            "write \"0.30 m\" if it is a decimal comma");
+}
+
 TEST(Units, WrongDimensionNamesTheRightOne) {
   EXPECT_EQ(refusal("3 kg", "m"), "t.toml:3:10: tank.radius is a length in m; 'kg' is not");
   EXPECT_EQ(refusal("3 m", "1"), "t.toml:3:10: tank.radius is a number without a unit; 'm' is not");
