@@ -286,6 +286,36 @@ void warn(const Comparison& c, Diagnosis& d) {
   }
 }
 
+// Predictions far ahead that the findings make worse, beyond the noise.
+void warn_of_worse(Diagnosis& d) {
+  std::string worse;
+  for (const GroupFit& g : d.held_out) {
+    if (g.after <= std::max(1.0, g.before)) continue;
+    worse += (worse.empty() ? "" : ", ") + g.group + " (" + significant(g.before, 3) + " to " +
+             significant(g.after, 3) + " times the noise's mean square)";
+  }
+  if (worse.empty()) return;
+  d.warnings.push_back(
+      "with the findings, predictions a quarter of a run ahead are worse than without: " + worse +
+      ". The laws describe single steps only: give the tracker's noise, or samples that are closer "
+      "together");
+}
+
+// Where the simple model takes motion for the tracker's noise.
+void warn_of_noise(const Comparison& c, Diagnosis& d) {
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const BodyModel &without = c.baseline.fits[i].model, &with = c.best().fits[i].model;
+    if (!without.noise_fitted || with.noise > without.noise / 2) continue;
+    const auto of = [&](double noise) { return significant(noise, 3) + " " + c.experiment->unit; };
+    d.warnings.push_back(
+        (c.groups[i].name.empty() ? "" : c.groups[i].name + ": ") + "the tracker's noise is " +
+        of(with.noise) + " with the findings and " + of(without.noise) +
+        " without: the simple model takes motion for noise, and predictions far ahead are compared "
+        "at " +
+        of(with.noise) + "; noise = \"" + of(with.noise) + "\" would say so");
+  }
+}
+
 void add_fit(const Comparison& c, Diagnosis& d) {
   double before = 0, after = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_before.size(); ++i) {
@@ -366,6 +396,7 @@ Diagnosis told(const Comparison& c) {
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
   const LawTrial& best = c.best();
+  for (const std::string& failure : c.failures) d.warnings.push_back("not evaluated: " + failure);
   add_ranking(c, d);
   add_detectable(c, d);
   add_moved(c, d);
@@ -378,7 +409,11 @@ Diagnosis told(const Comparison& c) {
   d.verdict = sure.value > 1.645 * sure.error ? Verdict::missing : Verdict::undecided;
   d.findings = findings(c);
   add_fit(c, d);
+  // What is found must predict the motion itself, not only its next sample.
+  if (d.msd_removed < 0) d.verdict = Verdict::undecided;
   warn(c, d);
+  warn_of_worse(d);
+  warn_of_noise(c, d);
   return d;
 }
 
