@@ -30,8 +30,8 @@ std::vector<Group> groups_of(const BodyExperiment& experiment);
 /// predictions.
 LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
 
-/// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise is
-/// more than twice that: it took motion for noise, and `best` says what the tracker's noise is.
+/// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise
+/// is more than twice that: it took motion for noise, and `best` says what the tracker's noise is.
 LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
                               const LawTrial& best);
 

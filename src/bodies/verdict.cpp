@@ -239,83 +239,6 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
   return out;
 }
 
-// Bodies that are let go in known fields should not be pushed about: what is left then is the
-// measurement's, or a law's that is not in the library.
-void warn_of_pushes(const Comparison& c, Diagnosis& d) {
-  double left = 0, had = 0;
-  for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    left += std::pow(c.best().fits[i].model.push, 2),
-        had += std::pow(c.baseline.fits[i].model.push, 2);
-  }
-  const auto n = static_cast<double>(c.groups.size());
-  double far = 0, floor = 0;
-  for (std::size_t i = 0; i < c.far_after.size(); ++i) {
-    far += c.far_after[i], floor += std::pow(c.best().fits[i].model.noise, 2);
-  }
-  if (far < 5 * floor) return;
-  d.warnings.push_back(
-      "irregular accelerations of " + significant(std::sqrt(left / n), 2) + " " +
-      c.experiment->unit + "/s^2 rms are left (" + significant(std::sqrt(had / n), 2) +
-      " without the findings): where nothing pushes these bodies at random, suspect the "
-      "measurement (release, clock, scale); laws that differ by less along this motion are not "
-      "told apart");
-}
-
-void warn(const Comparison& c, Diagnosis& d) {
-  const LawTrial& best = c.best();
-  warn_of_pushes(c, d);
-  if (c.repeats.z() > 3) {
-    d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
-                         std::string(best.candidate.laws.back()->name()) + " by " +
-                         significant(c.repeats.factor(), 2) + " times their errors" +
-                         (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
-                         ": suspect the measurement (release, clock, scale); intervals are widened "
-                         "by that, and which law it is cannot be told from fits that differ by "
-                         "less");
-  }
-  for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const BodyModel& m = best.fits[i].model;
-    for (const Term& t : m.terms) {
-      const bool drag = t.law->variable() == "slip" && !t.law->curve();
-      if (drag && t.value[0] < 0 && t.fitted[0] && c.groups.size() == 1) {
-        d.warnings.push_back(std::string(t.law->name()) +
-                             " comes out negative, which no drag is: how the loss is shared out "
-                             "between these laws is not identified");
-      }
-    }
-  }
-}
-
-// Predictions far ahead that the findings make worse, beyond the noise.
-void warn_of_worse(Diagnosis& d) {
-  std::string worse;
-  for (const GroupFit& g : d.held_out) {
-    if (g.after <= std::max(1.0, g.before)) continue;
-    worse += (worse.empty() ? "" : ", ") + g.group + " (" + significant(g.before, 3) + " to " +
-             significant(g.after, 3) + " times the noise's mean square)";
-  }
-  if (worse.empty()) return;
-  d.warnings.push_back(
-      "with the findings, predictions a quarter of a run ahead are worse than without: " + worse +
-      ". The laws describe single steps only: give the tracker's noise, or samples that are closer "
-      "together");
-}
-
-// Where the simple model takes motion for the tracker's noise.
-void warn_of_noise(const Comparison& c, Diagnosis& d) {
-  for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const BodyModel &without = c.baseline.fits[i].model, &with = c.best().fits[i].model;
-    if (!without.noise_fitted || with.noise > without.noise / 2) continue;
-    const auto of = [&](double noise) { return significant(noise, 3) + " " + c.experiment->unit; };
-    d.warnings.push_back(
-        (c.groups[i].name.empty() ? "" : c.groups[i].name + ": ") + "the tracker's noise is " +
-        of(with.noise) + " with the findings and " + of(without.noise) +
-        " without: the simple model takes motion for noise, and predictions far ahead are compared "
-        "at " +
-        of(with.noise) + "; noise = \"" + of(with.noise) + "\" would say so");
-  }
-}
-
 void add_fit(const Comparison& c, Diagnosis& d) {
   double before = 0, after = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_before.size(); ++i) {
@@ -411,9 +334,7 @@ Diagnosis told(const Comparison& c) {
   add_fit(c, d);
   // What is found must predict the motion itself, not only its next sample.
   if (d.msd_removed < 0) d.verdict = Verdict::undecided;
-  warn(c, d);
-  warn_of_worse(d);
-  warn_of_noise(c, d);
+  add_warnings(c, d);
   return d;
 }
 

@@ -27,6 +27,9 @@ struct Comparison {
   bool apart(const LawTrial& better, const LawTrial& worse) const;
 };
 
+/// Adds warnings about the best outcome to a diagnosis that has its findings and its fit.
+void add_warnings(const Comparison& comparison, Diagnosis& diagnosis);
+
 Diagnosis told(const Comparison& comparison);
 
 }  // namespace lilytank::bodies
