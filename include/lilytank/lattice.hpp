@@ -24,7 +24,9 @@ struct Reaction {
   RuleKind kind = RuleKind::link;
   std::vector<int> from;  ///< one species (unlink, update, closing a loop) or two
   std::vector<int> to;    ///< rising
-  int places = 1;  ///< pairs of faces, or bonds, at which it happens, of one pair or assembly
+  /// Pairs of faces, or bonds, at which it happens, of one pair or assembly. A half: either module
+  /// of two with equal labels may take the first of two right sides, each in half of the cases.
+  double places = 1;
 };
 
 /// What a ruleset makes of single modules.

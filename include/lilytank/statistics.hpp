@@ -1,6 +1,7 @@
 // Statistics of assembly experiments: proportions, rates, censored times, curves, pairs.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace lilytank {
@@ -70,9 +71,11 @@ Estimate bounded_mean_interval(const std::vector<double>& values, double least, 
 /// var(a) + var(b) over var(a - b).
 struct PairedComparison {
   Estimate difference;
-  double p = 1;       ///< Student's, two-sided; 1 for fewer than two pairs; the signs' where all
-                      ///< differences are equal
-  double saving = 1;  ///< as many times the runs would be needed without pairs
+  /// Student's, two-sided; the signs' where all differences are equal; NaN for fewer than two
+  /// pairs, which have no spread to judge a difference by.
+  double p = std::numeric_limits<double>::quiet_NaN();
+  /// As many times the runs would be needed without pairs; NaN for fewer than two pairs.
+  double saving = std::numeric_limits<double>::quiet_NaN();
 };
 /// `a` and `b` are of equal length, pair by pair.
 PairedComparison compare_pairs(const std::vector<double>& a, const std::vector<double>& b,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -24,11 +25,16 @@ std::vector<Pair> pairs_of(const Runs& runs, bool all_pairs) {
 }
 
 // Holm, Scand. J. Stat. 6 (1979) 65: the i-th smallest of m (from 0) is multiplied by m - i, and
-// none is smaller than the one before.
+// none is smaller than the one before. Tests without a p have no part in it.
 template <class Test, class P>
 void adjust(std::vector<Test>& tests, P p_of) {
   std::vector<std::size_t> order(tests.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) {
+    if (!std::isnan(p_of(tests[i]))) return false;
+    tests[i].adjusted_p = p_of(tests[i]);
+    return true;
+  });
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return p_of(tests[i]) < p_of(tests[j]); });
   double least = 0;

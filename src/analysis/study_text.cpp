@@ -101,20 +101,22 @@ std::string survival_tests_text(const StudySummary& s) {
 
 std::string pair_tests_text(const StudySummary& s, const TimeScale& unit) {
   TextTable table({"quantity", "settings", "pairs", "difference", "p", "p (Holm)", "saved"});
+  bool single = false;
   for (const PairTest& t : s.pair_tests) {
+    single = single || t.pairs < 2;
     const auto shown = [&](const std::string& text) { return t.reached ? text : "-"; };
     table.add({t.k == 0 ? "copies at end"
                         : "time to copy " + std::to_string(t.k) + " (" + unit.name + ")",
                pair_name(t.a, t.b, " - "), std::to_string(t.pairs),
                shown(with_interval(t.result.difference, t.k == 0 ? 1 : unit.seconds)),
                shown(p_text(t.result.p)), shown(p_text(t.adjusted_p)),
-               shown(fixed(t.result.saving, 2))});
+               shown(t.pairs < 2 ? "-" : fixed(t.result.saving, 2))});
   }
   if (table.empty()) return "";
   return "\nDifferences of runs that share a seed, Student, " + against_text(s) +
          ".\nSaved: the variance without sharing over the variance with it. -: no run came so "
          "far.\n" +
-         table.text();
+         (single ? "One pair cannot tell: a test takes two pairs or more.\n" : "") + table.text();
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
+#include "text/number.hpp"
 
 namespace lilytank::bodies {
 
@@ -59,6 +62,17 @@ double sum(const std::vector<double>& v) {
   return out;
 }
 
+// Share of the noise that the samples' bends suggest: where samples are far apart, bends are the
+// motion's.
+constexpr double kLittleNoise = 0.02;
+
+// Why a fit failed.
+std::string unusable(const std::string& what, const Group& g) {
+  return what + " gives no finite predictions from any start" +
+         (g.name.empty() ? "" : " for " + g.name) + ": samples are " + significant(g.step, 3) +
+         " s apart, which may be too far for it";
+}
+
 BodyModel baseline_model(const BodyExperiment& e, Group& g) {
   BodyModel m = first_model(e, g);
   g.penalty_at = packed(m);
@@ -68,6 +82,8 @@ BodyModel baseline_model(const BodyExperiment& e, Group& g) {
       continue;
     }
     const Law& law = *find_law(one.law);
+    if (law.variable() == "turn" && g.typical.dimensions != 2)
+      throw InputError(one.place, one.law + " turns velocities, which takes two dimensions");
     std::vector<double> start = law.starts(g.typical).front();
     Term t = term_of(law, g.typical, start, g.runs, m.push);
     if (!one.fit) {
@@ -80,22 +96,70 @@ BodyModel baseline_model(const BodyExperiment& e, Group& g) {
   return m;
 }
 
-// Of several starts the one that fits best: also one with small pushes, so that a law need not
-// first compete with pushes that have taken its place.
-Fitted best_fit(const Group& g, const BodyModel& base, const Law& law) {
-  constexpr int kFirst = 4;  // steps after which only the best start goes on
-  Fitted best;
-  best.likelihood = -1e300;
+// Models from where a law's fit starts. Pushes and noise may have taken the law's place in `base`:
+// one start has small pushes, and one little noise where noise is fitted.
+std::vector<BodyModel> starts_of(const Group& g, const BodyModel& base, const Law& law) {
+  std::vector<BodyModel> out;
   for (const std::vector<double>& start : law.starts(g.typical)) {
-    for (const auto& [size, pushes] : {std::pair{1e-3, 1.0}, {0.5, 0.03}}) {
-      BodyModel m = base;
-      m.push = std::max(m.push * pushes, m.least_push);
-      m.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, size));
-      const Fitted f = fit_group(g, m, false, kFirst);
-      if (f.likelihood > best.likelihood) best = f;
-    }
+    const auto add = [&](BodyModel m, double size) {
+      m.terms.push_back(term_of(law, g.typical, start, g.runs, m.push, size));
+      out.push_back(std::move(m));
+    };
+    add(base, 1e-3);
+    BodyModel calm = base;
+    calm.terms.push_back(term_of(law, g.typical, start, g.runs, base.push, 0.5));
+    calm.push = std::max(calm.push * 0.03, calm.least_push);
+    out.push_back(std::move(calm));
+    if (!base.noise_fitted) continue;
+    BodyModel sharp = base;
+    sharp.noise = std::max(kLittleNoise * base.noise, base.least_noise);
+    sharp.push = std::max(base.push, base.usual_push);
+    sharp.memory = std::clamp(0.2 * base.most_memory, base.least_memory, base.most_memory);
+    add(std::move(sharp), 1e-3);
   }
-  return fit_group(g, best.model);
+  return out;
+}
+
+// Of several starts the one that fits best; nothing where none gives finite predictions.
+std::optional<Fitted> best_fit(const Group& g, const BodyModel& base, const Law& law) {
+  constexpr int kFirst = 4;  // steps after which only the best start goes on
+  std::optional<Fitted> best;
+  for (const BodyModel& start : starts_of(g, base, law)) {
+    Fitted f = fit_group(g, start, false, kFirst);
+    if (f.usable() && (!best || f.likelihood > best->likelihood)) best = std::move(f);
+  }
+  if (!best) return std::nullopt;
+  Fitted f = fit_group(g, best->model);
+  leave_folds_out(g, f);
+  return std::isfinite(f.held_out_sum()) ? std::optional(std::move(f)) : std::nullopt;
+}
+
+// The baseline from several sizes of pushes and noise: one that is stuck makes any law look good.
+// Nothing where no start gives finite predictions.
+std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
+  std::optional<Fitted> best;
+  for (const auto& [pushes, memory, noise] : {std::tuple{1.0, 1.0, 1.0},
+                                              {0.03, 1.0, 1.0},
+                                              {0.1, 0.2, 1.0},
+                                              {10.0, 0.2, 1.0},
+                                              {1.0, 0.2, kLittleNoise}}) {
+    if (noise < 1 && !first.noise_fitted) continue;
+    BodyModel m = first;
+    m.push = std::clamp(m.push * pushes, m.least_push, m.most_push);
+    m.memory = std::clamp(m.memory * memory, m.least_memory, m.most_memory);
+    if (m.noise_fitted) m.noise = std::max(m.noise * noise, m.least_noise);
+    Fitted one = fit_group(g, m, false, 6);
+    if (one.usable() && (!best || one.likelihood > best->likelihood)) best = std::move(one);
+  }
+  if (!best) return std::nullopt;
+  // Laws' fits go on from here: what is left to climb would count as theirs.
+  for (int again = 0; again < 6; ++again) {
+    const double before = best->likelihood;
+    best = fit_group(g, best->model);
+    if (best->likelihood < before + 0.02) break;
+  }
+  leave_folds_out(g, *best);
+  return std::isfinite(best->held_out_sum()) ? best : std::nullopt;
 }
 
 }  // namespace
@@ -103,21 +167,26 @@ Fitted best_fit(const Group& g, const BodyModel& base, const Law& law) {
 LawTrial fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
   LawTrial out;
   for (Group& g : groups) {
-    // From several sizes of pushes: a baseline that is stuck makes any law look good.
-    const BodyModel first = baseline_model(e, g);
-    Fitted f;
-    f.likelihood = -1e300;
-    for (const auto& [pushes, memory] :
-         {std::pair{1.0, 1.0}, {0.03, 1.0}, {0.1, 0.2}, {10.0, 0.2}}) {
-      BodyModel m = first;
-      m.push = std::clamp(m.push * pushes, m.least_push, m.most_push);
-      m.memory = std::clamp(m.memory * memory, m.least_memory, m.most_memory);
-      const Fitted one = fit_group(g, m, false, 6);
-      if (one.likelihood > f.likelihood) f = one;
-    }
-    f = fit_group(g, f.model);
-    leave_folds_out(g, f);
-    out.fits.push_back(std::move(f));
+    std::optional<Fitted> f = fit_from_sizes(g, baseline_model(e, g));
+    if (!f) throw InputError("experiment " + e.name + ": " + unusable("the baseline", g));
+    out.fits.push_back(std::move(*f));
+  }
+  gather(out);
+  return out;
+}
+
+LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
+                              const LawTrial& best) {
+  LawTrial out = baseline;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    BodyModel m = baseline.fits[i].model;
+    const double noise = best.fits[i].model.noise;
+    if (!m.noise_fitted || noise > m.noise / 2) continue;
+    m.noise = noise, m.noise_fitted = false;
+    m.push = m.usual_push, m.memory = std::min(10 * groups[i].step, m.most_memory);
+    Group g = groups[i];
+    g.penalty_at.erase(g.penalty_at.begin());  // the noise's
+    if (auto f = fit_from_sizes(g, m)) out.fits[i] = std::move(*f);
   }
   gather(out);
   return out;
@@ -142,9 +211,12 @@ LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baselin
   LawTrial out;
   out.candidate = candidate;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    Fitted f = best_fit(groups[i], from.fits[i].model, *candidate.laws.back());
-    leave_folds_out(groups[i], f);
-    out.fits.push_back(std::move(f));
+    std::optional<Fitted> f = best_fit(groups[i], from.fits[i].model, *candidate.laws.back());
+    if (!f) {
+      out.failure = unusable(candidate.name(), groups[i]);
+      return out;
+    }
+    out.fits.push_back(std::move(*f));
   }
   gather(out);
   out.gain = sum(out.by_block) - sum(baseline.by_block);
@@ -198,7 +270,8 @@ std::optional<std::vector<double>> null_gains(const BodyExperiment& e,
     const LawTrial base = fit_baseline(drawn, own);
     double best = -1e300;
     for (const Candidate& c : single_laws(drawn, own)) {
-      best = std::max(best, fit_candidate(own, base, base, c).gain);
+      const LawTrial trial = fit_candidate(own, base, base, c);
+      if (trial.failure.empty()) best = std::max(best, trial.gain);
     }
     return std::vector<double>{best};
   });

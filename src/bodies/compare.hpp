@@ -20,19 +20,27 @@ struct LawTrial {
   std::vector<double> by_block;  ///< held-out log-likelihood, groups after each other
   double gain = 0;               ///< over the baseline, nat
   std::vector<double> shaken;    ///< as by_block, beside a bias of every run; empty: not done
+  std::string failure;           ///< why there is no fit; if not empty, the rest is unset
 };
 
 /// Runs that share coefficients: all, or those of one body.
 std::vector<Group> groups_of(const BodyExperiment& experiment);
 
-/// The baseline of the experiment, fitted. Throws InputError where it cannot be had.
+/// The baseline of the experiment, fitted. Throws InputError where no start gives finite
+/// predictions.
 LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
+
+/// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise
+/// is more than twice that: it took motion for noise, and `best` says what the tracker's noise is.
+LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
+                              const LawTrial& best);
 
 /// Laws alone that the recordings can have and the baseline does not.
 std::vector<Candidate> single_laws(const BodyExperiment& experiment,
                                    const std::vector<Group>& groups);
 
-/// The candidate added to `from` (a baseline, or an outcome that has all but its last law).
+/// The candidate added to `from` (a baseline, or an outcome that has all but its last law). Where
+/// no start gives finite predictions, `failure` says so.
 LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
                        const LawTrial& from, const Candidate& candidate);
 

@@ -76,6 +76,14 @@ class Trials {
   }
   bool stopped() const { return options_.stop != nullptr && options_.stop->load(); }
 
+  // A law without a fit is not compared with any other.
+  void keep(LawTrial trial, std::vector<LawTrial>& to) {
+    if (trial.failure.empty())
+      to.push_back(std::move(trial));
+    else
+      c_.failures.push_back(std::move(trial.failure));
+  }
+
   bool singles() {
     const std::vector<Candidate> laws = single_laws(experiment_, c_.groups);
     if (laws.empty()) {
@@ -85,7 +93,11 @@ class Trials {
       if (stopped()) return false;
       tell(0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
            law.name());
-      c_.singles.push_back(fit_candidate(c_.groups, c_.baseline, c_.baseline, law));
+      keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
+    }
+    if (c_.singles.empty()) {
+      throw InputError("experiment " + experiment_.name +
+                       ": no law can be evaluated: " + c_.failures.front());
     }
     sort_best_first(c_.singles);
     return true;
@@ -97,7 +109,7 @@ class Trials {
       if (stopped()) return false;
       tell(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
            pair.name());
-      c_.pairs.push_back(fit_candidate(c_.groups, c_.baseline, *from, pair));
+      keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     sort_best_first(c_.pairs);
     // A bias can be known only from several runs.
@@ -144,7 +156,8 @@ std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const Diagnosi
   c.groups = groups_of(e);
   if (!Trials(e, options, c).run()) return std::nullopt;
   c.repeats = repeats_of(e, c.groups, c.best());
-  c.far_before = far_errors(c.groups, c.baseline), c.far_after = far_errors(c.groups, c.best());
+  c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, c.best()));
+  c.far_after = far_errors(c.groups, c.best());
   return told(c);
 }
 

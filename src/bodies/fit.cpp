@@ -10,6 +10,7 @@
 namespace lilytank::bodies {
 namespace {
 
+constexpr double kImpossible = -1e300;  // log-likelihood where predictions are not finite
 constexpr double kLoose = 3.0;  // deviation of the weak prior on logarithms of noise and pushes
 constexpr double kCurve = 3.0;  // of knots, in sizes of the pushes that the baseline needs
 constexpr double kWide = 100;   // of other amplitudes
@@ -62,7 +63,7 @@ class Hill {
     for (std::size_t k = 0; k < in.value.size(); ++k) {
       if (group_->fold[k] != without_ || without_ < 0) sum += term(in.value[k], in.variance[k]);
     }
-    return std::isfinite(sum) ? sum : -1e300;
+    return std::isfinite(sum) ? sum : kImpossible;
   }
 
   BodyResiduals at(const std::vector<double>& q) const {
@@ -205,6 +206,10 @@ double Fitted::held_out_sum() const {
   return sum;
 }
 
+bool Fitted::usable() const {
+  return likelihood > kImpossible / 2;
+}
+
 Fitted fit_group(const Group& group, const BodyModel& from, bool held, int rounds) {
   Hill hill(group, from, -1, held);
   const Top top = climb(hill, packed(from), rounds);
@@ -244,6 +249,16 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
   fitted.held_out = std::move(told);
 }
 
+namespace {
+
+// The median; 1 of nothing.
+double middle(std::vector<double>& v) {
+  std::sort(v.begin(), v.end());
+  return v.empty() ? 1.0 : v[v.size() / 2];
+}
+
+}  // namespace
+
 Group make_group(const BodyExperiment& e, const std::string& name,
                  const std::vector<const BodyRun*>& runs) {
   constexpr int kQuarters = 4, kMostFolds = 6, kBlocks = 24;
@@ -274,16 +289,20 @@ Group make_group(const BodyExperiment& e, const std::string& name,
     block += parts;
   }
   g.blocks = block;
+  std::vector<double> steps;
+  for (const BodyRun* r : runs) {
+    for (std::size_t k = 1; k < r->samples(); ++k) steps.push_back(r->time[k] - r->time[k - 1]);
+  }
+  g.step = middle(steps);
   return g;
 }
 
 BodyModel first_model(const BodyExperiment& e, const Group& g) {
   BodyModel m;
-  std::vector<double> steps, bends;
+  std::vector<double> bends;
   for (const BodyRun* run : g.runs) {
     const std::size_t row = run->coordinates();
     for (std::size_t k = 2; k < run->samples(); ++k) {
-      steps.push_back(run->time[k] - run->time[k - 1]);
       for (std::size_t i = 0; i < row; ++i) {
         const double bend = run->position[k * row + i] - 2 * run->position[(k - 1) * row + i] +
                             run->position[(k - 2) * row + i];
@@ -291,17 +310,13 @@ BodyModel first_model(const BodyExperiment& e, const Group& g) {
       }
     }
   }
-  const auto middle = [](std::vector<double>& v) {
-    std::sort(v.begin(), v.end());
-    return v.empty() ? 1.0 : v[v.size() / 2];
-  };
-  const double dt = middle(steps), size = g.typical.speed * dt;
+  const double dt = g.step, size = g.typical.speed * dt;
   const double bend = std::max(middle(bends), 1e-6 * size);
   m.noise_fitted = e.noise <= 0;
   m.noise = m.noise_fitted ? bend / 3 : e.noise;
   m.least_noise = 1e-6 * size;
   m.push = std::max(bend / (dt * dt) / 3, 0.1 * g.typical.speed / g.typical.duration);
-  m.least_push = 1e-7 * m.push, m.most_push = 1e4 * m.push;
+  m.least_push = 1e-7 * m.push, m.usual_push = m.push, m.most_push = 1e4 * m.push;
   m.memory = 10 * dt, m.least_memory = 0.2 * dt,
   m.most_memory = std::max(g.typical.duration / 20, 2 * dt);
   m.memory = std::min(m.memory, m.most_memory);

@@ -16,6 +16,7 @@ struct Group {
       fold;  ///< of every seen coordinate in the innovations' order; -1: never left out
   std::vector<int> block;  ///< of neighbours in time, for standard errors
   int folds = 0, blocks = 0;
+  double step = 0;                 ///< s, between samples: the median
   std::vector<double> penalty_at;  ///< centre of the weak prior of own numbers, as packed
 };
 
@@ -31,6 +32,8 @@ struct Fitted {
   double likelihood = 0;          ///< log, of everything that was fitted
   std::vector<double> held_out;   ///< log-likelihood of what was left out, by block; empty: not yet
   double held_out_sum() const;
+  /// Whether the model's predictions are finite: what it says of these samples has a likelihood.
+  bool usable() const;
 };
 
 /// Goes uphill from the model's numbers by Fisher's scoring: numeric derivatives, Levenberg's

@@ -57,6 +57,9 @@ class Law {
   virtual std::vector<std::vector<double>> starts(const Typical& t) const = 0;
   /// Whether the recordings can have it at all.
   virtual bool possible(const Typical& t) const = 0;
+  /// Fastest rate (rad/s) at which velocities turn with these numbers; 0 for laws that do not turn
+  /// them. Samples far apart are integrated in steps that follow it.
+  virtual double turning_rate(std::span<const double>) const { return 0; }
   /// Of a flexible curve that stands for no known law.
   virtual bool curve() const { return false; }
   /// Adds its forces (N; m/s^2 where masses are 1) at [body][dimension].

@@ -28,7 +28,7 @@ struct BodyModel {
   double bias =
       0;  ///< deviation of an acceleration that lasts a whole run, m/s^2; 0: there is none
   double restitution = -1;  ///< of contacts between bodies; negative: they pass each other
-  double least_noise = 0, least_push = 0, most_push = 0;
+  double least_noise = 0, least_push = 0, usual_push = 0, most_push = 0;
   double least_memory = 0, most_memory = 0;
 };
 

@@ -239,53 +239,6 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
   return out;
 }
 
-// Bodies that are let go in known fields should not be pushed about: what is left then is the
-// measurement's, or a law's that is not in the library.
-void warn_of_pushes(const Comparison& c, Diagnosis& d) {
-  double left = 0, had = 0;
-  for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    left += std::pow(c.best().fits[i].model.push, 2),
-        had += std::pow(c.baseline.fits[i].model.push, 2);
-  }
-  const auto n = static_cast<double>(c.groups.size());
-  double far = 0, floor = 0;
-  for (std::size_t i = 0; i < c.far_after.size(); ++i) {
-    far += c.far_after[i], floor += std::pow(c.best().fits[i].model.noise, 2);
-  }
-  if (far < 5 * floor) return;
-  d.warnings.push_back(
-      "irregular accelerations of " + significant(std::sqrt(left / n), 2) + " " +
-      c.experiment->unit + "/s^2 rms are left (" + significant(std::sqrt(had / n), 2) +
-      " without the findings): where nothing pushes these bodies at random, suspect the "
-      "measurement (release, clock, scale); laws that differ by less along this motion are not "
-      "told apart");
-}
-
-void warn(const Comparison& c, Diagnosis& d) {
-  const LawTrial& best = c.best();
-  warn_of_pushes(c, d);
-  if (c.repeats.z() > 3) {
-    d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
-                         std::string(best.candidate.laws.back()->name()) + " by " +
-                         significant(c.repeats.factor(), 2) + " times their errors" +
-                         (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
-                         ": suspect the measurement (release, clock, scale); intervals are widened "
-                         "by that, and which law it is cannot be told from fits that differ by "
-                         "less");
-  }
-  for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const BodyModel& m = best.fits[i].model;
-    for (const Term& t : m.terms) {
-      const bool drag = t.law->variable() == "slip" && !t.law->curve();
-      if (drag && t.value[0] < 0 && t.fitted[0] && c.groups.size() == 1) {
-        d.warnings.push_back(std::string(t.law->name()) +
-                             " comes out negative, which no drag is: how the loss is shared out "
-                             "between these laws is not identified");
-      }
-    }
-  }
-}
-
 void add_fit(const Comparison& c, Diagnosis& d) {
   double before = 0, after = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_before.size(); ++i) {
@@ -366,6 +319,7 @@ Diagnosis told(const Comparison& c) {
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
   const LawTrial& best = c.best();
+  for (const std::string& failure : c.failures) d.warnings.push_back("not evaluated: " + failure);
   add_ranking(c, d);
   add_detectable(c, d);
   add_moved(c, d);
@@ -378,7 +332,9 @@ Diagnosis told(const Comparison& c) {
   d.verdict = sure.value > 1.645 * sure.error ? Verdict::missing : Verdict::undecided;
   d.findings = findings(c);
   add_fit(c, d);
-  warn(c, d);
+  // What is found must predict the motion itself, not only its next sample.
+  if (d.msd_removed < 0) d.verdict = Verdict::undecided;
+  add_warnings(c, d);
   return d;
 }
 

@@ -11,6 +11,7 @@ struct Comparison {
   LawTrial baseline;
   std::vector<LawTrial> singles;              ///< best first
   std::vector<LawTrial> pairs;                ///< best first
+  std::vector<std::string> failures;          ///< laws that were not evaluated, and why
   std::vector<double> nulls;                  ///< best gains by chance, sorted
   Repeats repeats;                            ///< of the best outcome
   std::vector<double> far_before, far_after;  ///< mean squares of far predictions, m^2
@@ -25,6 +26,9 @@ struct Comparison {
   const LawTrial& best() const;
   bool apart(const LawTrial& better, const LawTrial& worse) const;
 };
+
+/// Adds warnings about the best outcome to a diagnosis that has its findings and its fit.
+void add_warnings(const Comparison& comparison, Diagnosis& diagnosis);
 
 Diagnosis told(const Comparison& comparison);
 

@@ -71,7 +71,7 @@ std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics) {
            three_digits(kinetics.rate[k]) + "/s";
     if (reaction.kind == RuleKind::link)
       out += ", " + three_digits(kinetics.rate[k] / reaction.places) + "/s for each of " +
-             std::to_string(reaction.places) + " pairs of faces, seen " +
+             shortest(reaction.places) + " pairs of faces, seen " +
              std::to_string(kinetics.seen[k]) + " times";
     out += "\n";
   }

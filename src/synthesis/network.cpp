@@ -26,6 +26,17 @@ struct Blocked {
   friend auto operator<=>(const Blocked&, const Blocked&) = default;
 };
 
+// Two modules with equal labels: either may initiate and take the first right side. Where the right
+// sides are equal, too, both orders are one.
+std::size_t orders_of(const Rule& rule) {
+  return rule.before[0] == rule.before[1] && rule.after[0] == rule.after[1] ? 1 : 2;
+}
+
+// Share of the places at which an order that fits is taken.
+double share_of_order(const Rule& rule) {
+  return rule.before[0] == rule.before[1] && orders_of(rule) == 2 ? 0.5 : 1;
+}
+
 std::string text_of(const Label& label) {
   return "(" + std::to_string(label.state) + "," + std::to_string(label.hop) + ")";
 }
@@ -51,8 +62,8 @@ class Network {
   const NetworkOptions& options_;
   std::vector<Pattern> patterns_;
   std::map<std::string, int> index_;
-  std::map<ReactionKey, int> reactions_;
-  std::map<Blocked, int> blocked_;
+  std::map<ReactionKey, double> reactions_;
+  std::map<Blocked, double> blocked_;
   std::map<int, std::string> unrestored_;
   int meetings_ = 0;
   bool closed_ = true;
@@ -79,7 +90,8 @@ void Network::record(std::size_t rule, std::vector<int> from, std::vector<int> t
   std::sort(from.begin(), from.end());
   std::sort(to.begin(), to.end());
   if (!to.empty() && to.front() < 0) return;
-  ++reactions_[{static_cast<int>(rule), std::move(from), std::move(to)}];
+  reactions_[{static_cast<int>(rule), std::move(from), std::move(to)}] +=
+      share_of_order(rules_.rules[rule]);
 }
 
 // Whether linking again what an unlink rule has parted would give both modules their states back.
@@ -124,7 +136,7 @@ void Network::bond(int index, const Pattern& pattern, std::size_t a, std::size_t
     const Rule& rule = rules_.rules[r];
     if ((rule.kind != RuleKind::link) != standing) continue;
     if (!fires(rule) && rule.kind != RuleKind::unlink) continue;
-    for (std::size_t order = 0; order < 2; ++order) {
+    for (std::size_t order = 0; order < orders_of(rule); ++order) {
       if (rule.before[order] != la || rule.before[1 - order] != lb) continue;
       Pattern changed = pattern;
       relabel(changed[a], direction, rule.after[order]);
@@ -136,7 +148,6 @@ void Network::bond(int index, const Pattern& pattern, std::size_t a, std::size_t
       std::vector<int> to;
       for (const Pattern& part : parts_of(changed)) to.push_back(add(part));
       record(r, {index}, std::move(to));
-      if (la == lb) break;
     }
   }
 }
@@ -168,8 +179,9 @@ void Network::join(int i, int j, const Pattern& host, const Site& ours, const Pa
   if (free)
     record(rule, {i, j}, {add(*whole)});
   else
-    ++blocked_[{
-        static_cast<int>(rule), {std::min(i, j), std::max(i, j)}, key_of(canonical(*whole))}];
+    blocked_[{
+        static_cast<int>(rule), {std::min(i, j), std::max(i, j)}, key_of(canonical(*whole))}] +=
+        share_of_order(r);
 }
 
 // All joins of an assembly of species i with one of species j.
@@ -181,8 +193,7 @@ void Network::meet(int i, int j) {
   for (std::size_t r = 0; r < rules_.rules.size(); ++r) {
     const Rule& rule = rules_.rules[r];
     if (rule.kind != RuleKind::link || !fires(rule)) continue;
-    for (std::size_t order = 0; order < 2; ++order) {
-      if (order == 1 && rule.before[0] == rule.before[1]) break;
+    for (std::size_t order = 0; order < orders_of(rule); ++order) {
       for (const Site& a : ours) {
         if (label_at(host[a.module], a.direction) != rule.before[order]) continue;
         for (const Site& b : theirs)

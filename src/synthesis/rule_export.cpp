@@ -52,8 +52,19 @@ std::string opening(const Ruleset& rules, const std::string& tool) {
          "shapes: a bond is all that is known.\n";
 }
 
-bool symmetric(const Rule& rule) {
+bool equal_labels(const Rule& rule) {
   return rule.before[0] == rule.before[1];
+}
+
+// Whether the case is unchanged when its two modules are swapped, left and right.
+bool symmetric(const Case& a, const Case& b) {
+  return a.label == b.label && a.last == b.last && a.face == b.face &&
+         a.label_after == b.label_after && a.last_after == b.last_after;
+}
+
+// Whether two modules of one assembly may have a rule's two labels. Isolated modules are alone.
+bool may_share_an_assembly(const Rule& rule) {
+  return rule.before[0] != Label{} && rule.before[1] != Label{};
 }
 
 // Calls visit(case of the first module, case of the second, name) for each case of a rule.
@@ -89,8 +100,10 @@ std::string to_kappa(const Ruleset& rules, double face_rate, double evaluation_r
              agent(b.label, b.last, b.face, before) + " -> " +
              agent(a.label_after, a.last_after, a.face, after) + ", " +
              agent(b.label_after, b.last_after, b.face, after) + " @ 'k_" + rule.name + "'" +
-             // Both modules fit both sides: every pair of faces is found twice.
-             (symmetric(rule) ? " / 2" : "") + "\n";
+             // KaSim counts embeddings: two equal labels have two for every pair of faces.
+             (equal_labels(rule) ? " / 2" : "") +
+             // In braces the rate within one assembly, where faces do not meet by chance.
+             (link && may_share_an_assembly(rule) ? " {0}" : "") + "\n";
     });
   }
   for (const int state : states_of(rules))
@@ -123,8 +136,8 @@ std::string to_bngl(const Ruleset& rules, double face_rate, double evaluation_ra
   for (const Rule& rule : rules.rules) {
     const bool held = rule.kind != RuleKind::link, stays = rule.kind != RuleKind::unlink;
     for_each_case(rule, [&](const Case& a, const Case& b, const std::string& name) {
-      // BioNetGen halves a rule whose two sides are alike by itself.
-      const bool halve = symmetric(rule) && a.face != b.face;
+      // BioNetGen counts embeddings, too, but itself halves a rule that a swap leaves unchanged.
+      const bool halve = equal_labels(rule) && !symmetric(a, b);
       out += "  " + name + ": " + agent(a.label, a.last, a.face, held) + (held ? "." : " + ") +
              agent(b.label, b.last, b.face, held) + " -> " +
              agent(a.label_after, a.last_after, a.face, stays) + (stays ? "." : " + ") +

@@ -189,6 +189,70 @@ TEST(DiagnoseBodies, turningIsCoriolisOnlyWhereTheTideIsElsewhere) {
   }
 }
 
+// Buoys that drift straight, fixed every `step` seconds with 100 m of noise.
+BodyExperiment straight_drift(double step, int samples) {
+  BodyExperiment e;
+  e.name = "buoys", e.dimensions = 2;
+  const Acceleration none = [](const double*, const double*, double* a) { a[0] = a[1] = 0; };
+  e.runs.push_back(run_of(none, {0, 0}, {0.3, 0.1}, step, samples, 100, 11, 1));
+  e.runs.push_back(run_of(none, {0, 0}, {0.2, -0.2}, step, samples, 100, 12, 1));
+  return e;
+}
+
+// Hours or a day between fixes are as long as the tide's period.
+TEST(DiagnoseBodies, fixesHoursApartOfAStraightDriftAreComplete) {
+  for (const double hours : {6, 24}) {
+    const Diagnosis d = diagnosis_of(straight_drift(3600 * hours, 50));
+    EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
+  }
+}
+
+// 60 days apart the tide cannot be integrated from fix to fix; other laws are judged without it.
+TEST(DiagnoseBodies, lawsWithoutAFitAreNotEvaluatedAndNamed) {
+  const Diagnosis d = diagnosis_of(straight_drift(60 * 86400.0, 30));
+  EXPECT_NE(d.verdict, Verdict::missing) << diagnosis_text(d);
+  const std::string text = diagnosis_text(d);
+  EXPECT_NE(text.find("not evaluated: tide gives no finite predictions from any start: samples are "
+                      "5.18e+06 s apart"),
+            std::string::npos)
+      << text;
+  for (const RankedEffect& r : d.ranking) EXPECT_EQ(r.effect.find("tide"), std::string::npos);
+  for (const Detectable& one : d.detectable) EXPECT_NE(one.effect, "tide");
+}
+
+TEST(DiagnoseBodies, aBaselineThatTurnsOnALineIsRefused) {
+  BodyExperiment e = falls(0, 0, 0.02, 1);
+  e.baseline = {{"tide", 1, false, {"e.toml", 3, 1}}};
+  try {
+    diagnosis_of(e);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& refused) {
+    EXPECT_STREQ(refused.what(), "e.toml:3:1: tide turns velocities, which takes two dimensions");
+  }
+}
+
+// Loops of the tide over a straight drift, three hours between fixes, noise not given: the drift
+// alone with noise of the loops' size fits well, and the tide with the tracker's noise better.
+TEST(DiagnoseBodies, loopsAreNotTakenForNoise) {
+  constexpr double kTurn = 2 * 3.14159265358979 / (12.4206 * 3600);
+  BodyExperiment e;
+  e.name = "loops", e.dimensions = 2;
+  const double drift[3][2] = {{0.15, -0.1}, {-0.1, 0.12}, {0.05, 0.16}};
+  for (std::uint64_t r = 0; r < 3; ++r) {
+    const double *u = drift[r], loop = 0.25;
+    const Acceleration turning = [=](const double*, const double* v, double* a) {
+      a[0] = kTurn * (v[1] - u[1]), a[1] = -kTurn * (v[0] - u[0]);
+    };
+    e.runs.push_back(run_of(turning, {0, 0}, {u[0] + loop, u[1]}, 3 * 3600, 96, 50, 21 + r, 1));
+  }
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
+  EXPECT_EQ(d.findings.front().variable, "turn");
+  EXPECT_GT(d.msd_removed, 0.8) << diagnosis_text(d);
+  EXPECT_GT(d.msd_floor, 40 * 40);
+  EXPECT_LT(d.msd_floor, 60 * 60);
+}
+
 TEST(DiagnoseBodies, sameSeedSameReport) {
   const BodyExperiment e = falls(0, 0.02, 0.02, 4);
   EXPECT_EQ(diagnosis_json(diagnosis_of(e)), diagnosis_json(diagnosis_of(e)));

@@ -9,14 +9,9 @@
 #include "lilytank/run.hpp"
 #include "lilytank/synthesis.hpp"
 #include "support/control_rig.hpp"
-#include "support/kappa.hpp"
 #include "support/study_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::KappaMixture;
-using lilytank::testing::KappaModel;
-using lilytank::testing::KappaRule;
-using lilytank::testing::read_kappa;
 using lilytank::testing::rules_of;
 using lilytank::testing::ruleset_file;
 
@@ -226,95 +221,6 @@ TEST(Kinetics, ARunCountsForTheTimeThatItSimulated) {
   const RateTable short_one = rates_of_run(options.out);
   EXPECT_LT(short_one.seconds, 0.1);
   EXPECT_LT(short_one.standing.at("0,0,0,-1,0").exposure, 0.6);
-}
-
-// Executed by other code, the exported rules do what ours do: at every state on the way, each kind
-// of rule is as fast in total as the reactions of the network, and the chains get complete.
-TEST(Export, KappaRunsAsTheNetworkDoes) {
-  for (const std::string name : {"chain5", "cross5", "s4"}) {
-    Ruleset rules = read_ruleset(ruleset_file(name));
-    for (Rule& rule : rules.rules)
-      if (rule.kind == RuleKind::unlink) rule.p = 0.1;
-    const int modules = 2 * static_cast<int>(rules.target.size());
-    const Kinetics kinetics = kinetics_of(rules, 1e-3, 0.5, modules);
-    const KappaModel model = read_kappa(to_kappa(rules, 1e-3, 0.5, modules));
-    ASSERT_EQ(model.agents, modules);
-    ASSERT_EQ(model.rules.size(), 16 * rules.rules.size());
-    KappaMixture mixture(modules);
-    std::vector<int> counts(kinetics.network.species.size(), 0);
-    counts[0] = modules;
-    for (std::uint32_t move = 0; move < 60; ++move) {
-      std::map<std::string, double> fast, expected;
-      struct Way {
-        const KappaRule* rule;
-        std::size_t first, second;
-      };
-      std::vector<Way> ways;
-      for (const KappaRule& rule : model.rules) {
-        for (std::size_t i = 0; i < mixture.agents.size(); ++i) {
-          for (std::size_t j = 0; j < mixture.agents.size(); ++j) {
-            if (!mixture.embeds(rule, i, j)) continue;
-            fast[rule.name.substr(0, rule.name.rfind('_'))] += rule.rate;
-            ways.push_back({&rule, i, j});
-          }
-        }
-      }
-      for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
-        const Reaction& r = kinetics.network.reactions[k];
-        const auto n = [&](std::size_t s) { return counts[static_cast<std::size_t>(r.from[s])]; };
-        const double pairs = r.from.size() == 1       ? n(0)
-                             : r.from[0] == r.from[1] ? 0.5 * n(0) * (n(0) - 1)
-                                                      : 1.0 * n(0) * n(1);
-        if (pairs > 0)
-          expected[rules.rules[static_cast<std::size_t>(r.rule)].name] += pairs * kinetics.rate[k];
-      }
-      ASSERT_EQ(fast.size(), expected.size()) << name << " after " << move;
-      for (const auto& [rule, rate] : expected) ASSERT_NEAR(fast.at(rule), rate, 1e-12) << rule;
-      const Way& way = ways[(7919u * (move + 1)) % ways.size()];
-      mixture.apply(*way.rule, way.first, way.second);
-      // These shapes grow by one module at a time: a link takes a single module to what its first
-      // label's step says, k -> k + 1, and undoing the other way.
-      const std::size_t step = static_cast<std::size_t>(way.rule->name[1] - '1');
-      const int sign = way.rule->name.find("reverse") == std::string::npos ? 1 : -1;
-      counts[0] -= sign, counts[step] -= sign, counts[step + 1] += sign;
-    }
-  }
-}
-
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++n;
-  return n;
-}
-
-TEST(Export, KappaHasACaseForEveryTurn) {
-  const std::string text = to_kappa(read_ruleset(ruleset_file("cross5")), 1e-5, 0.68, 15);
-  EXPECT_EQ(count_of(text, " -> "), 8u * 16u);
-  EXPECT_EQ(count_of(text, "%agent:"), 1u);
-  EXPECT_EQ(count_of(text, "%init: 15 M(a{s0}, n{x}, f0[.], f1[.], f2[.], f3[.])"), 1u);
-  // r2 of the cross at hop 2: a module whose l_n is face 0 engages face 1.
-  EXPECT_NE(text.find("'r2_10' M(a{s1}, n{n0}, f1[.]), M(a{s0}, n{x}, f0[.]) -> "
-                      "M(a{s3}, n{n1}, f1[1]), M(a{s4}, n{n0}, f0[1]) @ 'k_r2'\n"),
-            std::string::npos);
-  // Undone at face 1, with hop 4 back: face 0 is l_n again.
-  EXPECT_NE(text.find("'r2_reverse_10' M(a{s3}, n{n1}, f1[1]), M(a{s4}, n{n0}, f0[1]) -> "
-                      "M(a{s1}, n{n0}, f1[.]), M(a{s0}, n{x}, f0[.]) @ 'k_r2_reverse'\n"),
-            std::string::npos);
-  EXPECT_EQ(count_of(text, "@ 'k_r1' / 2"), 16u);
-}
-
-TEST(Export, BnglHasTheSameCases) {
-  const std::string text = to_bngl(read_ruleset(ruleset_file("cross5")), 1e-5, 0.68, 15);
-  EXPECT_EQ(count_of(text, " -> "), 8u * 16u);
-  EXPECT_EQ(count_of(text, "begin "), count_of(text, "end "));
-  EXPECT_NE(
-      text.find("  r2_10: M(a~1,n~0,f1) + M(a~0,n~x,f0) -> M(a~3,n~1,f1!1).M(a~4,n~0,f0!1) k_r2\n"),
-      std::string::npos);
-  EXPECT_NE(text.find("  r1_reverse_00: M(a~1,n~0,f0!1).M(a~2,n~0,f0!1) -> M(a~0,n~x,f0) + "
-                      "M(a~0,n~x,f0) k_r1_reverse\n"),
-            std::string::npos);
-  EXPECT_EQ(count_of(text, " k_r1/2\n"), 12u);
-  EXPECT_EQ(count_of(text, " k_r1\n"), 4u);
 }
 
 }  // namespace

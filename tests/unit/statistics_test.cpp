@@ -160,8 +160,9 @@ TEST(ComparePairs, SavesWhatTheCommonPartIsWorth) {
 }
 
 TEST(ComparePairs, OfPairsWithoutSpread) {
-  EXPECT_EQ(compare_pairs({}, {}).p, 1);
-  EXPECT_EQ(compare_pairs({3}, {1}).p, 1);
+  EXPECT_TRUE(std::isnan(compare_pairs({}, {}).p));
+  EXPECT_TRUE(std::isnan(compare_pairs({3}, {1}).p)) << "one pair has no spread";
+  EXPECT_TRUE(std::isnan(compare_pairs({3}, {1}).saving));
   EXPECT_EQ(compare_pairs({3}, {1}).difference.value, 2);
   EXPECT_EQ(compare_pairs({3}, {1}).difference.high, kInf);
   const PairedComparison same = compare_pairs({1, 2, 3}, {1, 2, 3});

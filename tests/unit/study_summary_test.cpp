@@ -101,7 +101,11 @@ TEST(StudySummary, ComparesRunsThatShareASeed) {
   const StudySummary less = summarise(table);
   ASSERT_FALSE(less.pair_tests.empty());
   EXPECT_EQ(less.pair_tests[0].pairs, 1);
-  EXPECT_EQ(less.pair_tests[0].result.p, 1);
+  EXPECT_TRUE(std::isnan(less.pair_tests[0].result.p));
+  EXPECT_TRUE(std::isnan(less.pair_tests[0].adjusted_p));
+  EXPECT_TRUE(has(study_text(less), "One pair cannot tell: a test takes two pairs or more."));
+  EXPECT_FALSE(has(study_text(s), "One pair cannot tell"));
+  EXPECT_TRUE(has(comparisons_csv(less), ",,,,,,,\n")) << "a difference, nothing else";
 }
 
 TEST(StudySummary, CountsDivergedRunsAndLeavesThemOut) {

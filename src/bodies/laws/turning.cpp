@@ -1,3 +1,4 @@
+#include <cmath>
 #include <numbers>
 
 #include "bodies/laws/list.hpp"
@@ -37,6 +38,9 @@ class Coriolis final : public Law {
   std::vector<std::vector<double>> starts(const Typical& t) const override {
     return {{t.turning, static_cast<double>(t.latitude)}};
   }
+  double turning_rate(std::span<const double> p) const override {
+    return p[1] >= 0 ? inertial_turning(90) : std::fabs(p[0]);
+  }
   void add(const Scene& s, std::span<const double> p, double* force) const override {
     turn(s, p[1] >= 0 ? inertial_turning(s.drivers[static_cast<int>(p[1])]) : p[0], force);
   }
@@ -55,6 +59,7 @@ class Rotation final : public Law {
     return {{"rate", "rad/s", Kind::amplitude}};
   }
   std::vector<std::vector<double>> starts(const Typical&) const override { return {{1}}; }
+  double turning_rate(std::span<const double> p) const override { return std::fabs(p[0]); }
   void add(const Scene& s, std::span<const double> p, double* force) const override {
     turn(s, p[0], force);
   }
@@ -74,6 +79,9 @@ class TideTurning final : public Law {
     return {{"period", "s", Kind::fixed}};
   }
   std::vector<std::vector<double>> starts(const Typical&) const override { return {{kTide}}; }
+  double turning_rate(std::span<const double> p) const override {
+    return 2 * std::numbers::pi / std::fabs(p[0]);
+  }
   void add(const Scene& s, std::span<const double> p, double* force) const override {
     turn(s, 2 * std::numbers::pi / p[0], force);
   }
