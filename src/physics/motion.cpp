@@ -5,7 +5,6 @@
 
 #include "fly.hpp"
 #include "motion_impl.hpp"
-#include "settle.hpp"
 
 namespace lilytank {
 namespace {
@@ -20,7 +19,7 @@ constexpr double kUsualWay = 8e-3;     // m, seldom exceeded in a step: what a s
 }  // namespace
 
 Motion::Impl::Impl(const Model& m)
-    : model(&m), neighbours(m.bodies(), m.tank.radius), builder(m), stepper(m) {
+    : model(&m), neighbours(m.bodies(), m.tank.radius), builder(m), stepper(m), settling(m) {
   const auto n = static_cast<std::size_t>(m.bodies());
   largest = 0;
   for (int i = 0; i < m.bodies(); ++i) largest = std::max(largest, builder.size_of(i));
@@ -207,7 +206,7 @@ void Motion::advance(State& state, Assemblies& assemblies, Tallies& tallies) {
 bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
   IslandBuilder& builder = impl_->builder;
   builder.begin(state, assemblies);
-  if (!make_room(*impl_->model, assemblies, slot, builder)) return false;
+  if (!impl_->settling.make_room(assemblies, slot, builder)) return false;
   for (const Mover& m : builder.island().movers()) {
     if (m.slot < 0) continue;
     state.x[m.slot] = m.pose.x, state.y[m.slot] = m.pose.y;

@@ -9,6 +9,7 @@
 #include "island_stepper.hpp"
 #include "motion.hpp"
 #include "neighbours.hpp"
+#include "settle.hpp"
 
 namespace lilytank {
 
@@ -45,6 +46,7 @@ struct Motion::Impl {
   bool searched = false;  // neighbours are those of the poses as they are
   IslandBuilder builder;
   IslandStepper stepper;
+  Settling settling;
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
   double largest;    // m, radius of the circle about the largest body
