@@ -88,27 +88,28 @@ void derive_properties(const Model& model, const State& state, int slot, Assembl
   out.centre_y[slot] = centre_y;
 }
 
-// Sets `inner` of the members of a slot. Members are sorted by cell and looked up by bisection, so
-// that a raft of thousands of modules costs little more per member than a chain.
+// Sets `inner` of the members of a slot in one pass over them in order of cells, so that a raft of
+// thousands of modules costs little more per member than a chain.
 void derive_inner(const State& state, int slot, Assemblies& out) {
   std::vector<int>& members = out.by_cell;
   members.clear();
-  for (int i = out.first[slot]; i >= 0; i = out.next[i]) members.push_back(i);
+  for (int i = out.first[slot]; i >= 0; i = out.next[i]) members.push_back(i), out.inner[i] = 0;
   const auto before = [&](int i, const Cell& c) {
     return state.cell_x[i] != c.x ? state.cell_x[i] < c.x : state.cell_y[i] < c.y;
   };
   std::sort(members.begin(), members.end(),
             [&](int i, int j) { return before(i, {state.cell_x[j], state.cell_y[j]}); });
+  auto above = members.begin(), right = members.begin();
   for (const int i : members) {
-    unsigned inner = 0;
-    for (int k = 0; k < 4; ++k) {
-      const Cell beside{state.cell_x[i] + kStepX[k], state.cell_y[i] + kStepY[k]};
-      const auto at = std::lower_bound(members.begin(), members.end(), beside, before);
-      const bool there = at != members.end() && state.cell_x[*at] == beside.x &&
-                         state.cell_y[*at] == beside.y;
-      inner |= there ? 1u << k : 0u;
-    }
-    out.inner[i] = static_cast<std::uint8_t>(inner);
+    const auto link = [&](auto& other, int k) {
+      const Cell cell{state.cell_x[i] + kStepX[k], state.cell_y[i] + kStepY[k]};
+      while (other != members.end() && before(*other, cell)) ++other;
+      if (other == members.end()) return;
+      if (state.cell_x[*other] != cell.x || state.cell_y[*other] != cell.y) return;
+      out.inner[i] = static_cast<std::uint8_t>(out.inner[i] | 1u << k);
+      out.inner[*other] = static_cast<std::uint8_t>(out.inner[*other] | 1u << (k + 2));
+    };
+    link(right, 0), link(above, 1);
   }
 }
 
