@@ -97,8 +97,9 @@ void derive_inner(const State& state, int slot, Assemblies& out) {
   const auto before = [&](int i, const Cell& c) {
     return state.cell_x[i] != c.x ? state.cell_x[i] < c.x : state.cell_y[i] < c.y;
   };
-  std::sort(members.begin(), members.end(),
-            [&](int i, int j) { return before(i, {state.cell_x[j], state.cell_y[j]}); });
+  std::sort(members.begin(), members.end(), [&](int i, int j) {
+    return before(i, {state.cell_x[j], state.cell_y[j]});
+  });
   auto above = members.begin(), right = members.begin();
   for (const int i : members) {
     const auto link = [&](auto& other, int k) {
