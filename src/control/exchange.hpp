@@ -34,12 +34,12 @@ namespace lilytank {
 ///     acts, free         <-- acknowledgement (done or held on) --
 ///
 ///  - A bound module keeps its labels, begins no exchange and answers no request.
-///  - A bound responder repeats its answer every kRoundTicks ticks until it hears a confirmation
+///  - A bound responder repeats its answer every fourth tick until it hears a confirmation
 ///    or a dismissal. The initiator decides with its own labels of that moment, so it need not
 ///    remember its request, and may have given up waiting.
 ///  - An initiator that is bound itself dismisses the responder, which is then free with nothing
 ///    changed: no circle of modules waits for ever.
-///  - A bound initiator repeats its confirmation every kRoundTicks ticks until it hears the
+///  - A bound initiator repeats its confirmation every fourth tick until it hears the
 ///    acknowledgement, or until the latch has parted, which proves that the responder acted.
 /// The latch holds the two together until the responder acts, so the channel lasts as long as the
 /// exchange. Neither can meet another exchange between its decision and its act, so the labels and

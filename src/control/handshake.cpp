@@ -4,7 +4,7 @@
 namespace lilytank {
 namespace {
 
-constexpr std::uint8_t kRoundTicks = 3;  // an answer, its confirmation, and the acknowledgement
+constexpr std::uint8_t kRoundTicks = 3;  // for an answer, its confirmation, the acknowledgement
 
 std::uint8_t answered_at(int face) {
   return static_cast<std::uint8_t>(1 + face);

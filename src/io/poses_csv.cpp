@@ -6,7 +6,8 @@
 
 namespace lilytank {
 
-std::vector<Pose> parse_poses(const std::string& text, const std::string& file) {
+std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
+                              std::vector<int>* lines) {
   std::vector<Pose> poses;
   CsvReader reader(text, file, {"id,x,y,theta"});
   while (reader.next()) {
@@ -15,6 +16,7 @@ std::vector<Pose> parse_poses(const std::string& text, const std::string& file) 
       reader.refuse(0,
                     "id '" + std::to_string(id) + "' instead of " + std::to_string(poses.size()));
     }
+    if (lines != nullptr) lines->push_back(reader.line());
     poses.push_back({reader.number(1), reader.number(2), rotation(reader.number(3))});
   }
   return poses;

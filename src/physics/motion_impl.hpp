@@ -75,7 +75,10 @@ struct Motion::Impl {
   double most_strayed = 0;        // m, in this slice
   std::vector<std::pair<int, int>> found;
 
-  explicit Impl(const Model& m);
+  std::int64_t most_work;  // visits in a step
+  int stalled = -1;        // slot of the island that took more
+
+  Impl(const Model& m, std::int64_t most);
   double bound_ways(double h);
   void slice(double h, Tallies& tallies);
   void search(double distance);

@@ -67,7 +67,7 @@ TEST(Handshake, ALostAnswerDelaysTheDecisionAndBothSidesAgree) {
         EXPECT_EQ(rig.state.firmware[0].label + rig.state.firmware[1].label, 3);
       }
     }
-    // Nine in ten answers are lost: 9 repetitions in the mean, every 4 ticks; deviation 3.8 ticks.
+    // Nine in ten answers are lost: 9 repetitions in the mean, every fourth tick; deviation 3.8 ticks.
     EXPECT_NEAR(ticks[true] - ticks[false], 36, 15) << static_cast<int>(clock);
   }
 }
@@ -87,7 +87,7 @@ TEST(Handshake, ALatchThatParts_FreesBoth) {
     Rig rig(lossy(hasty(2, {rules_of("r1: (1,1) (1,1) -> (1,1)-(2,1) p=1\n")}), 0.7, 0.7), seed);
     meet(rig);
     ASSERT_TRUE(rig.until(EventKind::unlatch));
-    rig.run(40);  // a bound initiator sees within kRoundTicks that its neighbour has gone
+    rig.run(40);  // a bound initiator sees within four ticks that its neighbour has gone
     EXPECT_TRUE(all_free(rig)) << seed;
   }
 }
