@@ -67,7 +67,8 @@ TEST(Handshake, ALostAnswerDelaysTheDecisionAndBothSidesAgree) {
         EXPECT_EQ(rig.state.firmware[0].label + rig.state.firmware[1].label, 3);
       }
     }
-    // Nine in ten answers are lost: 9 repetitions in the mean, every fourth tick; deviation 3.8 ticks.
+    // Nine in ten answers are lost: 9 repetitions in the mean, every fourth tick; deviation 3.8
+    // ticks.
     EXPECT_NEAR(ticks[true] - ticks[false], 36, 15) << static_cast<int>(clock);
   }
 }
