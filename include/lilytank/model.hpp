@@ -54,6 +54,11 @@ enum class Gusts {
 /// Where the water is read for the drag on a module.
 enum class FlowAt { points, centre };
 enum class Clock { firmware, events };
+/// How two modules agree on a decision (src/control/exchange.hpp).
+enum class Handshake {
+  plain,      ///< the responder acts and answers; a lost answer leaves the initiator's old labels
+  confirmed,  ///< both act once the decision is confirmed; lost messages are sent again
+};
 
 struct FlowParameters {
   double K_v = 1.365;  ///< factor on mean and deviation [Eq. 4]
@@ -69,6 +74,7 @@ inline constexpr int kMostReplyTicks = 253;
 struct ControlParameters {
   bool latches = true;  ///< false: EPMs off, nothing latches
   Clock clock = Clock::firmware;
+  Handshake handshake = Handshake::plain;
   double capture_distance = 0.005;  ///< m, between face centres
   double capture_angle = 0.2;       ///< rad, from anti-parallel
   double initiative = 0.1;          ///< probability per 25 ms to begin an exchange
@@ -77,7 +83,7 @@ struct ControlParameters {
   double off_scale = 256;           ///< an off face returns with probability (ticks off) / scale
   // Faults, all of them probabilities; 0: the ideal channel and latches.
   double message_loss = 0;     ///< that a message never arrives
-  double answer_loss = 0;      ///< that a decision's answer never reaches the initiator
+  double answer_loss = 0;      ///< that a message from responder to initiator never arrives
   double latch_failure = 0;    ///< that two faces that meet do not hold; they are then off
   double release_failure = 0;  ///< that a latch holds on although it is told to let go
 };

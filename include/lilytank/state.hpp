@@ -38,7 +38,10 @@ struct Firmware {
   std::uint8_t waiting = 0;    ///< ticks until it is idle again (src/control/exchange.hpp)
   Power power = Power::on;
   std::uint8_t mail = 0;  ///< bit f: the message of face f's neighbour waits for an answer
-  std::uint8_t spare[3] = {0, 0, 0};
+  /// Handshake::confirmed, 0: free; 1 + f: answered at face f and waits for the confirmation;
+  /// 5 + f: decided at face f and waits for the acknowledgement.
+  std::uint8_t bound = 0;
+  std::uint8_t spare[2] = {0, 0};
 };
 
 static_assert(std::has_unique_object_representations_v<Face>);

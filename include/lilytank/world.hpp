@@ -34,12 +34,16 @@ struct Event {
 
 enum class RunStatus { ok, diverged, stopped };
 
+/// Divergence::force of a world that was given up because one step took too much work: more
+/// visits of contacts than Divergence::size. It stalled; nothing in it need have been fast.
+inline constexpr std::string_view kStalled = "contact_solver";
+
 /// Why a world was given up.
 struct Divergence {
   std::int64_t step = 0;
   int body = 0;
-  std::string_view force;  ///< the term with the largest force on that body
-  double size = 0;         ///< N, its size
+  std::string_view force;  ///< the term with the largest force on that body, or kStalled
+  double size = 0;         ///< N, its size; of kStalled: the visits allowed in one step
 };
 
 /// Counts of work done since the start of this object (not part of the state).
@@ -65,7 +69,8 @@ class World {
   void go_on_from(const State& state);
 
   /// Advances by dt: forces, controllers, velocities and contacts, positions, damping. Returns
-  /// diverged, and does nothing further, once a number is not finite or a body exceeds 20 m/s.
+  /// diverged, and does nothing further, once a number is not finite, a body exceeds 20 m/s, or the
+  /// contacts of one step take more work than is allowed (kStalled).
   RunStatus step();
 
   const Model& model() const;

@@ -5,6 +5,7 @@
 
 #include "lilytank/camera.hpp"
 #include "lilytank/random.hpp"
+#include "lilytank/start.hpp"
 #include "lilytank/world.hpp"
 
 namespace lilytank {
@@ -31,16 +32,10 @@ const std::vector<ModelParameter>& camera_parameters() {
 constexpr std::uint64_t kCameraRun = 1u << 20;
 
 State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
-  // Poses in the middle pass every check of a start; those of a recording, which has noise, may
-  // touch the wall or each other by less than a millimetre, which the first step puts right.
-  Model placed = model;
-  placed.start.layout = Layout::poses;
-  placed.start.poses.assign(start.pose.size(), Pose{});
-  State state = initial_state(placed, seed);
-  for (std::size_t i = 0; i < start.pose.size(); ++i) {
-    const Pose& pose = start.pose[i];
+  // Poses of a recording have noise: they may overlap by a millimetre, which the first step mends.
+  State state = state_of_poses(model, start.pose, seed);
+  for (std::size_t i = 0; i < start.twist.size(); ++i) {
     const Twist& twist = start.twist[i];
-    state.x[i] = pose.x, state.y[i] = pose.y, state.c[i] = pose.r.c, state.s[i] = pose.r.s;
     state.vx[i] = twist.vx, state.vy[i] = twist.vy, state.omega[i] = twist.omega;
   }
   return state;

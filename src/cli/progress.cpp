@@ -9,6 +9,7 @@ namespace lilytank::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr auto kFirstLine = std::chrono::seconds(5);
 constexpr auto kBetweenLines = std::chrono::seconds(60);
 
 double seconds(Clock::duration d) {
@@ -33,7 +34,7 @@ Progress::Progress(bool quiet)
     : quiet_(quiet),
       terminal_(::isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
-      last_line_(start_) {}
+      last_line_(start_ + kFirstLine - kBetweenLines) {}
 
 Progress::~Progress() {
   clear();

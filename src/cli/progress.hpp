@@ -1,5 +1,5 @@
-// How far a job is, on stderr: one line that changes on a terminal, a plain line a minute
-// elsewhere.
+// How far a job is, on stderr: one line that changes on a terminal; elsewhere a plain line after 5
+// s and then one a minute.
 #pragma once
 #include <chrono>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "lilytank/math.hpp"
 #include "lilytank/random.hpp"
@@ -20,7 +21,8 @@ Exchange::Exchange(const Model& model)
     : model_(&model),
       begins_below_(static_cast<std::uint64_t>(model.control.initiative * 0x1p32)),
       log_quiet_(0),
-      begins_at_(std::min(model.control.reply_ticks, kMostReplyTicks) + 2) {
+      begins_at_(std::min(model.control.reply_ticks, kMostReplyTicks) + 2),
+      confirmed_(model.control.handshake == Handshake::confirmed) {
   const double rate = model.control.evaluation_rate * kTick;
   if (rate > 0 && rate < 1) log_quiet_ = log_portable(1 - rate);
   answers_.reserve(static_cast<std::size_t>(model.module.count));
@@ -48,7 +50,7 @@ void Exchange::firmware(Tick& tick) {
     Firmware& firmware = tick.state.firmware[i];
     const bool idle = firmware.waiting == 0;
     const bool acts = (begins & idle) | (firmware.waiting == begins_at_) | (firmware.mail != 0) |
-                      (firmware.power != Power::on);
+                      (firmware.power != Power::on) | (firmware.bound != 0);
     if (acts)
       act(tick, i, begins);
     else
@@ -56,6 +58,10 @@ void Exchange::firmware(Tick& tick) {
   }
   // An initiator waits and a responder was idle, so these pairs have no module in common.
   for (const Connector& responder : answers_) {
+    if (confirmed_) {
+      commit(tick, responder);
+      continue;
+    }
     const Face& face = face_of(tick.state, responder);
     const Connector initiator{face.partner, face.partner_face};
     const std::uint32_t random = face.random;
@@ -63,6 +69,7 @@ void Exchange::firmware(Tick& tick) {
     tick.state.firmware[responder.module].waiting = 1;
     decide(tick, initiator, responder, random);
   }
+  for (int i = 0; confirmed_ && i < model_->module.count; ++i) repeat(tick, i);
   for (const std::int32_t sender : senders_) send(tick, sender);
 }
 
@@ -70,8 +77,8 @@ void Exchange::firmware(Tick& tick) {
 void Exchange::act(Tick& tick, int module, bool initiative) {
   std::uint32_t heard_at[4];
   const int messages = heard(tick, module, heard_at);
-  if (!tick.on(module)) return;
   Firmware& firmware = tick.state.firmware[module];
+  if (!tick.on(module) || firmware.bound != 0) return;
   if (firmware.waiting > 0) {
     if (firmware.waiting == begins_at_) senders_.push_back(module);
     --firmware.waiting;
@@ -121,6 +128,7 @@ void Exchange::send(Tick& tick, int module) {
 }
 
 void Exchange::events(Tick& tick) {
+  for (int i = 0; confirmed_ && i < model_->module.count; ++i) repeat(tick, i);
   for (int i = 0; i < model_->module.count; ++i) {
     for (int f = 0; f < 4; ++f) {
       const Connector lower{i, f};
@@ -130,14 +138,19 @@ void Exchange::events(Tick& tick) {
       face.due = rest(tick, lower);
       // Waiting has no memory, so a pause only passes the time.
       if (fresh || !tick.on(i) || !tick.on(face.partner)) continue;
+      if (tick.state.firmware[i].bound != 0 || tick.state.firmware[face.partner].bound != 0)
+        continue;
       if (fails(tick, lower, Fault::message)) continue;
       const auto bits = random_bits({tick.state.seed, Stream::evaluation, tick.number,
                                      static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(f)});
-      const Connector upper{face.partner, face.partner_face};
-      if (bits[0] & 1)
-        decide(tick, lower, upper, bits[1]);
-      else
-        decide(tick, upper, lower, bits[1]);
+      Connector initiator = lower, responder{face.partner, face.partner_face};
+      if ((bits[0] & 1) == 0) std::swap(initiator, responder);
+      if (confirmed_) {
+        face_of(tick.state, responder).random = bits[1];
+        commit(tick, responder);
+      } else {
+        decide(tick, initiator, responder, bits[1]);
+      }
     }
   }
 }
@@ -172,7 +185,7 @@ void Exchange::decide(Tick& tick, Connector initiator, Connector responder, std:
       apply(tick, found.rule, responder, initiator);
     else
       apply(tick, found.rule, initiator, responder);
-    if (!fails(tick, initiator, Fault::answer)) return;
+    if (confirmed_ || !fails(tick, initiator, Fault::answer)) return;
     state.firmware[initiator.module].label = before.label;
     state.firmware[initiator.module].last = before.last;
   } else if (ends) {

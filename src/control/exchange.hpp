@@ -1,4 +1,4 @@
-// Two modules that hold each other tell each other their states and decide.
+// Two modules that hold each other exchange their states and decide.
 #pragma once
 #include <vector>
 
@@ -20,9 +20,36 @@ namespace lilytank {
 ///  - The answer is the decision: the rule is drawn with the initiator's random number, and both
 ///    modules change in the same tick (ideal channel). During the next tick the answer travels;
 ///    after it both are idle.
-/// Faults, where the model has any: a message that is lost is never heard; where an answer is lost,
-/// the responder has decided and the latch follows, but the initiator's labels stay as they were; a
-/// latch that fails to let go leaves everything as it was, to be decided again.
+///
+/// Handshake::plain: a request that is lost is never heard. If the answer is lost, the responder
+/// has changed its labels and the latch follows, but the initiator's labels stay as they were: the
+/// pair then disagrees, and assemblies that the ruleset cannot make may follow. A latch that fails
+/// to let go leaves everything as it was, to be decided again.
+///
+/// Handshake::confirmed: a two-phase commit. Its four messages, each of which can be lost:
+///
+///     initiator  -- request (random number) -->                responder
+///                <-- answer (label, hop) --                    bound: waits for the confirmation
+///     decides, is bound  -- confirmation (decision) -->        acts, free
+///     acts, free         <-- acknowledgement (done or held on) --
+///
+///  - A bound module keeps its labels, begins no exchange and answers no request.
+///  - A bound responder repeats its answer every fourth tick until it hears a confirmation
+///    or a dismissal. The initiator decides with its own labels of that moment, so it need not
+///    remember its request, and may have given up waiting.
+///  - An initiator that is bound itself dismisses the responder, which is then free with nothing
+///    changed: no circle of modules waits for ever.
+///  - A bound initiator repeats its confirmation every fourth tick until it hears the
+///    acknowledgement, or until the latch has parted, which proves that the responder acted.
+/// The latch holds the two together until the responder acts, so the channel lasts as long as the
+/// exchange. Neither can meet another exchange between its decision and its act, so the labels and
+/// the latch change in one tick here: that in which the confirmation arrives. Every change is thus
+/// a rule applied to the true labels of both sides, whatever is lost. A module that is switched off
+/// for good leaves a responder that waits for it bound.
+///
+/// A lost request, confirmation or dismissal counts by ControlParameters::message_loss, a lost
+/// answer or acknowledgement by answer_loss. An exchange without loss takes effect in the same tick
+/// as with Handshake::plain and keeps both modules busy for two ticks more.
 ///
 /// With the standard numbers a bond is evaluated 0.656 times a second in a dimer, 0.670 in a
 /// trimer and 0.700 in a cross of five (over 10^7 ticks and more; authors' machine: 0.66, 0.67,
@@ -45,6 +72,11 @@ class Exchange {
   std::int64_t rest(const Tick& tick, Connector at) const;
   void decide(Tick& tick, Connector initiator, Connector responder, std::uint32_t random);
   void apply(Tick& tick, int rule, Connector first, Connector second);
+  // Handshake::confirmed, in handshake.cpp.
+  void commit(Tick& tick, Connector responder);
+  void repeat(Tick& tick, int module);
+  void answer(Tick& tick, Connector responder);
+  void confirm(Tick& tick, Connector initiator);
   const Ruleset& rules(const Tick& tick) const { return model_->rulesets[tick.state.ruleset]; }
 
   const Model* model_;
@@ -53,6 +85,7 @@ class Exchange {
   int begins_at_;                      // Firmware::waiting of a module that is about to send
   std::vector<Connector> answers_;     // responders and the faces they answer at
   std::vector<std::int32_t> senders_;  // initiators that speak in this tick
+  bool confirmed_;                     // Handshake::confirmed
 };
 
 }  // namespace lilytank

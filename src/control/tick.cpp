@@ -27,7 +27,8 @@ void report(Tick& tick, EventKind kind, Connector a, Connector b, int rule) {
 
 bool fails(const Tick& tick, Connector at, Fault fault) {
   const ControlParameters& c = tick.model.control;
-  const double probability[] = {c.message_loss, c.answer_loss, c.latch_failure, c.release_failure};
+  const double probability[] = {c.message_loss, c.answer_loss, c.latch_failure, c.release_failure,
+                                c.answer_loss};
   const auto kind = static_cast<std::uint32_t>(fault);
   if (probability[kind] <= 0) return false;
   return uniform({tick.state.seed, Stream::fault, tick.number,

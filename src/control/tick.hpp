@@ -42,7 +42,7 @@ void hold(State& state, Connector a, Connector b);
 /// Two faces that hold each other let go: both are off from now on, and the assembly falls into
 /// its parts. No event; labels are the caller's.
 void release(Tick& tick, Connector a, Connector b);
-enum class Fault : std::uint32_t { message, answer, latch, release };
+enum class Fault : std::uint32_t { message, answer, latch, release, acknowledgement };
 /// Whether that fault [ControlParameters] happens at a connector in this tick.
 bool fails(const Tick& tick, Connector at, Fault fault);
 /// Reports what happened between two modules, the lower one first, with their states as they are.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "lilytank/start.hpp"
 #include "lilytank/world.hpp"
 
 namespace lilytank {
@@ -67,7 +68,7 @@ class Tanks {
   explicit Tanks(Model model) : model_(std::move(model)) {}
   struct Tank {
     explicit Tank(Model of)
-        : model(std::move(of)), state(initial_state(model, 0)), world(model, state) {}
+        : model(std::move(of)), state(state_of_poses(model, {}, 0)), world(model, state) {}
     Model model;
     State state;  ///< to be filled in, and the world to go on from it
     World world;
@@ -77,8 +78,6 @@ class Tanks {
     if (found != tanks_.end()) return *found->second;
     Model model = model_;
     model.module.count = modules;
-    model.start.layout = Layout::poses;
-    model.start.poses.assign(static_cast<std::size_t>(modules), Pose{});
     return *tanks_.emplace(modules, std::make_unique<Tank>(std::move(model))).first->second;
   }
 

@@ -4,7 +4,8 @@
 
 namespace lilytank {
 
-std::vector<Pose> parse_poses(const std::string& text, const std::string& file) {
+std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
+                              std::vector<int>* lines) {
   std::vector<Pose> poses;
   LineSource lines(text, file);
   Table table(lines);
@@ -15,6 +16,7 @@ std::vector<Pose> parse_poses(const std::string& text, const std::string& file) 
     if (*id != static_cast<std::int64_t>(poses.size())) {
       table.refuse(at[0], table.quoted(at[0]) + " instead of " + std::to_string(poses.size()));
     }
+    if (lines != nullptr) lines->push_back(table.line());
     poses.push_back({table.finite(at[1]), table.finite(at[2]), rotation(table.finite(at[3]))});
   }
   return poses;

@@ -13,6 +13,7 @@
 #include "io/scenario_layers.hpp"
 #include "io/scenario_resolve.hpp"
 #include "io/scenario_values.hpp"
+#include "lilytank/start.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -199,12 +200,19 @@ class Loader {
       throw InputError(place("start.layout"), "start.layout = \"poses\" needs start.file");
     }
     poses_text_ = read_whole(draft_.start_file, place("start.file"));
-    start.poses = parse_poses(poses_text_, draft_.start_file);
-    const int bodies = draft_.scenario.model.bodies();
-    if (static_cast<int>(start.poses.size()) == bodies) return;
-    throw InputError(
-        SourcePlace{draft_.start_file, 0, 0},
-        std::to_string(start.poses.size()) + " poses for " + std::to_string(bodies) + " bodies");
+    std::vector<int> lines;
+    start.poses = parse_poses(poses_text_, draft_.start_file, &lines);
+    const Model& model = draft_.scenario.model;
+    const int bodies = model.bodies();
+    if (static_cast<int>(start.poses.size()) != bodies) {
+      throw InputError(
+          SourcePlace{draft_.start_file, 0, 0},
+          std::to_string(start.poses.size()) + " poses for " + std::to_string(bodies) + " bodies");
+    }
+    const Overlap found = deepest_overlap(model, state_of_poses(model, start.poses, 0));
+    const std::string first = found.a < 0 ? "" : " (line " + std::to_string(lines[found.a]) + ")";
+    const std::string objection = start_objection(model, found, first);
+    if (!objection.empty()) throw InputError({draft_.start_file, lines[found.b], 0}, objection);
   }
 
   void build_commands() {

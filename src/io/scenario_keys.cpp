@@ -86,6 +86,8 @@ void control_keys(ScenarioDraft& d, Keys& keys) {
       {"control.latches", &c.latches, "", 0, 0, "off: the magnets are off and nothing latches"});
   keys.push_back({"control.clock", choice(c.clock, {"firmware", "events"}), "", 0, 0,
                   "modules as state machines run every 25 ms, or bonds evaluated at random times"});
+  keys.push_back({"control.handshake", choice(c.handshake, {"plain", "confirmed"}), "", 0, 0,
+                  "the responder's answer decides, or both sides act once it is confirmed"});
   keys.push_back({"control.capture_distance", &c.capture_distance, "m", 0, 0.05,
                   "distance of two face centres within which they latch"});
   keys.push_back({"control.capture_angle", &c.capture_angle, "rad", 0, 0.75,
@@ -101,7 +103,7 @@ void control_keys(ScenarioDraft& d, Keys& keys) {
   keys.push_back({"control.message_loss", &c.message_loss, "1", 0, 1,
                   "probability that a message to a neighbour is lost"});
   keys.push_back({"control.answer_loss", &c.answer_loss, "1", 0, 1,
-                  "probability that the answer is lost: the initiator then knows of no decision"});
+                  "probability that a message from responder to initiator is lost"});
   keys.push_back({"control.latch_failure", &c.latch_failure, "1", 0, 1,
                   "probability that two faces that meet fail to hold each other"});
   keys.push_back({"control.release_failure", &c.release_failure, "1", 0, 1,

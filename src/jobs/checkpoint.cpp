@@ -61,6 +61,7 @@ class LineReader {
 
 /// The library's own name for a force, which lives as long as the program.
 std::string_view force_name(const std::string& name) {
+  if (name == kStalled) return kStalled;
   const ForceTerm* term = find_force(name);
   return term == nullptr ? "none" : term->name();
 }

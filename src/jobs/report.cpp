@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lilytank/start.hpp"
 #include "text/json.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -81,11 +82,14 @@ std::string species_table(const AssemblyRecord& record) {
 }
 
 std::string divergence_text(const Divergence& d, const Model& model) {
-  const bool module = d.body < model.module.count;
-  return "diverged at " + without_rounding(static_cast<double>(d.step) * model.dt) + " s (step " +
-         std::to_string(d.step) + "): " + (module ? "module " : "ball ") +
-         std::to_string(module ? d.body : d.body - model.module.count) + ", largest force " +
-         std::string(d.force) + ", " + shortest(d.size) + " N";
+  const std::string when = " at " + without_rounding(static_cast<double>(d.step) * model.dt) +
+                           " s (step " + std::to_string(d.step) + "): " + body_name(model, d.body);
+  if (d.force == kStalled) {
+    return "stalled" + when + " and what it touches take more than " + shortest(d.size) +
+           " visits of contacts in one step";
+  }
+  return "diverged" + when + ", largest force " + std::string(d.force) + ", " + shortest(d.size) +
+         " N";
 }
 
 std::string summary_text(const Scenario& scenario, const World& world, const AssemblyRecord& record,

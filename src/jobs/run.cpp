@@ -13,8 +13,6 @@
 namespace lilytank {
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 64;  // steps between looks at the clock
-
 /// Wall time; decides when to save and what progress to tell, never what a file holds.
 class StopWatch {
  public:
@@ -86,7 +84,7 @@ class Job {
       result_.status = world_.step();
       record_.observe(world_);
       if (files_) files_->observe(world_, record_);
-      if (world_.state().step % kStepsPerLook == 0) look_at_clock();
+      look_at_clock();  // after every step: one may take seconds
     }
     outcome_ = {result_.status, world_.divergence(), sum(earlier_, world_.tallies())};
     const bool over = result_.status != RunStatus::stopped;

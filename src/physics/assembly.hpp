@@ -21,6 +21,7 @@ struct Assemblies {
   std::vector<double> centre_x, centre_y;  ///< m, centre of mass in the lattice frame
   std::vector<int> first, next;            ///< members: first[slot], next[body], -1 ends; ascending
   std::vector<int> work;                   ///< scratch of merge and split
+  std::vector<int> by_cell;                ///< scratch of derive_slot: members by lattice cell
   // Bodies [bodies]: poses in the tank, derived from assembly pose and lattice cell.
   std::vector<double> x, y, c, s, vx, vy, omega;
   std::vector<double> offset_x, offset_y;  ///< m, in the assembly's frame, from its centre of mass

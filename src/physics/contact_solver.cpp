@@ -167,13 +167,15 @@ double ContactSolver::moved(const std::vector<Mover>& movers) {
 
 // Until the movers no longer change. Impulses may go on for long: several points of two faces that
 // stick share one force in many ways.
-void ContactSolver::iterate(std::vector<Mover>& movers) {
+void ContactSolver::iterate(Island& island) {
+  std::vector<Mover>& movers = island.movers();
   if (contacts_.size() == 1) return sweep(movers);
   before_.clear();
   for (const Mover& m : movers) before_.push_back(m.twist);
   double close = 0;
   for (int k = 0; k < kSweeps; ++k) {
     sweep(movers);
+    island.work += static_cast<std::int64_t>(contacts_.size());
     const double change = moved(movers);
     if (k == 0) close = std::max(kClose, kShare * change);
     if (change < (k < kQuick ? kExact : close)) return;
@@ -200,7 +202,7 @@ bool ContactSolver::approach(Island& island, double margin, double h) {
   }
   if (!needed) return false;
   energy_ = energy(movers);
-  iterate(movers);
+  iterate(island);
   return true;
 }
 
@@ -238,7 +240,7 @@ void ContactSolver::rebound(Island& island, double h) {
         c.y += share * (c.ny * along_n + c.nx * along_t);
     prepare(c, movers[c.a], movers[c.b]);
   }
-  if (again) iterate(movers);
+  if (again) iterate(island);
   const double now = energy(movers);
   if (now > energy_) calm(movers, wall ? Drift{} : drift_of(movers), now, energy_);
 }

@@ -39,7 +39,7 @@ class ContactSolver {
  private:
   void prepare(ContactPoint& contact, const Mover& a, const Mover& b) const;
   bool retarget(const std::vector<Mover>& movers);
-  void iterate(std::vector<Mover>& movers);
+  void iterate(Island& island);
   void sweep(std::vector<Mover>& movers);
   double moved(const std::vector<Mover>& movers);
 

@@ -203,6 +203,7 @@ double Island::push_apart(int rounds) {
   double deepest = 0;
   for (int round = 0; round < rounds; ++round) {
     deepest = 0;
+    work += static_cast<std::int64_t>(nears_.size());
     for (const Near& near : nears_) {
       if (near.gap.size > kPushRange) continue;
       const double depth = -separation(near).size;

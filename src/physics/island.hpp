@@ -77,6 +77,9 @@ class Island {
   /// the pairs; returns what is left of the deepest overlap (m), 0 if nothing overlapped by more
   /// than the slop.
   double push_apart(int rounds);
+  /// Visits of contacts and pairs by the solvers since it was last set to 0; clear() leaves it.
+  std::int64_t work = 0;
+
   /// True if a mover got farther than it promised.
   bool breaks_promise() const;
   /// Puts back to their last good pose those that broke their promise or overlap by more than

@@ -28,11 +28,11 @@ double keep_good(Island& island, double deepest, double before, Tallies& tallies
 
 }  // namespace
 
-void IslandStepper::run(Island& island, double h, Tallies& tallies) {
+void IslandStepper::run(Island& island, double h, std::int64_t most_work, Tallies& tallies) {
   double deepest = island.survey();
   if (deepest > kSlop) deepest = keep_good(island, deepest, deepest, tallies);
   island.accept(0);
-  for (double left = h; left > 0;) {
+  for (double left = h; left > 0 && island.work <= most_work;) {
     const Pace pace = island.pace(left);
     const double part = pace.longest < left ? left / (std::floor(left / pace.longest) + 1) : left;
     const bool free = pace.free_time >= part;

@@ -13,7 +13,8 @@ class IslandStepper {
  public:
   explicit IslandStepper(const Model& model) : solver_(model) {}
   /// Moves the island by h seconds; adds bodies put back and the deepest overlap to `tallies`.
-  void run(Island& island, double h, Tallies& tallies);
+  /// Gives up once Island::work exceeds `most_work`.
+  void run(Island& island, double h, std::int64_t most_work, Tallies& tallies);
 
  private:
   ContactSolver solver_;

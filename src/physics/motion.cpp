@@ -5,7 +5,6 @@
 
 #include "fly.hpp"
 #include "motion_impl.hpp"
-#include "settle.hpp"
 
 namespace lilytank {
 namespace {
@@ -19,8 +18,13 @@ constexpr double kUsualWay = 8e-3;     // m, seldom exceeded in a step: what a s
 
 }  // namespace
 
-Motion::Impl::Impl(const Model& m)
-    : model(&m), neighbours(m.bodies(), m.tank.radius), builder(m), stepper(m) {
+Motion::Impl::Impl(const Model& m, std::int64_t most)
+    : model(&m),
+      neighbours(m.bodies(), m.tank.radius),
+      builder(m),
+      stepper(m),
+      settling(m),
+      most_work(most) {
   const auto n = static_cast<std::size_t>(m.bodies());
   largest = 0;
   for (int i = 0; i < m.bodies(); ++i) largest = std::max(largest, builder.size_of(i));
@@ -97,7 +101,8 @@ void Motion::Impl::gather_wide(int slot, double h) {
 
 // Moves the island by h seconds and notes where its members end.
 void Motion::Impl::run(double h, Way taken, Tallies& tallies) {
-  stepper.run(builder.island(), h, tallies);
+  stepper.run(builder.island(), h, most_work, tallies);
+  if (stalled < 0 && builder.island().work > most_work) stalled = builder.slots().front();
   for (const Mover& m : builder.island().movers()) {
     if (m.slot < 0) continue;
     Slot& s = slots[m.slot];
@@ -182,32 +187,37 @@ void Motion::Impl::slice(double h, Tallies& tallies) {
     gather_wide(root, h);
     run(h, Way::wide, tallies);
   }
-  finish(h);
+  if (stalled < 0) finish(h);
 }
 
-Motion::Motion(const Model& model) : impl_(std::make_unique<Impl>(model)) {}
+Motion::Motion(const Model& model, std::int64_t most_work)
+    : impl_(std::make_unique<Impl>(model, most_work)) {}
 Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 
-void Motion::advance(State& state, Assemblies& assemblies, Tallies& tallies) {
+int Motion::advance(State& state, Assemblies& assemblies, Tallies& tallies) {
   Impl& m = *impl_;
   m.state = &state, m.assemblies = &assemblies;
   m.builder.begin(state, assemblies);
   for (int ball = m.model->module.count; ball < m.model->bodies(); ++ball) state.omega[ball] = 0;
   const double dt = m.model->dt;
   m.way = m.bound_ways(dt);
-  if (!(m.way < kTooFast * dt)) return;
+  if (!(m.way < kTooFast * dt)) return -1;
+  m.stalled = -1;
   const int slices = 1 + static_cast<int>(m.way / kSliceMotion);
-  for (int k = 0; k < slices; ++k) {
+  for (int k = 0; k < slices && m.stalled < 0; ++k) {
     if (slices > 1) m.way = m.bound_ways(dt / slices);
     m.slice(dt / slices, tallies);
   }
+  m.builder.island().work = 0;
+  return m.stalled;
 }
 
 bool Motion::settle(State& state, Assemblies& assemblies, int slot) {
   IslandBuilder& builder = impl_->builder;
   builder.begin(state, assemblies);
-  if (!make_room(*impl_->model, assemblies, slot, builder)) return false;
+  if (builder.island().work > impl_->most_work / 4) return false;
+  if (!impl_->settling.make_room(assemblies, slot, builder)) return false;
   for (const Mover& m : builder.island().movers()) {
     if (m.slot < 0) continue;
     state.x[m.slot] = m.pose.x, state.y[m.slot] = m.pose.y;

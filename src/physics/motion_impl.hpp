@@ -9,6 +9,7 @@
 #include "island_stepper.hpp"
 #include "motion.hpp"
 #include "neighbours.hpp"
+#include "settle.hpp"
 
 namespace lilytank {
 
@@ -45,6 +46,7 @@ struct Motion::Impl {
   bool searched = false;  // neighbours are those of the poses as they are
   IslandBuilder builder;
   IslandStepper stepper;
+  Settling settling;
   State* state = nullptr;  // of the call in progress
   Assemblies* assemblies = nullptr;
   double largest;    // m, radius of the circle about the largest body
@@ -73,7 +75,10 @@ struct Motion::Impl {
   double most_strayed = 0;        // m, in this slice
   std::vector<std::pair<int, int>> found;
 
-  explicit Impl(const Model& m);
+  std::int64_t most_work;  // visits in a step
+  int stalled = -1;        // slot of the island that took more
+
+  Impl(const Model& m, std::int64_t most);
   double bound_ways(double h);
   void slice(double h, Tallies& tallies);
   void search(double distance);

@@ -93,19 +93,27 @@ struct Check {
 }  // namespace
 
 double deepest_overlap(const Model& model, const Assemblies& assemblies) {
+  return deepest_pair(model, assemblies).depth;
+}
+
+Overlap deepest_pair(const Model& model, const Assemblies& assemblies) {
   const Check check{model, assemblies};
-  double deepest = 0;
+  Overlap deepest;
+  const auto take = [&](double depth, int a, int b) {
+    if (depth > deepest.depth) deepest = {depth, a, b};
+  };
   for (const int p : assemblies.live) {
-    for (int i = assemblies.first[p]; i >= 0; i = assemblies.next[i])
-      deepest = std::max(deepest, check.wall(i));
+    for (int i = assemblies.first[p]; i >= 0; i = assemblies.next[i]) take(check.wall(i), -1, i);
     for (const int q : assemblies.live) {
       if (q <= p) continue;
       const double dx = assemblies.x[q] - assemblies.x[p], dy = assemblies.y[q] - assemblies.y[p];
       const double near = 2 * (assemblies.reach[p] + assemblies.reach[q]);
       if (dx * dx + dy * dy > near * near) continue;  // member to member, so twice the reach
       for (int i = assemblies.first[p]; i >= 0; i = assemblies.next[i]) {
-        for (int j = assemblies.first[q]; j >= 0; j = assemblies.next[j])
-          deepest = std::max(deepest, check.pair(std::min(i, j), std::max(i, j)));
+        for (int j = assemblies.first[q]; j >= 0; j = assemblies.next[j]) {
+          const int low = std::min(i, j), high = std::max(i, j);
+          take(check.pair(low, high), low, high);
+        }
       }
     }
   }

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "lilytank/random.hpp"
-#include "lilytank/state.hpp"
+#include "lilytank/start.hpp"
+#include "physics/motion.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -53,16 +55,20 @@ std::vector<Vec2> lattice_points(const Model& model) {
   return points;
 }
 
+void put_at(const std::vector<Pose>& poses, State& state) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose& pose = poses[i];
+    state.x[i] = pose.x, state.y[i] = pose.y, state.c[i] = pose.r.c, state.s[i] = pose.r.s;
+  }
+}
+
 void place(const Model& model, std::uint64_t seed, State& state) {
   const int n = model.bodies();
   if (model.start.layout == Layout::poses) {
     if (static_cast<int>(model.start.poses.size()) != n)
       throw InputError("start.file holds " + std::to_string(model.start.poses.size()) +
                        " poses for " + std::to_string(n) + " bodies");
-    for (int i = 0; i < n; ++i) {
-      const Pose& pose = model.start.poses[i];
-      state.x[i] = pose.x, state.y[i] = pose.y, state.c[i] = pose.r.c, state.s[i] = pose.r.s;
-    }
+    put_at(model.start.poses, state);
     return;
   }
   std::vector<Vec2> points;
@@ -88,9 +94,8 @@ void place(const Model& model, std::uint64_t seed, State& state) {
   }
 }
 
-}  // namespace
-
-State initial_state(const Model& model, std::uint64_t seed) {
+// All bodies at the centre, and what a seed says of the firmware.
+State blank_state(const Model& model, std::uint64_t seed) {
   State state;
   state.seed = seed;
   const int n = model.bodies();
@@ -102,16 +107,48 @@ State initial_state(const Model& model, std::uint64_t seed) {
   for (int i = 0; i < n; ++i) state.assembly[i] = i;
   state.firmware.resize(model.module.count);
   state.faces.resize(4 * static_cast<std::size_t>(model.module.count));
-  place(model, seed, state);
-  for (int i = 0; i < n; ++i) {
-    const double r = std::sqrt(state.x[i] * state.x[i] + state.y[i] * state.y[i]);
-    if (!(r + reach_of(model, i) <= model.tank.radius + 1e-9))
-      throw InputError("body " + std::to_string(i) + " would start outside the tank");
-  }
   for (int i = 0; i < model.module.count; ++i) {
     const double u = uniform({seed, Stream::first_face, 0, static_cast<std::uint32_t>(i), 0});
     state.firmware[i].next_face = static_cast<std::uint8_t>(4 * u);
   }
+  return state;
+}
+
+}  // namespace
+
+State state_of_poses(const Model& model, const std::vector<Pose>& poses, std::uint64_t seed) {
+  State state = blank_state(model, seed);
+  put_at(poses, state);
+  return state;
+}
+
+Overlap deepest_overlap(const Model& model, const State& state) {
+  Assemblies assemblies;
+  assemblies.resize(model);
+  derive(model, state, assemblies);
+  return deepest_pair(model, assemblies);
+}
+
+std::string body_name(const Model& model, int body) {
+  const bool module = body < model.module.count;
+  return (module ? "module " : "ball ") + std::to_string(module ? body : body - model.module.count);
+}
+
+std::string start_objection(const Model& model, const Overlap& overlap, const std::string& after_a,
+                            const std::string& after_b) {
+  if (overlap.depth <= kStartTolerance) return "";
+  const std::string most = ", more than " + shortest(1e3 * kStartTolerance) + " mm",
+                    by = " by " + significant(1e3 * overlap.depth, 3) + " mm at the start" + most;
+  const std::string b = body_name(model, overlap.b) + after_b;
+  if (overlap.a < 0) return b + " reaches beyond the wall of the tank" + by;
+  return body_name(model, overlap.a) + after_a + " and " + b + " overlap" + by;
+}
+
+State initial_state(const Model& model, std::uint64_t seed) {
+  State state = blank_state(model, seed);
+  place(model, seed, state);
+  const std::string objection = start_objection(model, deepest_overlap(model, state));
+  if (!objection.empty()) throw InputError(objection);
   return state;
 }
 

@@ -32,6 +32,7 @@ struct World::Impl {
       : model(&m), state(std::move(s)), motion(m), controller(m), wrenches(m.bodies()), forces(m) {
     assemblies.resize(m);
     derive(m, state, assemblies);
+    tallies.deepest_overlap = deepest_overlap(m, assemblies);
     events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
     kinematics = {assemblies.x,  assemblies.y,     assemblies.c,       assemblies.s,  assemblies.vx,
                   assemblies.vy, assemblies.omega, assemblies.covered, m.module.count};
@@ -179,7 +180,10 @@ RunStatus World::step() {
     w.blame();
     return w.status = RunStatus::diverged;
   }
-  w.motion.advance(w.state, w.assemblies, w.tallies);
+  if (const int slot = w.motion.advance(w.state, w.assemblies, w.tallies); slot >= 0) {
+    w.divergence = {w.state.step, slot, kStalled, static_cast<double>(kMostWork)};
+    return w.status = RunStatus::diverged;
+  }
   w.damp();
   ++w.state.step;
   return w.status;

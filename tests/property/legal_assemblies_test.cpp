@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/random.hpp"
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
@@ -58,6 +59,52 @@ TEST(LegalAssemblies, TenMinutesOfEveryShippedRuleset) {
     }
   }
   EXPECT_GT(firings, 1000);  // the tanks were not asleep
+}
+
+/// A crowded tank with faults drawn at random; every loss up to 0.9.
+Model faulty_tank(std::uint32_t k) {
+  const auto u = [&](std::uint32_t index) { return uniform({77, Stream::fault, 0, k, index}); };
+  Model model = standard_model();
+  const auto& names = shipped_rulesets();
+  model.rulesets = {lively(names[k % names.size()])};
+  model.module.count = 20 + static_cast<int>(30 * u(0));
+  model.start.radius = 0.27, model.start.distance = 0.05;
+  model.start.layout = Layout::lattice;
+  ControlParameters& c = model.control;
+  c.clock = u(1) < 0.5 ? Clock::firmware : Clock::events;
+  c.evaluation_rate = 0.68 + 10 * u(2), c.initiative = 0.1 + 0.4 * u(3);
+  c.reply_ticks = 1 + static_cast<int>(8 * u(4));
+  c.answer_loss = 0.9 * u(5);
+  if (u(6) < 0.5) c.message_loss = 0.9 * u(7);
+  if (u(8) < 0.5) c.latch_failure = 0.9 * u(9);
+  if (u(10) < 0.5) c.release_failure = 0.9 * u(11);
+  return model;
+}
+
+std::int64_t illegal_in(const Model& model, std::uint32_t k, std::int64_t& firings) {
+  World world(model, k);
+  AssemblyRecord record(model);
+  record.observe(world);
+  for (int step = 0; step < 1200; ++step) {
+    EXPECT_EQ(world.step(), RunStatus::ok);
+    record.observe(world);
+    if (!world.events().empty()) expect_consistent(world.state());
+  }
+  for (const std::int64_t fired : record.firings()[0]) firings += fired;
+  return record.illegal();
+}
+
+TEST(LegalAssemblies, TheConfirmedHandshakeSurvivesEveryLoss) {
+  std::int64_t firings = 0, plain_firings = 0, plain_illegal = 0;
+  for (std::uint32_t k = 0; k < 90; ++k) {
+    Model model = faulty_tank(k);
+    if (k < 9) plain_illegal += illegal_in(model, k, plain_firings);
+    model.control.handshake = Handshake::confirmed;
+    EXPECT_EQ(illegal_in(model, k, firings), 0) << k;
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(firings, 1000);
+  EXPECT_GT(plain_illegal, 0);  // these tanks do show what a lost answer can do
 }
 
 }  // namespace

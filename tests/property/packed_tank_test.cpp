@@ -175,6 +175,24 @@ TEST(FastShots, DoNotGetThroughSingleModules) {
   }
 }
 
+// A step that would take more work than is allowed ends the motion, not the promise.
+TEST(PackedTank, AStepIsGivenUpBeforeItTakesTooMuchWork) {
+  Bodies b(bare_model(12, 0.09));
+  lay(b, lattice(0.09, 0.036));
+  b.motion = std::make_unique<Motion>(b.model, 2000);
+  int stalled = -1, step = 0;
+  for (; stalled < 0 && step < 2000; ++step) {
+    shake(b, {0.05, 2, 0.03}, step);
+    const Vec2 before(b.state.x[0], b.state.y[0]);
+    stalled = b.motion->advance(b.state, b.assemblies, b.tallies);
+    EXPECT_LE(b.overlap(), kOverlapLimit) << step;
+    if (stalled >= 0) EXPECT_EQ(before, Vec2(b.state.x[0], b.state.y[0]));
+  }
+  EXPECT_GT(step, 1);  // easy steps are taken
+  ASSERT_GE(stalled, 0);
+  EXPECT_LT(stalled, 12);
+}
+
 // The state alone decides: a solver that has run before gives the same bits as a new one.
 TEST(PackedTank, TheSolverKeepsNothing) {
   Bodies b(bare_model(12, 0.09));

@@ -181,7 +181,7 @@ TEST_F(ScenarioTest, CommandsOfALaterFileReplaceThoseBelow) {
 
 TEST_F(ScenarioTest, ResolvedTextGivesTheSameScenarioAgain) {
   dir_.write("one.rules", kRules), dir_.write("two.rules", kRules + "# other\n");
-  dir_.write("start.csv", "id,x,y,theta\n0,0.1,0,0\n1,-0.1,0.02,1.5\n2,0,0.1,-0.3\n");
+  dir_.write("start.csv", "id,x,y,theta\n0,0.05,0,0\n1,-0.05,0.02,1.5\n2,0,0.06,-0.3\n");
   const Scenario first = load(
       "title = \"a \\\"quoted\\\" \\\\ title\\n\"\n[module]\ncount = 3\n[tank]\nradius = 0.1\n"
       "[start]\nradius = 0.1\nfile = \"start.csv\"\n[forces.body_force]\nforce_x = 1e-3\n"

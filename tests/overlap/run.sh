@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Runs random scenarios and measures their overlaps with another program. Prints a table; exit 1 if
+# an overlap exceeds 0.5 mm or is deeper than the run reports.
+#   run.sh LILYTANK OVERLAP_CHECK SCENARIOS [FIRST] [COUNT]
+set -uo pipefail
+lilytank=$1 check=$2 scenarios=$3 first=${4:-1} count=${5:-100}
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+faults=0 diverged=0
+echo "scenario frames  pairs/mm   wall/mm  reported"
+for ((k = first; k < first + count; ++k)); do
+  read -r file options <<< "$("$check" draw "$k")"
+  # shellcheck disable=SC2086  # the options hold no blanks
+  "$lilytank" run "$scenarios/$file" $options --quiet --out "$work/run" > "$work/out" 2>&1
+  status=$?
+  printf '%8d' "$k"
+  if ((status > 1)); then
+    printf '  exit code %d: %s\n' "$status" "$(tail -n 1 "$work/out")"
+    faults=$((faults + 1))
+    continue
+  fi
+  ((status == 0)) || diverged=$((diverged + 1))
+  "$check" check "$work/run" || faults=$((faults + 1))
+  rm -rf "$work/run"
+done
+echo "$count scenarios, $diverged diverged, $faults with an overlap that is too deep or not reported"
+((faults == 0))
