@@ -43,7 +43,6 @@ layer() {
   fi
 }
 
-only_in 'src/study/' '#include <(tbb|oneapi)/' 'TBB belongs to src/study'
 only_in 'src/study/' '#include <(thread|future|mutex|condition_variable|execution)>' \
   'threads belong to src/study'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'

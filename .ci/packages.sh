@@ -1,6 +1,6 @@
 # What demo.sh and test.sh need from Debian 12, and how they get it. Sourced by both.
 
-build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtomlplusplus-dev
+build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtomlplusplus-dev
                 libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev
                 libssl-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
