@@ -1,10 +1,16 @@
 // lilytank: floating modules that assemble themselves in a stirred tank.
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
 
+#include "cli/printable_stream.hpp"
 #include "cli/verbs.hpp"
 #include "lilytank/error.hpp"
+#include "text/printable.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -82,18 +88,33 @@ int deliver(int code) {
   throw InputError("cannot write to standard output");
 }
 
+/// One line on standard error, whatever the text holds.
+void print_error(const std::string& text) {
+  std::cerr << printable(text) << "\n";
+}
+
+/// Does what the command line says; every failure is one line. What no reader explains is named by
+/// the command that failed, which has the file or the job.
+int run_command(const Arguments& words) {
+  const auto command = [&] { return "lilytank " + joined(words, " "); };
+  try {
+    return deliver(act(words));
+  } catch (const InputError& e) {
+    print_error(e.what());
+  } catch (const std::bad_alloc&) {
+    print_error(command() + ": out of memory");
+  } catch (const std::exception& e) {
+    print_error(command() + ": unexpected: " + e.what());
+  }
+  return Exit::bad_input;
+}
+
 }  // namespace
 }  // namespace lilytank::cli
 
 int main(int argc, char** argv) {
-  using namespace lilytank;
+  using lilytank::cli::PrintableStream;
   std::ios::sync_with_stdio(false);
-  try {
-    return cli::deliver(cli::act({argv + std::min(1, argc), argv + argc}));
-  } catch (const InputError& e) {
-    std::cerr << e.what() << "\n";
-  } catch (const std::exception& e) {
-    std::cerr << "lilytank: unexpected: " << e.what() << "\n";
-  }
-  return cli::Exit::bad_input;
+  const PrintableStream out(std::cout, false), err(std::cerr, ::isatty(STDERR_FILENO) != 0);
+  return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc});
 }
