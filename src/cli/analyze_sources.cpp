@@ -8,7 +8,6 @@
 #include "lilytank/experiment.hpp"
 #include "lilytank/run.hpp"
 #include "text/number.hpp"
-#include "text/refusals.hpp"
 #include "text/words.hpp"
 
 namespace lilytank::cli {
@@ -152,7 +151,7 @@ class Reader {
     for (const BodyKind body : {BodyKind::lily, BodyKind::ball}) {
       const int count = body == BodyKind::ball ? balls : run.trajectory.modules;
       if (count == 0 || !wanted(body)) continue;
-      Recording recording = refusals_of(word, [&] { return as_recording(run.trajectory, body); });
+      Recording recording = as_recording(run.trajectory, body);
       recording.name = word;
       const std::string kind = body == BodyKind::ball ? " balls" : " modules";
       add(name + (both ? kind : ""), panel, recording, model.tank.radius, size_of(model, body),

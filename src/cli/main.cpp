@@ -1,16 +1,15 @@
 // lilytank: floating modules that assemble themselves in a stirred tank.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <new>
 
+#include "cli/error_line.hpp"
 #include "cli/printable_stream.hpp"
 #include "cli/verbs.hpp"
 #include "lilytank/error.hpp"
-#include "text/printable.hpp"
-#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -42,13 +41,14 @@ const std::vector<Verb>& verbs() {
 void print_help() {
   std::cout << "lilytank " LILYTANK_VERSION
                ": floating modules that assemble themselves in a stirred tank\n\n"
-               "usage: lilytank VERB ...\n\n";
+               "usage: lilytank VERB [OPTION...] FILE...\n\n";
   for (const Verb& verb : verbs()) {
     std::string name = verb.name;
     name.resize(12, ' ');
     std::cout << "  " << name << verb.summary << "\n";
   }
   std::cout << "  help        lilytank help VERB: the options of a verb\n\n"
+               "After '--' every word is a file, even if it begins with a dash.\n"
                "exit codes: 0 done, 1 a world diverged or a check found a fault, 2 bad input, 3 "
                "stopped (run again to go on)\n";
 }
@@ -88,23 +88,22 @@ int deliver(int code) {
   throw InputError("cannot write to standard output");
 }
 
-/// One line on standard error, whatever the text holds.
-void print_error(const std::string& text) {
-  std::cerr << printable(text) << "\n";
+/// A standard stream that is closed would be the next file that is opened, and take its text. What
+/// is printed to these placeholders still fails.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    const int placeholder = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    static_cast<void>(placeholder);  // the lowest number that is free: that of the stream
+  }
 }
 
-/// Does what the command line says; every failure is one line. What no reader explains is named by
-/// the command that failed, which has the file or the job.
+/// Does what the command line says; every failure is one line.
 int run_command(const Arguments& words) {
-  const auto command = [&] { return "lilytank " + joined(words, " "); };
   try {
     return deliver(act(words));
-  } catch (const InputError& e) {
-    print_error(e.what());
-  } catch (const std::bad_alloc&) {
-    print_error(command() + ": out of memory");
-  } catch (const std::exception& e) {
-    print_error(command() + ": unexpected: " + e.what());
+  } catch (...) {
+    std::cerr << error_line(words, std::current_exception()) << "\n";
   }
   return Exit::bad_input;
 }
@@ -115,6 +114,7 @@ int run_command(const Arguments& words) {
 int main(int argc, char** argv) {
   using lilytank::cli::PrintableStream;
   std::ios::sync_with_stdio(false);
+  lilytank::cli::occupy_closed_streams();
   const PrintableStream out(std::cout, false), err(std::cerr, ::isatty(STDERR_FILENO) != 0);
   return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc});
 }

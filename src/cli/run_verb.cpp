@@ -13,7 +13,6 @@
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
 #include "text/number.hpp"
-#include "text/refusals.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -76,12 +75,8 @@ bool draw(const std::string& out, bool quiet) {
   return true;
 }
 
-/// Refuses a scenario whose bodies do not fit, by the name of its last file.
-void check_start(const Scenario& scenario, const std::string& file) {
-  refusals_of(file, [&] { initial_state(scenario.model, scenario.seed); });
-}
-
 int dry_run(const Scenario& scenario, const std::string& out, bool force) {
+  initial_state(scenario.model, scenario.seed);  // do the bodies fit?
   check_directory_can_be(out);
   static_cast<void>(RunDirectory(out, scenario, force));  // only looks, and refuses
   std::cout << "would simulate " << shortest(scenario.duration) << " s of "
@@ -160,7 +155,6 @@ int run_verb(const Arguments& arguments) {
   job.out = options.text("out", default_out(scenario, options.positional().back()));
   if (job.out.empty()) options.refuse("--out is empty");
   job.force = options.has("force");
-  check_start(scenario, options.positional().back());
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
   job.stop = &stop_signal();
   return finish(scenario, run_with_progress(scenario, job, quiet), job.out, video, quiet);

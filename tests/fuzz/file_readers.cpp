@@ -149,7 +149,7 @@ bool read_search(std::string_view bytes) {
     return accepts("search.state", [&] {
       const auto search = restore_search(text, "search.state");
       const auto trials = search->ask();
-      search->tell(std::vector<double>(trials.size(), 1.0));
+      if (!trials.empty()) search->tell(std::vector<double>(trials.size(), 1.0));
       restore_search(search->save(), "search.state");
     });
   };
