@@ -33,9 +33,10 @@ bool names_its_subject(const std::string& message) {
 std::string refusal_line(const Arguments& words, const std::string& message) {
   if (names_its_subject(message)) return message;
   std::string file;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    const bool output = k > 0 && words[k - 1] == "--out";
-    if (!output && exists(words[k])) file = words[k];
+  for (std::size_t k = 1; k < words.size(); ++k) {  // the first one is the verb
+    if (!exists(words[k])) continue;
+    if (message.find(words[k]) != std::string::npos) return message;
+    if (words[k - 1] != "--out") file = words[k];
   }
   return file.empty() ? message : file + ": " + message;
 }

@@ -56,6 +56,8 @@ by=()
 c_run() { "${by[@]}" "$lily" run "$in/tank.toml" --quiet --out "$1/run"; }
 c_study() { "${by[@]}" "$lily" study "$in/pairs.toml" --quiet --threads 2 --out "$1/study"; }
 c_optimize() { "${by[@]}" "$lily" optimize "$in/best.toml" --quiet --threads 2 --out "$1/best"; }
+c_others() { "${by[@]}" "$lily" study "$in/others.toml" --quiet --threads 2 --out "$1/study"; }
+c_bar() { "${by[@]}" "$lily" synthesize "$in/bar.txt" --out "$1/cross.rules"; }
 c_synthesize() { "${by[@]}" "$lily" synthesize "$in/cross.txt" --out "$1/cross.rules"; }
 c_convert() { "${by[@]}" "$lily" recording convert "$in/tracks.csv" --out "$1/tracks.csv"; }
 c_film() { "${by[@]}" "$lily" recording convert "$in/done" --out "$1/film.csv"; }
@@ -124,7 +126,7 @@ survives() {  # <tried> <argument...>: done or refused
 
 source "$here/inputs.sh"
 make_inputs
-for name in "${writers[@]}" "${readers[@]}" draw; do
+for name in "${writers[@]}" others bar "${readers[@]}" draw; do
   mkdir -p "$home/ref/$name"
   if ! c_$name "$home/ref/$name" > /dev/null 2> "$home/err"; then
     [[ $name == draw ]] && continue  # built without the renderer

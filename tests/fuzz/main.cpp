@@ -89,6 +89,30 @@ const std::vector<std::string> kCells{"",
                                       "99999",
                                       "2147483648"};
 
+/// Values of TOML that have broken readers of scenarios and studies, or might.
+const std::vector<std::string> kValues{"true",
+                                       "\"\"",
+                                       "\"5 cm\"",
+                                       "\"5 kg\"",
+                                       "\"nan\"",
+                                       "nan",
+                                       "-inf",
+                                       "[]",
+                                       "[[1], 2]",
+                                       "{}",
+                                       "{a = {b = 1}}",
+                                       "1979-05-27",
+                                       "1e9",
+                                       "-1",
+                                       "0",
+                                       "9223372036854775807",
+                                       "[1, \"a\", nan]",
+                                       "\"\\u001b[2J\\n\"",
+                                       "\"../..\"",
+                                       "\".\"",
+                                       "[0, 0, 0]",
+                                       "\"*\""};
+
 std::size_t line_start(const std::string& text, std::size_t at) {
   const auto before = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
   return before == std::string::npos ? 0 : before + 1;
@@ -98,7 +122,7 @@ void mutate(std::string& text, const std::string& other, Dice& dice) {
   const std::size_t at = dice.below(text.size() + 1);
   const std::size_t length = dice.below(std::min<std::size_t>(40, text.size() - at + 1));
   // Mostly what leaves a table a table.
-  constexpr std::size_t kKinds[] = {7, 7, 7, 7, 7, 4, 4, 4, 5, 5, 5, 0, 1, 2, 3, 6, 8, 9};
+  constexpr std::size_t kKinds[] = {7, 7, 7, 7, 7, 4, 4, 4, 5, 5, 5, 0, 1, 2, 3, 6, 8, 9, 10, 10};
   switch (kKinds[dice.below(std::size(kKinds))]) {
     case 0:  // another byte
       if (at < text.size()) text[at] = static_cast<char>(dice.below(256));
@@ -133,6 +157,13 @@ void mutate(std::string& text, const std::string& other, Dice& dice) {
     case 7: {  // a digit
       const auto digit = text.find_first_of("0123456789", at);
       if (digit != std::string::npos) text[digit] = static_cast<char>('0' + dice.below(10));
+      break;
+    }
+    case 10: {  // another value of a key
+      const auto equals = text.find('=', at);
+      if (equals == std::string::npos) break;
+      const auto to = std::min(text.find('\n', equals), text.size());
+      text.replace(equals + 1, to - equals - 1, " " + kValues[dice.below(kValues.size())]);
       break;
     }
     case 8:
