@@ -50,7 +50,7 @@ no_environment() { by=(env -i); "$@"; }
 memory() { ulimit -v "$limit"; "$@"; }
 open_files() { ulimit -n "$limit"; "$@"; }
 file_size() { ulimit -f "$limit"; "$@"; }
-threads() { by=("${nobody[@]}"); ulimit -u "$limit"; "$@"; }
+threads() { by=(exec "${nobody[@]}"); ulimit -u "$limit"; "$@"; }
 
 closed_streams() {  # <fault> <command>: with standard error closed nobody sees a refusal
   fresh
@@ -95,13 +95,14 @@ processor_time() {  # ended by the system after a second: then the command goes 
 }
 device_full() {  # a node of our own: a file moved over /dev/full would stay there
   local device=$home/full
-  mknod "$device" c 1 7 2> /dev/null && : 2> /dev/null < "$device" || device=/dev/full
+  if ! { mknod "$device" c 1 7 && head -c 1 "$device"; } > /dev/null 2>&1; then device=/dev/full; fi
   local words
   for words in "info $in/tank.toml" forces help "check $in/pair.rules --lattice 0" \
                "run $in/tank.toml --dry-run --out $home/none"; do
     "$lily" $words > "$device" 2> "$home/err"
     refusal "$words to a full device" $? "$home/err"
   done
+  [[ $device != /dev/full || $EUID != 0 ]] || return
   refuses "synthesize --out FULL" synthesize "$in/cross.txt" --out "$device"
   refuses "convert --out FULL" recording convert "$in/tracks.csv" --out "$device"
   [[ -c $device ]] || count_wrong "output to a full device" "the device is gone"
