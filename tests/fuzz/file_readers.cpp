@@ -1,5 +1,5 @@
 // Readers of the product's own formats: what users write, and what it reads back of its own.
-#include <cctype>
+#include <atomic>
 #include <optional>
 
 #include "fuzz/readers.hpp"
@@ -11,6 +11,7 @@
 #include "jobs/checkpoint.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/experiment.hpp"
+#include "lilytank/flow_estimate.hpp"
 #include "lilytank/flow_field.hpp"
 #include "lilytank/kinetics.hpp"
 #include "lilytank/optimize.hpp"
@@ -234,6 +235,49 @@ bool read_events(std::string_view bytes) {
 bool read_rates(std::string_view bytes) {
   return accepts("rates.csv", [&] { rate_table_from(std::string(bytes), "rates.csv"); });
 }
+bool read_measured(std::string_view bytes) {
+  return accepts("world.csv", [&] { measured_world_from(std::string(bytes), "world.csv", 7); });
+}
+bool read_truth(std::string_view bytes) {
+  return read_file("truth.csv", bytes, [](const std::string& f) { read_flow_truth(f, 4); });
+}
+
+/// The log of a search of 6 trials; what it lacks is evaluated.
+SearchRunOptions search_options() {
+  SearchRunOptions options;
+  options.dir = scratch() + "/search", options.identity = "fuzz", options.threads = 1;
+  return options;
+}
+std::unique_ptr<Search> small_search() {
+  SwarmOptions options;
+  options.particles = 3, options.iterations = 1;
+  return make_swarm({{"a", 0, 1}}, options, 5);
+}
+void search_small(const std::atomic<bool>* stop) {
+  SearchRunOptions options = search_options();
+  options.stop = stop;
+  run_search(
+      small_search(), [](const Trial& t) { return t.point[0]; }, options);
+}
+/// The checkpoint before the first evaluation: what follows comes from the log.
+const std::string& first_state() {
+  static const std::string state = [] {
+    const std::atomic<bool> stop{true};
+    search_small(&stop);
+    return stored("search/search.state");
+  }();
+  return state;
+}
+std::string search_log() {
+  first_state();
+  search_small(nullptr);
+  return stored("search/evaluations.csv");
+}
+bool read_search_log(std::string_view bytes) {
+  write_scratch("search/search.state", first_state());
+  return read_file("search/evaluations.csv", bytes,
+                   [](const std::string&) { search_small(nullptr); });
+}
 bool read_rows(std::string_view bytes) {
   around();
   return accepts("rows.csv", [&] {
@@ -324,6 +368,9 @@ std::vector<Reader> file_readers() {
        row_header() + row_line(around().row, around().study->plan().identity())},
       {"kept-rows", read_kept_rows, "lilytank rows 1 " + hex(7) + "\n0,1.5,0;\n1,1.5,nan;\n"},
       {"search", read_search, search_state()},
+      {"search-log", read_search_log, search_log()},
+      {"measured-world", read_measured, to_csv(MeasuredWorld{}, 7)},
+      {"flow-truth", read_truth, kFlow},
       {"values", read_values, "1.5 cm\n"},
   };
 }
