@@ -86,12 +86,11 @@ TEST_F(MessagesTest, BodiesThatDoNotFitAreOfAFile) {
 }
 
 TEST_F(MessagesTest, MemoryThatRunsOutIsOfTheCommand) {
-  lilytank_.here.write("big.txt", std::string(60'000'000, 'x'));
-  const Answer outcome = lilytank_("synthesize big.txt");  // without a limit: refused as ever
-  EXPECT_EQ(outcome.code, 2);
+  lilytank_.here.write("big.txt", "x");
+  std::filesystem::resize_file(lilytank_.here.path("big.txt"), 1'000'000'000);  // of holes
 #ifndef __SANITIZE_ADDRESS__
   TemporaryDirectory aside;
-  const std::string limited = "ulimit -v 60000; cd '" + lilytank_.here.path() +
+  const std::string limited = "ulimit -v 300000; cd '" + lilytank_.here.path() +
                               "' && '" LILYTANK_PROGRAM "' synthesize big.txt 2> '" +
                               aside.path("err") + "'";
   const int status = std::system(limited.c_str());
