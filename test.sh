@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds with warnings as errors, and runs every test.
+# Installs what is missing (Debian 12), builds with warnings as errors, and runs every test. With --all
+# also the long versions of two of them: an hour of damaged files, and twenty times the faults.
 # Ends with the closing line of ctest; the exit code is 0 only if everything passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -24,3 +25,8 @@ configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH
                 -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
 cmake --build build
 run_tests build
+
+if [[ ${1:-} == --all ]]; then
+  build/tests/fuzz_readers 3600 "$RANDOM"
+  bash tests/faults/run.sh build/lilytank 20
+fi

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kMostWords = 4000;  // bytes of ffmpeg's messages that are kept
 constexpr const char* kNotThere =
-    "films need the program ffmpeg, which is not in PATH; install it, or draw stills";
+    "cannot make films: the program ffmpeg is not in PATH; install it, or draw stills";
 
 void close_and_forget(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);

@@ -1,8 +1,13 @@
 // lilytank: floating modules that assemble themselves in a stirred tank.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <exception>
 #include <iostream>
 
+#include "cli/error_line.hpp"
+#include "cli/printable_stream.hpp"
 #include "cli/verbs.hpp"
 #include "lilytank/error.hpp"
 
@@ -36,13 +41,14 @@ const std::vector<Verb>& verbs() {
 void print_help() {
   std::cout << "lilytank " LILYTANK_VERSION
                ": floating modules that assemble themselves in a stirred tank\n\n"
-               "usage: lilytank VERB ...\n\n";
+               "usage: lilytank VERB [OPTION...] FILE...\n\n";
   for (const Verb& verb : verbs()) {
     std::string name = verb.name;
     name.resize(12, ' ');
     std::cout << "  " << name << verb.summary << "\n";
   }
   std::cout << "  help        lilytank help VERB: the options of a verb\n\n"
+               "After '--' every word is a file, even if it begins with a dash.\n"
                "exit codes: 0 done, 1 a world diverged or a check found a fault, 2 bad input, 3 "
                "stopped (run again to go on)\n";
 }
@@ -82,18 +88,33 @@ int deliver(int code) {
   throw InputError("cannot write to standard output");
 }
 
+/// A standard stream that is closed would be the next file that is opened, and take its text. What
+/// is printed to these placeholders still fails.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    const int placeholder = ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    static_cast<void>(placeholder);  // the lowest number that is free: that of the stream
+  }
+}
+
+/// Does what the command line says; every failure is one line.
+int run_command(const Arguments& words) {
+  try {
+    return deliver(act(words));
+  } catch (...) {
+    std::cerr << error_line(words, std::current_exception()) << "\n";
+  }
+  return Exit::bad_input;
+}
+
 }  // namespace
 }  // namespace lilytank::cli
 
 int main(int argc, char** argv) {
-  using namespace lilytank;
+  using lilytank::cli::PrintableStream;
   std::ios::sync_with_stdio(false);
-  try {
-    return cli::deliver(cli::act({argv + std::min(1, argc), argv + argc}));
-  } catch (const InputError& e) {
-    std::cerr << e.what() << "\n";
-  } catch (const std::exception& e) {
-    std::cerr << "lilytank: unexpected: " << e.what() << "\n";
-  }
-  return cli::Exit::bad_input;
+  lilytank::cli::occupy_closed_streams();
+  const PrintableStream out(std::cout, false), err(std::cerr, ::isatty(STDERR_FILENO) != 0);
+  return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc});
 }

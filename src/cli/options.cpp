@@ -38,11 +38,14 @@ VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
 }
 
 bool VerbOptions::parse(const Arguments& arguments) {
-  check_names(arguments);
+  // What follows "--" are files, even if they begin with a dash.
+  const auto end = std::find(arguments.begin(), arguments.end(), "--");
+  const Arguments before(arguments.begin(), end);
+  check_names(before);
   options_.allow_unrecognised_options();  // positional arguments are the unrecognised ones
   const std::string program = "lilytank " + verb_;
   std::vector<const char*> words{program.c_str()};
-  for (const std::string& argument : arguments) words.push_back(argument.c_str());
+  for (const std::string& argument : before) words.push_back(argument.c_str());
   try {
     result_ = options_.parse(static_cast<int>(words.size()), words.data());
   } catch (const cxxopts::exceptions::exception& e) {
@@ -52,6 +55,7 @@ bool VerbOptions::parse(const Arguments& arguments) {
   for (const std::string& word : positional_) {
     if (word.size() > 1 && word[0] == '-') refuse("unknown option '" + word + "'");
   }
+  if (end != arguments.end()) positional_.insert(positional_.end(), end + 1, arguments.end());
   if (!has("help")) return true;
   std::cout << options_.help();
   return false;
@@ -66,7 +70,6 @@ void VerbOptions::check_names(const Arguments& arguments) {
     }
   }
   for (const std::string& argument : arguments) {
-    if (argument == "--") return;
     if (!argument.starts_with("--")) continue;
     const std::string name = argument.substr(0, argument.find('='));
     if (!among(name, known)) refuse("unknown option '" + name + "'" + did_you_mean(name, known));

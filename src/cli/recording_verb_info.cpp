@@ -9,6 +9,7 @@
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "text/number.hpp"
+#include "text/printable.hpp"
 #include "text/words.hpp"
 
 namespace lilytank::cli {
@@ -171,7 +172,7 @@ int for_each(const std::vector<NamedRecording>& all, const Act& act) {
       if (checked.refused()) code = Exit::bad_input;
     } catch (const InputError& e) {
       std::cout << std::flush;
-      std::cerr << e.what() << "\n";
+      std::cerr << printable(e.what()) << "\n";
       code = Exit::bad_input;
     }
   }

@@ -32,8 +32,6 @@ class CsvReader {
   SourcePlace place(std::size_t column) const;
   [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
 
-  int line() const { return line_; }  ///< of the present row
-
  private:
   std::string quoted(std::size_t column) const;
   std::string_view text_;

@@ -43,7 +43,9 @@ Assignment TomlFields::assignment(const std::string& name) const {
 }
 
 std::string TomlFields::text(const std::string& name) const {
-  return text_of(assignment(name), path(name));
+  std::string text = text_of(assignment(name), path(name));
+  if (text.empty()) refuse(name, path(name) + " is empty");
+  return text;
 }
 
 std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::int64_t high) const {

@@ -42,6 +42,7 @@ std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, Traje
 
 Trajectory read_trajectory(const std::string& file) {
   const std::string content = read_whole(file);
+  if (content.empty()) throw InputError({file}, "there is no frame in it yet");
   const bool binary = std::string_view(content).starts_with(kTrajectoryMagic);
   return binary ? parse_binary_trajectory(content, file) : parse_csv_trajectory(content, file);
 }

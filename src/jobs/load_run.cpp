@@ -90,6 +90,9 @@ StoredRun load_run(const std::string& dir) {
     check_length(path(poses), checkpoint->lengths.trajectory, checkpoint->finished);
     check_length(path(run_file::metrics), checkpoint->lengths.metrics, checkpoint->finished);
   }
+  if (!checkpoint && !exists(path(poses))) {
+    throw InputError({path(poses)}, "there is no frame of the run yet");
+  }
   run.trajectory = read_trajectory(path(poses));
   const int bodies = run.scenario.model.bodies();
   // Of a table that was cut in its first frame nobody knows how many rows that has.

@@ -9,6 +9,7 @@
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
 #include "jobs/run_files.hpp"
+#include "text/refusals.hpp"
 
 namespace lilytank {
 namespace {
@@ -47,7 +48,8 @@ class Job {
     if (directory_) directory_->open();
     const Checkpoint* before = checkpoint();
     if (before != nullptr) {
-      record_.restore(before->record, world_);
+      refusals_of(directory_->path(run_file::checkpoint),
+                  [&] { record_.restore(before->record, world_); });
       earlier_ = before->tallies;
       outcome_ = {before->status, before->divergence, before->tallies};
     }

@@ -40,6 +40,17 @@ std::vector<std::string> attached_names(const std::string& dir) {
   return names;
 }
 
+/// What differs in a line of two resolved scenarios: the values, or, where these are equal, all
+/// that follows them.
+std::string difference(const std::string& there, const std::string& here, int line) {
+  const auto value = [](const std::string& text) { return text.substr(0, text.find("  #")); };
+  if (value(there) != value(here)) {
+    return "there '" + value(there) + "', here '" + value(here) + "'";
+  }
+  return std::string(run_file::resolved) + ":" + std::to_string(line) +
+         " was changed or is damaged: there '" + there + "', here '" + here + "'";
+}
+
 }  // namespace
 
 std::vector<std::string> files_of_run(const std::string& dir) {
@@ -99,14 +110,12 @@ bool RunDirectory::same_run() const {
 std::string RunDirectory::first_difference() const {
   std::istringstream theirs(read_whole(path(run_file::resolved))), ours(scenario_->resolved);
   std::string there, here;
-  for (;;) {
+  for (int line = 1;; ++line) {
     const bool more_there = static_cast<bool>(std::getline(theirs, there));
     const bool more_here = static_cast<bool>(std::getline(ours, here));
     if (!more_there && !more_here) return "with another ruleset, flow or start file";
-    if (!more_there || !more_here || there != here) break;
+    if (!more_there || !more_here || there != here) return difference(there, here, line);
   }
-  const auto value = [](const std::string& line) { return line.substr(0, line.find("  #")); };
-  return "there '" + value(there) + "', here '" + value(here) + "'";
 }
 
 // Without resolved.toml: attachments may lie there from a run killed while it began.

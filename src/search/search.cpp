@@ -4,6 +4,7 @@
 
 #include "search/cma_es.hpp"
 #include "search/swarm.hpp"
+#include "text/refusals.hpp"
 
 namespace lilytank {
 
@@ -39,8 +40,12 @@ std::unique_ptr<Search> make_cma_es(SearchSpace space, CmaEsOptions options, std
 
 std::unique_ptr<Search> restore_search(std::string_view bytes, const std::string& file) {
   StateReader in(bytes, file);
-  if (in.kind() == kSwarmKind) return std::make_unique<Swarm>(in);
-  if (in.kind() == kCmaEsKind) return std::make_unique<CmaEs>(in);
+  const auto restore = [&]() -> std::unique_ptr<Search> {
+    if (in.kind() == kSwarmKind) return std::make_unique<Swarm>(in);
+    if (in.kind() == kCmaEsKind) return std::make_unique<CmaEs>(in);
+    return nullptr;
+  };
+  if (auto search = refusals_of(file, restore)) return search;
   throw InputError(SourcePlace{file, 1, 1}, "no search is called '" + in.kind() + "'");
 }
 

@@ -8,6 +8,8 @@ namespace lilytank {
 namespace {
 
 constexpr int kMostShards = 1'000'000;
+constexpr std::int64_t kMostNumber =
+    1'000'000'000'000;  // of a task; their differences do not overflow
 
 using Lookup = std::function<const char*(const char*)>;
 
@@ -16,9 +18,9 @@ std::int64_t number_of(const Lookup& variable, const char* name, std::int64_t ot
   const char* text = variable(name);
   if (text == nullptr) return otherwise;
   const auto value = parse_whole(text);
-  if (value) return *value;
-  throw InputError(std::string("the environment's ") + name + "='" + text +
-                   "' is not a whole number; give --shard i/n");
+  if (value && *value >= -kMostNumber && *value <= kMostNumber) return *value;
+  throw InputError(std::string("the environment's ") + name + "='" + text + "' is " +
+                   (value ? "out of range" : "not a whole number") + "; give --shard i/n");
 }
 
 /// Part `index` of `count`, named by two variables.

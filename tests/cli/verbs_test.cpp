@@ -234,7 +234,7 @@ TEST_F(VerbsTest, AFilmThatCannotBeMadeIsRefusedBeforeTheRun) {
   ::setenv("PATH", before.c_str(), 1);
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.err,
-            "films need the program ffmpeg, which is not in PATH; install it, or draw stills\n");
+            "cannot make films: the program ffmpeg is not in PATH; install it, or draw stills\n");
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(dry.code, 2);
   EXPECT_FALSE(lilytank_.here.has("a"));

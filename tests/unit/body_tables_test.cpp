@@ -132,5 +132,24 @@ TEST(BodyExperiment, tellsOfRunsThatAreTooShort) {
                                       "c: 1 row where eight are needed: left out"}));
 }
 
+TEST(BodyExperiment, refusesEmptyNamesOfColumns) {
+  const TemporaryDirectory here;
+  here.write("t.csv", "t,ball,h\n0,a,1\n");
+  const std::string head = "[experiment]\nbody = \"point\"\n[[recording]]\nfile = \"t.csv\"\n";
+  for (const std::string key : {"time", "body", "run"}) {
+    std::string keys = "x = \"h\"\n" + key + " = \"\"\n";
+    if (key != "time") keys += "time = \"t\"\n";
+    try {
+      load_body_experiment(here.write("e.toml", head + keys));
+      ADD_FAILURE() << key;
+    } catch (const InputError& e) {
+      const std::string what = e.what();
+      EXPECT_TRUE(what.ends_with("e.toml:6:" + std::to_string(key.size() + 4) + ": recording." +
+                                 key + " is empty"))
+          << what;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lilytank
