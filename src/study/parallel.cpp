@@ -13,6 +13,8 @@
 namespace lilytank {
 namespace {
 
+constexpr int kProbed = 32;  // more than this only where the first loop asks for them
+
 /// How many threads the system grants beside this one, up to `wanted`.
 int granted_threads(int wanted) {
   std::atomic<bool> counted{false};
@@ -36,7 +38,7 @@ void for_each_world(int count, int threads, const std::function<void(int)>& work
   // More threads than cores on request. TBB ends the program where it cannot make a thread, so the
   // threads are counted before its first use; later its own would count against the limit.
   const int cores = tbb::info::default_concurrency();
-  static const int most = 1 + granted_threads(std::max(threads, cores) - 1);
+  static const int most = 1 + granted_threads(std::max({threads, cores, kProbed}) - 1);
   const int used = std::min(threads > 0 ? threads : cores, most);
   if (used == 1) {
     for (int i = 0; i < count; ++i) work(i);
