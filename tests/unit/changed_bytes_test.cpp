@@ -141,8 +141,9 @@ TEST_F(ChangedBytes, OfAStoppedRunNeverReachTheResumedOne) {
 
 TEST_F(ChangedBytes, OfAStudyNeverReachItsTable) {
   const Study study = rig_.study(
-      "scenario = \"pair.toml\"\nreplicates = 2\n[set]\n\"run.duration\" = 0.5\n"
-      "[[axis]]\nkey = \"rules.part.p\"\nvalues = [0.1, 0.9]\n");
+      "[study]\nscenario = \"pair.toml\"\nreplicates = 2\n"
+      "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n",
+      {"run.duration=0.5"});
   const std::string dir = rig_.here.path("out");
   StudyOptions options;
   options.out = dir;
