@@ -42,5 +42,8 @@ struct StoredRun {
   std::vector<int> metrics_copies;
 };
 StoredRun load_run(const std::string& dir);
+/// Compares a run's scenario, events and metrics with its checkpoint. Throws InputError with the
+/// file that was changed.
+void check_stored_run(const std::string& dir);
 
 }  // namespace lilytank

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lilytank/error.hpp"
+#include "lilytank/file_digest.hpp"
 #include "lilytank/world.hpp"
 
 namespace lilytank {
@@ -42,18 +43,21 @@ class TrajectoryWriter {
   virtual ~TrajectoryWriter() = default;
   /// Appends the bodies' present poses. `complete`: one flag a module.
   virtual void write(const World& world, const std::vector<std::uint8_t>& complete) = 0;
-  /// Hands everything to the operating system; returns the file's length in bytes.
-  virtual std::int64_t flush() = 0;
+  /// Hands everything to the disk; returns what the file now holds.
+  virtual FileDigest flush() = 0;
 };
 
 /// CSV: `frame,time,id,x,y,theta,label,last,latched,bonded,complete`, SI, angle in (-pi, pi]; cells
 /// from `label` on are empty for balls, and a table of poses alone may leave those columns out.
-/// Binary: a header (magic, version, bodies, modules) and fixed-size frames (time as float64, poses
-/// as float32, markings), about a third of the CSV; a cut last frame is dropped on reading.
-/// `keep_bytes` >= 0 goes on in an existing file cut to that length.
+/// Binary: a header (magic, version, bodies, modules, checksum) and fixed-size frames (time as
+/// float64, poses as float32, markings, checksum), about a third of the CSV; a cut last frame is
+/// dropped on reading. `keep` goes on in an existing file that begins with these bytes. Throws
+/// InputError if it does not.
 std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
-                                                  const Model& model, std::int64_t keep_bytes = -1);
-/// Reads either format, told apart by their first bytes. Throws InputError with file and line.
+                                                  const Model& model,
+                                                  const FileDigest* keep = nullptr);
+/// Reads either format, recognised by its first bytes. Throws InputError with file and line, or
+/// with the byte at which a frame begins that was changed.
 Trajectory read_trajectory(const std::string& file);
 
 }  // namespace lilytank

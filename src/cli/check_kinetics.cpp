@@ -153,7 +153,10 @@ std::string diverged_text(const Counted& counted) {
 }
 
 RateTable stored_rates(const std::string& where) {
-  if (fs::is_directory(where)) return rates_of_run(where);
+  if (fs::is_directory(where)) {
+    check_stored_run(where);
+    return rates_of_run(where);
+  }
   return rate_table_from(read_whole(where), where);
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "io/sha256.hpp"
 #include "study/claimed_directory.hpp"
 #include "text/number.hpp"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kHashDigits = 16;  // of a key, in names of files
 const std::string kWorldColumns =
     "world,kind,key,expected_z,verdict,said,alternatives,z,removed,gain_nat,gain_low_nat,"
-    "regression,msd_misfit,right,wrong_name";
+    "regression,msd_misfit,right,wrong_name,checksum";
 enum WorldColumn : std::size_t {
   kWorld,
   kKind,
@@ -36,7 +37,7 @@ enum WorldColumn : std::size_t {
   kRegression,
   kMsd
 };
-const std::string kIntervalColumns = "world,effect,path,truth,value,low,high,holds";
+const std::string kIntervalColumns = "world,effect,path,truth,value,low,high,holds,checksum";
 enum IntervalColumn : std::size_t { kOf, kEffect, kPath, kTruth, kValue, kLow, kHigh };
 // Between the words of a cell, between those of one finding, and where a finding has none.
 constexpr std::string_view kAnd = " + ", kOr = " | ", kNone = "-";
@@ -172,12 +173,14 @@ std::string proof_csv(const Proof& proof) {
       others.push_back(f.alternatives.empty() ? std::string(kNone) : joined(f.alternatives, kOr));
       z.push_back(significant(f.z, 3));
     }
-    out += std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +
-           shortest(w.expected_z) + "," + name_of(w.verdict) + "," + joined(said, kAnd) + "," +
-           joined(others, kAnd) + "," + joined(z, kAnd) + "," +
-           (std::isnan(w.removed) ? "" : shortest(w.removed)) + "," + shortest(w.gain) + "," +
-           shortest(w.gain_low) + "," + w.regression + "," + shortest(w.displacement) +
-           (w.right() ? ",1" : ",0") + (w.wrong_name() ? ",1\n" : ",0\n");
+    out += with_checksum(std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +
+                         shortest(w.expected_z) + "," + name_of(w.verdict) + "," +
+                         joined(said, kAnd) + "," + joined(others, kAnd) + "," + joined(z, kAnd) +
+                         "," + (std::isnan(w.removed) ? "" : shortest(w.removed)) + "," +
+                         shortest(w.gain) + "," + shortest(w.gain_low) + "," + w.regression + "," +
+                         shortest(w.displacement) + (w.right() ? ",1" : ",0") +
+                         (w.wrong_name() ? ",1" : ",0")) +
+           "\n";
   }
   return out;
 }
@@ -186,9 +189,11 @@ std::string proof_intervals_csv(const Proof& proof) {
   std::string out = kIntervalColumns + "\n";
   for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
     for (const ProofInterval& of : proof.worlds[i].intervals) {
-      out += std::to_string(i) + "," + joined(proof.worlds[i].effects, kAnd) + "," + of.path + "," +
-             shortest(of.truth) + "," + shortest(of.value) + "," + shortest(of.low) + "," +
-             shortest(of.high) + (of.holds() ? ",1\n" : ",0\n");
+      out +=
+          with_checksum(std::to_string(i) + "," + joined(proof.worlds[i].effects, kAnd) + "," +
+                        of.path + "," + shortest(of.truth) + "," + shortest(of.value) + "," +
+                        shortest(of.low) + "," + shortest(of.high) + (of.holds() ? ",1" : ",0")) +
+          "\n";
     }
   }
   return out;

@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/file_digest.hpp"
 
 namespace lilytank {
 namespace {
 constexpr std::size_t kPiece = 1 << 18;  // bytes
-}
+const std::string kBeginAgain = "--force begins the run again";
+}  // namespace
 
 AppendFile::AppendFile(std::string file, std::int64_t keep_bytes) : file_(std::move(file)) {
   const int fresh = keep_bytes < 0 ? O_CREAT | O_TRUNC : 0;
@@ -29,11 +31,17 @@ AppendFile::AppendFile(std::string file, std::int64_t keep_bytes) : file_(std::m
   length_ = keep_bytes;
 }
 
+AppendFile::AppendFile(std::string file, const FileDigest& keep)
+    : AppendFile((check_digest(file, keep, false, kBeginAgain), std::move(file)), keep.length) {
+  digest_ = keep;
+}
+
 AppendFile::AppendFile(AppendFile&& other) noexcept
     : file_(std::move(other.file_)),
       waiting_(std::move(other.waiting_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      length_(other.length_) {}
+      length_(other.length_),
+      digest_(std::move(other.digest_)) {}
 
 AppendFile::~AppendFile() {
   if (descriptor_ < 0) return;
@@ -50,6 +58,7 @@ void AppendFile::append(std::string_view text) {
 }
 
 void AppendFile::hand_over() {
+  extend(digest_, waiting_);
   std::string_view rest = waiting_;
   while (!rest.empty()) {
     const ssize_t n = ::write(descriptor_, rest.data(), rest.size());

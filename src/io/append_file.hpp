@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "lilytank/file_digest.hpp"
+
 namespace lilytank {
 
 /// Collects text and appends it in large pieces. Not shared between threads.
@@ -12,6 +14,9 @@ class AppendFile {
   /// Begins an empty file, or goes on in an existing one cut to `keep_bytes` >= 0. Throws
   /// InputError if the file cannot be opened or is shorter than that.
   explicit AppendFile(std::string file, std::int64_t keep_bytes = -1);
+  /// Goes on in a file of which the first bytes are those of `keep`, and cuts off what follows
+  /// them. Throws InputError if they are not.
+  AppendFile(std::string file, const FileDigest& keep);
   /// Hands over what is left; problems are then lost, so flush first.
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;
@@ -21,12 +26,16 @@ class AppendFile {
   void append(std::string_view text);
   /// Everything appended so far is on the disk on return; returns the file's length in bytes.
   std::int64_t flush();
+  /// Of everything handed over: up to date after flush(). Of the second constructor's files and new
+  /// ones; a file that was cut to `keep_bytes` has none.
+  const FileDigest& digest() const { return digest_; }
 
  private:
   void hand_over();
   std::string file_, waiting_;
   int descriptor_ = -1;
   std::int64_t length_ = 0;
+  FileDigest digest_;
 };
 
 }  // namespace lilytank

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/file_digest.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -50,7 +51,16 @@ bool CsvReader::next() {
     throw InputError({file_, line_, 1}, std::to_string(cells_.size()) + " columns instead of " +
                                             std::to_string(names_.size()));
   }
+  if (names_.back() == kChecksumColumn.substr(1)) check_row(row);
   return true;
+}
+
+void CsvReader::check_row(std::string_view row) const {
+  const auto cells = row.substr(0, row.size() - cells_.back().size() - 1);
+  if (checksum(cells) == cells_.back()) return;
+  throw InputError({file_, line_, 1},
+                   "the row was changed since it was written (its checksum does not fit); remove "
+                   "the row to have it computed again");
 }
 
 double CsvReader::number(std::size_t column) const {

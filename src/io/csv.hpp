@@ -9,7 +9,8 @@
 
 namespace lilytank {
 
-/// Walks over the rows of a table whose first line is known. Cells are not quoted.
+/// Walks over the rows of a table whose first line is known. Cells are not quoted. Where the last
+/// column is "checksum", every row's is compared with the row.
 class CsvReader {
  public:
   /// `text` must outlive the reader. Throws InputError if the first line is not one of `headers`.
@@ -33,6 +34,7 @@ class CsvReader {
   [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
 
  private:
+  void check_row(std::string_view row) const;
   std::string quoted(std::size_t column) const;
   std::string_view text_;
   std::string file_;

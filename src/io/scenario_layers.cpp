@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "io/scenario_resolve.hpp"
 #include "io/toml_text.hpp"
 #include "text/number.hpp"
 
@@ -101,7 +102,11 @@ class FileReader {
     if (std::find(open_.begin(), open_.end(), identity) != open_.end()) {
       throw InputError(asked_by, "base '" + file + "' leads back to itself");
     }
-    const toml::table root = parse_toml(read_whole(file, asked_by), file);
+    const std::string text = read_whole(file, asked_by);
+    if (text.starts_with(kResolvedFirst) && text.find(kResolvedLast) == std::string::npos) {
+      throw InputError({file}, "the file is cut: its last line '# end' is missing");
+    }
+    const toml::table root = parse_toml(text, file);
     const std::string directory = fs::path(file).parent_path().string();
     open_.push_back(identity);
     if (const toml::node* base = root.get("base")) read_bases(*base, file, directory);

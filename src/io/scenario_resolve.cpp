@@ -62,8 +62,7 @@ std::vector<ScenarioEntry> entries_of(const std::vector<ScenarioKey>& keys,
 
 std::string resolved_text(const std::vector<ScenarioKey>& keys,
                           const std::vector<ScheduledCommand>& commands) {
-  std::string out =
-      "# A lilytank scenario with every value. Program version " LILYTANK_VERSION ".\n";
+  std::string out = kResolvedFirst + " Program version " LILYTANK_VERSION ".\n";
   std::string header;
   for (const ScenarioKey& key : keys) {
     const auto [table, name] = parted(key.path);
@@ -72,7 +71,7 @@ std::string resolved_text(const std::vector<ScenarioKey>& keys,
     out += name + " = " + value_text(key) + "  # " + comment_of(key) + "\n";
   }
   for (const ScheduledCommand& command : commands) out += command_text(command);
-  return out;
+  return out + kResolvedLast;
 }
 
 std::uint64_t identity_of(const Scenario& scenario) {

@@ -16,6 +16,12 @@ inline const std::string kPosesName = "poses.csv";
 /// "ruleset_2.rules" for the first ruleset that a command names.
 std::string command_ruleset_name(std::size_t index);
 
+/// The first words and the last line of a resolved scenario. One without its last line was cut, and
+/// would be completed with defaults.
+inline const std::string kResolvedFirst =
+    "# Every value of a lilytank scenario; a last line \"# end\" closes it.";
+inline const std::string kResolvedLast = "\n# end\n";
+
 /// One entry a key; `places` tells what was set, and where.
 std::vector<ScenarioEntry> entries_of(const std::vector<ScenarioKey>& keys,
                                       const std::map<std::string, SourcePlace>& places);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "io/atomic_file.hpp"
+#include "io/file_digest.hpp"
 #include "io/scenario_values.hpp"
 #include "io/toml_fields.hpp"
 #include "text/number.hpp"
@@ -136,7 +137,7 @@ std::string plan_text(const StudyPlan& plan) {
            "\nmax = " + std::to_string(stop.max) + "\nround = " + std::to_string(stop.round) + "\n";
   }
   for (const Setting& setting : plan.settings) out += setting_text(setting);
-  return out;
+  return with_checksum_line(out);
 }
 
 StudyPlan read_plan(const std::string& file) {
@@ -144,6 +145,7 @@ StudyPlan read_plan(const std::string& file) {
   if (!is_plan(text)) {
     throw InputError("'" + file + "' was not written by a study's run: is it a study file?");
   }
+  without_checksum_line(text, file, "--force begins the study again");
   const toml::table root = parse_toml(text, file);
   const TomlFields top(root, "", file, {"study", "stop", "setting"});
   const auto table = [&](const std::string& name) -> const toml::table& {

@@ -9,7 +9,7 @@ namespace {
 class NoWriter final : public TrajectoryWriter {
  public:
   void write(const World&, const std::vector<std::uint8_t>&) override {}
-  std::int64_t flush() override { return 0; }
+  FileDigest flush() override { return {}; }
 };
 
 }  // namespace
@@ -34,9 +34,9 @@ Markings markings_of(const World& world, int module, const std::vector<std::uint
 }
 
 std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
-                                                  const Model& model, std::int64_t keep_bytes) {
-  if (format == TrajectoryFormat::csv) return open_csv_trajectory(file, keep_bytes);
-  if (format == TrajectoryFormat::binary) return open_binary_trajectory(file, model, keep_bytes);
+                                                  const Model& model, const FileDigest* keep) {
+  if (format == TrajectoryFormat::csv) return open_csv_trajectory(file, keep);
+  if (format == TrajectoryFormat::binary) return open_binary_trajectory(file, model, keep);
   return std::make_unique<NoWriter>();
 }
 

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "io/append_file.hpp"
+#include "io/file_digest.hpp"
 #include "io/trajectory_format.hpp"
 
 namespace lilytank {
@@ -40,14 +41,14 @@ Markings take_markings(std::string_view& bytes) {
 
 class BinaryWriter final : public TrajectoryWriter {
  public:
-  BinaryWriter(const std::string& file, const Model& model, std::int64_t keep_bytes)
-      : out_(file, keep_bytes) {
-    if (keep_bytes >= 0) return;
+  BinaryWriter(const std::string& file, const Model& model, const FileDigest* keep)
+      : out_(keep == nullptr ? AppendFile(file) : AppendFile(file, *keep)) {
+    if (keep != nullptr) return;
     std::string header(kTrajectoryMagic);
     put(header, kTrajectoryVersion);
     put(header, static_cast<std::uint32_t>(model.bodies()));
     put(header, static_cast<std::uint32_t>(model.module.count));
-    put(header, std::uint32_t{0});
+    put(header, checksum_bits(header));
     out_.append(header);
   }
 
@@ -61,10 +62,14 @@ class BinaryWriter final : public TrajectoryWriter {
       put(frame_, static_cast<float>(angle_of({k.c[i], k.s[i]})));
       put_markings(frame_, b < k.modules ? markings_of(world, b, complete) : Markings{});
     }
+    put(frame_, checksum_bits(frame_));
     out_.append(frame_);
   }
 
-  std::int64_t flush() override { return out_.flush(); }
+  FileDigest flush() override {
+    out_.flush();
+    return out_.digest();
+  }
 
  private:
   AppendFile out_;
@@ -92,12 +97,13 @@ void take_frame(std::string_view bytes, Trajectory& out, const std::string& file
 
 std::unique_ptr<TrajectoryWriter> open_binary_trajectory(const std::string& file,
                                                          const Model& model,
-                                                         std::int64_t keep_bytes) {
-  return std::make_unique<BinaryWriter>(file, model, keep_bytes);
+                                                         const FileDigest* keep) {
+  return std::make_unique<BinaryWriter>(file, model, keep);
 }
 
 Trajectory parse_binary_trajectory(std::string_view bytes, const std::string& file) {
   if (bytes.size() < kTrajectoryHeader) throw InputError({file}, "the trajectory's header is cut");
+  const std::string_view whole = bytes;
   bytes.remove_prefix(kTrajectoryMagic.size());
   const auto version = take<std::uint32_t>(bytes);
   if (version != kTrajectoryVersion) {
@@ -105,19 +111,28 @@ Trajectory parse_binary_trajectory(std::string_view bytes, const std::string& fi
                                  std::to_string(kTrajectoryVersion));
   }
   const auto bodies = take<std::uint32_t>(bytes), modules = take<std::uint32_t>(bytes);
-  take<std::uint32_t>(bytes);
-  if (bodies == 0 || bodies > 1u << 24 || modules > bodies) {
+  const auto header = whole.substr(0, kTrajectoryHeader - sizeof(std::uint32_t));
+  const bool changed = take<std::uint32_t>(bytes) != checksum_bits(header);
+  if (changed || bodies == 0 || bodies > 1u << 24 || modules > bodies) {
     throw InputError({file}, "the trajectory's header is damaged: " + std::to_string(bodies) +
                                  " bodies, " + std::to_string(modules) + " modules");
   }
   Trajectory out;
   out.bodies = static_cast<int>(bodies), out.modules = static_cast<int>(modules);
-  const std::size_t size = kFrameTime + kFrameBody * bodies;
+  const std::size_t size = kFrameTime + kFrameBody * bodies + kFrameChecksum;
   const std::size_t poses = bytes.size() / size * bodies;
   out.x.reserve(poses), out.y.reserve(poses), out.theta.reserve(poses);
   out.markings.reserve(poses);
   for (; bytes.size() >= size; bytes.remove_prefix(size)) {
-    take_frame(bytes.substr(0, size), out, file);
+    const std::string_view frame = bytes.substr(0, size - kFrameChecksum);
+    std::string_view sum = bytes.substr(frame.size(), kFrameChecksum);
+    if (take<std::uint32_t>(sum) != checksum_bits(frame)) {
+      throw InputError({file},
+                       "frame " + std::to_string(out.time.size()) + " (from byte " +
+                           std::to_string(whole.size() - bytes.size()) +
+                           ") was changed since it was written; --force runs the run again");
+    }
+    take_frame(frame, out, file);
   }
   return out;
 }

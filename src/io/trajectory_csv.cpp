@@ -25,9 +25,10 @@ std::int64_t frame_after(const std::string& file, std::int64_t bytes) {
 
 class CsvWriter final : public TrajectoryWriter {
  public:
-  CsvWriter(const std::string& file, std::int64_t keep_bytes)
-      : frame_(keep_bytes < 0 ? 0 : frame_after(file, keep_bytes)), out_(file, keep_bytes) {
-    if (keep_bytes < 0) out_.append(kTrajectoryColumns + "\n");
+  CsvWriter(const std::string& file, const FileDigest* keep)
+      : frame_(keep == nullptr ? 0 : frame_after(file, keep->length)),
+        out_(keep == nullptr ? AppendFile(file) : AppendFile(file, *keep)) {
+    if (keep == nullptr) out_.append(kTrajectoryColumns + "\n");
   }
 
   void write(const World& world, const std::vector<std::uint8_t>& complete) override {
@@ -47,7 +48,10 @@ class CsvWriter final : public TrajectoryWriter {
     out_.append(rows);
   }
 
-  std::int64_t flush() override { return out_.flush(); }
+  FileDigest flush() override {
+    out_.flush();
+    return out_.digest();
+  }
 
  private:
   static std::string marked(const Markings& m) {
@@ -150,8 +154,8 @@ class CsvTrajectory {
 }  // namespace
 
 std::unique_ptr<TrajectoryWriter> open_csv_trajectory(const std::string& file,
-                                                      std::int64_t keep_bytes) {
-  return std::make_unique<CsvWriter>(file, keep_bytes);
+                                                      const FileDigest* keep) {
+  return std::make_unique<CsvWriter>(file, keep);
 }
 
 Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) {

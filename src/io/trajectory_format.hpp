@@ -10,11 +10,11 @@ namespace lilytank {
 
 /// First bytes of a binary trajectory. All numbers in the file are little-endian.
 constexpr std::string_view kTrajectoryMagic = "LTTRAJEC";
-constexpr std::uint32_t kTrajectoryVersion = 1;
-/// Bytes of the header: magic, version, bodies, modules, and four that are zero.
+constexpr std::uint32_t kTrajectoryVersion = 2;
+/// Bytes of the header: magic, version, bodies, modules, and the checksum of these.
 constexpr std::size_t kTrajectoryHeader = 8 + 4 * 4;
-/// Bytes of a frame's time, and of each body: x, y, theta and markings.
-constexpr std::size_t kFrameTime = 8, kFrameBody = 3 * 4 + 6;
+/// Bytes of a frame's time, of each body (x, y, theta and markings), and of the frame's checksum.
+constexpr std::size_t kFrameTime = 8, kFrameBody = 3 * 4 + 6, kFrameChecksum = 4;
 
 /// The first line of a CSV trajectory, with and without markings.
 inline const std::string kTrajectoryColumns =
@@ -31,8 +31,8 @@ Trajectory parse_csv_trajectory(std::string_view text, const std::string& file);
 /// Writers; see open_trajectory.
 std::unique_ptr<TrajectoryWriter> open_binary_trajectory(const std::string& file,
                                                          const Model& model,
-                                                         std::int64_t keep_bytes);
+                                                         const FileDigest* keep);
 std::unique_ptr<TrajectoryWriter> open_csv_trajectory(const std::string& file,
-                                                      std::int64_t keep_bytes);
+                                                      const FileDigest* keep);
 
 }  // namespace lilytank

@@ -1,5 +1,6 @@
 #include "jobs/checkpoint.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "lilytank/force.hpp"
@@ -9,7 +10,7 @@
 namespace lilytank {
 namespace {
 
-const std::string kFirstLine = "lilytank checkpoint 1";
+const std::string kFirstLine = "lilytank checkpoint 2";
 constexpr std::size_t kHashDigits = 16;
 
 std::string hash_of(std::string_view bytes) {
@@ -42,6 +43,13 @@ class LineReader {
     if (!value) refuse();
     return *value;
   }
+  FileDigest digest(const std::string& name) {
+    std::istringstream in = line(name);
+    FileDigest out;
+    if (!(in >> out.length >> out.value)) refuse();
+    for (std::uint64_t block = 0; in >> block;) out.blocks.push_back(block);
+    return out;
+  }
   std::string bytes(std::size_t size) {
     if (size > text_.size()) refuse();
     std::string out(text_.substr(0, size));
@@ -59,6 +67,13 @@ class LineReader {
   const std::string& file_;
 };
 
+std::string digest_line(const std::string& name, const FileDigest& digest) {
+  std::string out =
+      "\n" + name + " " + std::to_string(digest.length) + " " + std::to_string(digest.value);
+  for (const std::uint64_t block : digest.blocks) out += " " + std::to_string(block);
+  return out;
+}
+
 /// The library's own name for a force, which lives as long as the program.
 std::string_view force_name(const std::string& name) {
   if (name == kStalled) return kStalled;
@@ -74,13 +89,28 @@ std::string to_bytes(const Checkpoint& c, std::uint64_t identity) {
   out << kFirstLine << "\nfinished " << c.finished << " " << (c.status == RunStatus::diverged)
       << "\ndivergence " << d.step << " " << d.body << " "
       << (d.force.empty() ? "none" : std::string(d.force)) << " " << shortest(d.size)
-      << "\nlengths " << c.lengths.trajectory << " " << c.lengths.events << " " << c.lengths.metrics
+      << "\nscenario " << identity << digest_line("trajectory", c.files.trajectory)
+      << digest_line("events", c.files.events) << digest_line("metrics", c.files.metrics)
       << "\ntallies " << c.tallies.evaluations << " " << c.tallies.snaps_refused << " "
       << c.tallies.moves_undone << " " << shortest(c.tallies.deepest_overlap) << "\nrecord "
       << c.record.size() << "\n"
       << c.record << to_snapshot(c.state, identity);
   const std::string body = out.str();
   return hash_of(body) + "\n" + body;
+}
+
+std::optional<std::uint64_t> identity_in(const std::string& bytes) {
+  const std::string head = bytes.substr(0, std::min(kHashDigits, bytes.size()));
+  if (bytes.size() <= kHashDigits + 1) return std::nullopt;
+  const std::string body = bytes.substr(kHashDigits + 1);
+  const std::string name = "\nscenario ";
+  const auto at = body.find(name);
+  if (head != hash_of(body) || !body.starts_with(kFirstLine) || at == std::string::npos) {
+    return std::nullopt;
+  }
+  std::uint64_t identity = 0;
+  std::istringstream(body.substr(at + name.size(), 24)) >> identity;
+  return identity;
 }
 
 Checkpoint checkpoint_from(const std::string& bytes, std::uint64_t identity,
@@ -99,7 +129,9 @@ Checkpoint checkpoint_from(const std::string& bytes, std::uint64_t identity,
   std::string force;
   if (!(divergence >> c.divergence.step >> c.divergence.body >> force)) in.refuse();
   c.divergence.force = force_name(force), c.divergence.size = in.number(divergence);
-  in.values("lengths", c.lengths.trajectory, c.lengths.events, c.lengths.metrics);
+  std::uint64_t owner = 0;
+  in.values("scenario", owner);
+  c.files = {in.digest("trajectory"), in.digest("events"), in.digest("metrics")};
   std::istringstream tallies = in.line("tallies");
   Tallies& t = c.tallies;
   if (!(tallies >> t.evaluations >> t.snaps_refused >> t.moves_undone)) in.refuse();

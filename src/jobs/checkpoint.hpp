@@ -1,22 +1,24 @@
 // All that an interrupted run needs to go on: state, counters, and how far its files count.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "lilytank/file_digest.hpp"
 #include "lilytank/world.hpp"
 
 namespace lilytank {
 
-/// Lengths in bytes of the files that only grow.
-struct FileLengths {
-  std::int64_t trajectory = 0, events = 0, metrics = 0;
+/// What the files that only grow hold.
+struct RunFileDigests {
+  FileDigest trajectory, events, metrics;
 };
 
 struct Checkpoint {
   bool finished = false;  ///< the run is over; nothing is left but to report
   RunStatus status = RunStatus::ok;
   Divergence divergence;  ///< of a diverged run
-  FileLengths lengths;
+  RunFileDigests files;
   Tallies tallies;     ///< since the start of the run
   std::string record;  ///< AssemblyRecord::to_text
   State state;
@@ -27,5 +29,8 @@ std::string to_bytes(const Checkpoint& checkpoint, std::uint64_t identity);
 /// Throws InputError if the bytes are damaged, of another version, or of another scenario.
 Checkpoint checkpoint_from(const std::string& bytes, std::uint64_t identity,
                            const std::string& file);
+/// The identity of the scenario that a whole checkpoint of this version is of; nothing for other
+/// bytes.
+std::optional<std::uint64_t> identity_in(const std::string& bytes);
 
 }  // namespace lilytank

@@ -4,6 +4,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
 #include "text/json.hpp"
@@ -29,26 +30,34 @@ bool exists(const std::string& file) {
   return fs::exists(file, ignored);
 }
 
-/// How far the run came, where this program can read its checkpoint.
-std::optional<Checkpoint> checkpoint_of(const std::string& file, std::uint64_t identity) {
+/// How far the run came, where this program can read its checkpoint. Throws InputError if that is
+/// of another scenario than the directory's: resolved.toml or a file that it names was changed.
+std::optional<Checkpoint> checkpoint_of(const std::string& dir, const Scenario& scenario) {
+  const std::string file = (fs::path(dir) / run_file::checkpoint).string();
   if (!exists(file)) return std::nullopt;
-  try {
-    return checkpoint_from(read_whole(file), identity, file);
-  } catch (const InputError&) {
-    return std::nullopt;  // of another version: the summary tells whether the run is over
+  const std::string bytes = read_whole(file);
+  const auto identity = identity_in(bytes);
+  if (!identity)
+    return std::nullopt;  // of another version: the summary says whether the run is over
+  if (*identity != scenario.identity) {
+    std::string names = run_file::resolved;
+    for (const Scenario::Attachment& attached : scenario.files) names += " or " + attached.name;
+    throw InputError(
+        {(fs::path(dir) / run_file::resolved).string()},
+        names + " was changed since the run began; run the scenario again with --force");
   }
+  return checkpoint_from(bytes, *identity, file);
 }
 
-/// Refuses a file that is shorter than its run's checkpoint says. A run that goes on may be ahead
-/// of its checkpoint.
-void check_length(const std::string& file, std::int64_t length, bool finished) {
-  std::error_code problem;
-  const auto size = static_cast<std::int64_t>(fs::file_size(file, problem));
-  if (problem || size == length || (size > length && !finished)) return;
-  throw InputError({file}, std::string(size < length ? "the file is cut: " : "") +
-                               std::to_string(size) + " bytes, but the checkpoint of the " +
-                               (finished ? "finished " : "") + "run says " +
-                               std::to_string(length));
+/// Compares the files with the checkpoint. A run that goes on may be ahead of it.
+void check_files(const std::string& dir, const std::string& poses, const Checkpoint& checkpoint) {
+  const std::string advice = "run the scenario again with --force";
+  const auto check = [&](const std::string& name, const FileDigest& digest) {
+    check_digest((fs::path(dir) / name).string(), digest, checkpoint.finished, advice);
+  };
+  if (!poses.empty()) check(poses, checkpoint.files.trajectory);
+  check(run_file::events, checkpoint.files.events);
+  check(run_file::metrics, checkpoint.files.metrics);
 }
 
 /// When a run was over (s), by its summary; nothing where there is none.
@@ -70,6 +79,12 @@ void check_end(const StoredRun& run, const std::string& file, const std::optiona
 
 }  // namespace
 
+void check_stored_run(const std::string& dir) {
+  const std::string resolved = (fs::path(dir) / run_file::resolved).string();
+  const auto checkpoint = checkpoint_of(dir, load_scenario({resolved}, {}));
+  if (checkpoint) check_files(dir, "", *checkpoint);
+}
+
 StoredRun load_run(const std::string& dir) {
   const auto path = [&](const char* name) { return (fs::path(dir) / name).string(); };
   if (!exists(path(run_file::resolved))) {
@@ -85,11 +100,8 @@ StoredRun load_run(const std::string& dir) {
     throw InputError("the run in '" + dir + "' stored no poses: output.trajectory was \"none\"");
   }
   // Before the poses are read, as a run that goes on only adds to them.
-  const auto checkpoint = checkpoint_of(path(run_file::checkpoint), run.scenario.identity);
-  if (checkpoint) {
-    check_length(path(poses), checkpoint->lengths.trajectory, checkpoint->finished);
-    check_length(path(run_file::metrics), checkpoint->lengths.metrics, checkpoint->finished);
-  }
+  const auto checkpoint = checkpoint_of(dir, run.scenario);
+  if (checkpoint) check_files(dir, poses, *checkpoint);
   if (!checkpoint && !exists(path(poses))) {
     throw InputError({path(poses)}, "there is no frame of the run yet");
   }

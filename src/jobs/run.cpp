@@ -55,7 +55,11 @@ class Job {
     }
     result_.resumed = before != nullptr && !before->finished;
     result_.already_complete = before != nullptr && before->finished;
-    if (!result_.already_complete) go_on();
+    if (result_.already_complete) {
+      directory_->check_files();
+    } else {
+      go_on();
+    }
     if (result_.status != RunStatus::stopped) report();
     return finished_result();
   }
@@ -117,7 +121,7 @@ class Job {
     c.finished = finished;
     c.status = outcome_.status == RunStatus::diverged ? outcome_.status : RunStatus::ok;
     c.divergence = outcome_.divergence;
-    c.lengths = files_->flush();
+    c.files = files_->flush();
     c.tallies = sum(earlier_, world_.tallies());
     c.record = record_.to_text();
     c.state = world_.state();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/atomic_file.hpp"
+#include "io/file_digest.hpp"
 
 namespace lilytank {
 namespace {
@@ -149,6 +150,15 @@ void RunDirectory::open() {
     write_atomically(path(file.name), file.content);
   }
   write_atomically(path(run_file::resolved), scenario_->resolved);
+}
+
+void RunDirectory::check_files() const {
+  const RunFileDigests& files = checkpoint_->files;
+  const std::string advice = "--force runs the run again";
+  const std::string poses = trajectory_path();
+  if (!poses.empty()) check_digest(poses, files.trajectory, true, advice);
+  check_digest(path(run_file::events), files.events, true, advice);
+  check_digest(path(run_file::metrics), files.metrics, true, advice);
 }
 
 void RunDirectory::save(const Checkpoint& checkpoint) const {

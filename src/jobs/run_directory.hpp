@@ -39,6 +39,9 @@ class RunDirectory {
   /// what another one left and writes the resolved scenario. Throws InputError.
   void open();
 
+  /// Compares the files that a finished run left with its checkpoint. Throws InputError if one is
+  /// missing or was changed.
+  void check_files() const;
   std::string path(const std::string& name) const;
   /// "" where the scenario stores no poses.
   std::string trajectory_path() const;

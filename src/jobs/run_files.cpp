@@ -50,9 +50,13 @@ std::string metric_columns(int modules) {
   return out + ",illegal\n";
 }
 
-std::int64_t kept(const RunDirectory& directory, std::int64_t FileLengths::*length) {
+const FileDigest* kept(const RunDirectory& directory, FileDigest RunFileDigests::*file) {
   const auto& checkpoint = directory.checkpoint();
-  return checkpoint ? checkpoint->lengths.*length : -1;
+  return checkpoint ? &(checkpoint->files.*file) : nullptr;
+}
+
+AppendFile begun_or_resumed(const std::string& file, const FileDigest* keep) {
+  return keep == nullptr ? AppendFile(file) : AppendFile(file, *keep);
 }
 
 std::int64_t step_done(const RunDirectory& directory) {
@@ -82,9 +86,11 @@ bool Schedule::due(std::int64_t step) {
 RunFiles::RunFiles(const Scenario& scenario, const RunDirectory& directory, int copies)
     : scenario_(&scenario),
       trajectory_(open_trajectory(directory.trajectory_path(), scenario.output.trajectory,
-                                  scenario.model, kept(directory, &FileLengths::trajectory))),
-      events_(directory.path(run_file::events), kept(directory, &FileLengths::events)),
-      metrics_(directory.path(run_file::metrics), kept(directory, &FileLengths::metrics)),
+                                  scenario.model, kept(directory, &RunFileDigests::trajectory))),
+      events_(begun_or_resumed(directory.path(run_file::events),
+                               kept(directory, &RunFileDigests::events))),
+      metrics_(begun_or_resumed(directory.path(run_file::metrics),
+                                kept(directory, &RunFileDigests::metrics))),
       frames_due_(1 / (scenario.output.rate * scenario.model.dt), step_done(directory)),
       metrics_due_(scenario.output.metrics_interval / scenario.model.dt, step_done(directory)),
       copies_(copies) {
@@ -104,8 +110,9 @@ void RunFiles::finish(const World& world, const AssemblyRecord& record) {
   if (metrics_step_ != world.state().step) metrics(world, record);
 }
 
-FileLengths RunFiles::flush() {
-  return {trajectory_->flush(), events_.flush(), metrics_.flush()};
+RunFileDigests RunFiles::flush() {
+  events_.flush(), metrics_.flush();
+  return {trajectory_->flush(), events_.digest(), metrics_.digest()};
 }
 
 void RunFiles::events(const World& world, const AssemblyRecord& record) {

@@ -32,8 +32,8 @@ class RunFiles {
   void observe(const World& world, const AssemblyRecord& record);
   /// Call at the end: the last row of the metrics, if it was not due anyway.
   void finish(const World& world, const AssemblyRecord& record);
-  /// Hands everything to the disk.
-  FileLengths flush();
+  /// Hands everything to the disk; returns what the files now hold.
+  RunFileDigests flush();
 
  private:
   void events(const World& world, const AssemblyRecord& record);

@@ -6,6 +6,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "lilytank/study.hpp"
 #include "text/number.hpp"
 
@@ -22,6 +23,7 @@ struct Repeats {
       : point(of), first(from), file(std::move(to)), values(static_cast<std::size_t>(count)) {
     header = "replicate,value at";
     for (const double x : point) header += " " + shortest(x);
+    header += kChecksumColumn;
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return;
     const std::string text = read_whole(file);
@@ -41,8 +43,9 @@ struct Repeats {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto number = static_cast<std::int64_t>(i);
       if (values[i]) {
-        text += std::to_string(first + number) + "," +
-                (std::isinf(*values[i]) ? "inf" : shortest(*values[i])) + "\n";
+        text += with_checksum(std::to_string(first + number) + "," +
+                              (std::isinf(*values[i]) ? "inf" : shortest(*values[i]))) +
+                "\n";
       } else {
         all = all && number >= expected;
       }

@@ -9,6 +9,7 @@
 
 #include "io/append_file.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_digest.hpp"
 #include "lilytank/state.hpp"
 #include "lilytank/study.hpp"
 #include "text/number.hpp"
@@ -19,7 +20,7 @@ namespace {
 using Rows = std::vector<std::optional<std::vector<double>>>;
 
 std::string head_of(const KeptRows& kept) {
-  return "lilytank rows 1 " + hex(kept.identity) + "\n";
+  return "lilytank rows 2 " + hex(kept.identity) + "\n";
 }
 
 // What has no value (a lag that no track is long enough for) has none in the file either.
@@ -31,13 +32,18 @@ std::optional<double> number_of(std::string_view cell) {
 std::string line_of(int index, const std::vector<double>& row) {
   std::string line = std::to_string(index);
   for (const double v : row) line += "," + (std::isfinite(v) ? shortest(v) : "nan");
-  return line + ";\n";
+  return with_checksum(line) + ";\n";
 }
 
 // A line without its end; false if it is not a row.
 bool take_line(std::string_view line, Rows& rows) {
   if (line.empty() || line.back() != ';') return false;
-  line.remove_suffix(1);
+  const std::size_t sum = line.rfind(',');
+  if (sum == std::string_view::npos ||
+      line.substr(sum + 1) != checksum(line.substr(0, sum)) + ";") {
+    return false;
+  }
+  line = line.substr(0, sum);
   std::vector<double> row;
   std::optional<std::int64_t> index;
   for (bool first = true;; first = false) {
@@ -72,7 +78,9 @@ std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
     const auto end = text.find('\n', at);
     if (end == std::string::npos) break;
     if (!take_line(std::string_view(text).substr(at, end - at), rows)) {
-      throw InputError({kept.file, line, 1}, "this is not a row of numbers");
+      throw InputError({kept.file, line, 1},
+                       "the row was changed since it was written (its checksum does not "
+                       "fit); remove the file to have its rows computed again");
     }
     at = end + 1;
   }

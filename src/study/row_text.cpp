@@ -4,13 +4,15 @@
 #include <limits>
 
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr const char* kHeader =
-    "study,id,setting,replicate,seed,status,duration,possible,copies,illegal,completion,note";
+    "study,id,setting,replicate,seed,status,duration,possible,copies,illegal,completion,note,"
+    "checksum";
 enum Column : std::size_t {
   study,
   id,
@@ -79,11 +81,12 @@ std::string row_line(const RunRow& row, std::uint64_t of_study) {
   for (const double t : row.completion) times += (times.empty() ? "" : ";") + without_rounding(t);
   std::replace(text.begin(), text.end(), ',', ';');
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return hex(of_study) + "," + row.id + "," + std::to_string(row.setting) + "," +
-         std::to_string(row.replicate) + "," + std::to_string(row.seed) + "," +
-         status_word(row.status) + "," + without_rounding(row.duration) + "," +
-         std::to_string(row.possible) + "," + std::to_string(row.copies) + "," +
-         std::to_string(row.illegal) + "," + times + "," + text + "\n";
+  return with_checksum(hex(of_study) + "," + row.id + "," + std::to_string(row.setting) + "," +
+                       std::to_string(row.replicate) + "," + std::to_string(row.seed) + "," +
+                       status_word(row.status) + "," + without_rounding(row.duration) + "," +
+                       std::to_string(row.possible) + "," + std::to_string(row.copies) + "," +
+                       std::to_string(row.illegal) + "," + times + "," + text) +
+         "\n";
 }
 
 std::vector<RunRow> rows_from(std::string_view text, const std::string& file, const StudyPlan& plan,

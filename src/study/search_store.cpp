@@ -1,6 +1,5 @@
 #include "study/search_store.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -8,7 +7,9 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "lilytank/search_run.hpp"
+#include "lilytank/state.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 
@@ -17,14 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMagic = "lilytank search run 1";
+constexpr const char* kMagic = "lilytank search run 2";
 constexpr auto kBetweenFlushes = std::chrono::milliseconds(500);
 constexpr auto kBetweenCheckpoints = std::chrono::seconds(2);
-
-std::string hex(std::uint64_t value) {
-  char buffer[17];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, 16).ptr};
-}
 
 bool exists(const std::string& file) {
   std::error_code ignored;
@@ -34,7 +30,7 @@ bool exists(const std::string& file) {
 std::string header_of(const std::vector<std::string>& axes) {
   std::string out = "batch,trial,replicate";
   for (const std::string& axis : axes) out += "," + axis;
-  return out + ",value";
+  return out + ",value" + std::string(kChecksumColumn);
 }
 
 /// A row up to its value.
@@ -102,15 +98,17 @@ void SearchStore::clear() const {
 
 /// The checkpoint comes first: it says whose the files are.
 void SearchStore::open(const Search& fresh) {
-  write_atomically(path(search_file::state), head_of(identity_, 0, false) + fresh.save());
+  write_atomically(path(search_file::state),
+                   with_checksum_line(head_of(identity_, 0, false) + fresh.save()));
   saved_ = Clock::now();
   log_.emplace(path(search_file::evaluations));
   log_->append(header_of(axes_) + "\n");
   log_->flush();
 }
 
-void SearchStore::resume(const std::string& state) {
+void SearchStore::resume(const std::string& stored) {
   const std::string file = path(search_file::state);
+  const std::string state(without_checksum_line(stored, file, "--force begins the search again"));
   std::istringstream in(state);
   std::string line, word, end;
   std::getline(in, line), std::getline(in, line);
@@ -176,7 +174,7 @@ void SearchStore::keep(std::size_t index, const Trial& trial, double value) {
   const std::string row = beginning(batch_ + 1, number, trial) +
                           (std::isfinite(value) ? shortest(value) : std::string("inf"));
   rows_.emplace(Key{batch_ + 1, number}, row);
-  log_->append(row + "\n");
+  log_->append(with_checksum(row) + "\n");
   if (Clock::now() - logged_ < kBetweenFlushes) return;
   log_->flush();
   logged_ = Clock::now();
@@ -191,7 +189,8 @@ void SearchStore::checkpoint(const Search& search) {
   if (finished_) return;
   log_->flush();
   write_atomically(path(search_file::history), history_text(search));
-  write_atomically(path(search_file::state), head_of(identity_, batch_, false) + search.save());
+  write_atomically(path(search_file::state),
+                   with_checksum_line(head_of(identity_, batch_, false) + search.save()));
   saved_ = Clock::now();
 }
 
@@ -199,10 +198,11 @@ void SearchStore::finish(const Search& search) {
   if (finished_) return;
   log_->flush();
   std::string text = header_of(axes_) + "\n";
-  for (const auto& [key, row] : rows_) text += row + "\n";
+  for (const auto& [key, row] : rows_) text += with_checksum(row) + "\n";
   write_atomically(path(search_file::evaluations), text);
   write_atomically(path(search_file::history), history_text(search));
-  write_atomically(path(search_file::state), head_of(identity_, batch_, true) + search.save());
+  write_atomically(path(search_file::state),
+                   with_checksum_line(head_of(identity_, batch_, true) + search.save()));
   finished_ = true;
 }
 

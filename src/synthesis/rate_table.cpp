@@ -4,6 +4,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "io/file_digest.hpp"
 #include "lilytank/kinetics.hpp"
 #include "lilytank/scenario.hpp"
 #include "text/json.hpp"
@@ -150,11 +151,13 @@ std::string to_csv(const MeasuredWorld& world, std::uint64_t identity) {
   out += "scenario," + hex(identity) + ",,," + (world.diverged ? "1" : "0") + ",0\n";
   for (std::size_t k = 0; k < world.completion.size(); ++k)
     out += "copy,,,," + std::to_string(k + 1) + "," + shortest(world.completion[k]) + "\n";
-  return out;
+  return with_checksum_line(out);
 }
 
-MeasuredWorld measured_world_from(const std::string& text, const std::string& file,
+MeasuredWorld measured_world_from(const std::string& stored, const std::string& file,
                                   std::uint64_t identity) {
+  const std::string text(
+      without_checksum_line(stored, file, "remove it to have the world simulated again"));
   MeasuredWorld world;
   world.rates = rate_table_from(text, file);
   CsvReader rows(text, file, {kColumns});

@@ -6,7 +6,13 @@
 
 namespace lilytank {
 
-/// A running hash [Fowler, Noll and Vo].
+/// The hash of bytes, going on from that of bytes before them [Fowler, Noll and Vo].
+inline std::uint64_t fnv_bytes(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325) {
+  for (const char c : bytes) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return before;
+}
+
+/// A running hash of texts and numbers.
 class Fnv {
  public:
   /// Adds a text and its end, so that ("ab", "c") and ("a", "bc") differ.
