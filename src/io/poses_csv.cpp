@@ -5,10 +5,10 @@
 namespace lilytank {
 
 std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
-                              std::vector<int>* lines) {
+                              std::vector<int>* line_numbers) {
   std::vector<Pose> poses;
-  LineSource lines(text, file);
-  Table table(lines);
+  LineSource source(text, file);
+  Table table(source);
   const std::vector<int> at = table.fixed_columns({"id", "x", "y", "theta"}, "a file of poses");
   while (table.next()) {
     const auto id = table.whole(at[0]);
@@ -16,7 +16,7 @@ std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
     if (*id != static_cast<std::int64_t>(poses.size())) {
       table.refuse(at[0], table.quoted(at[0]) + " instead of " + std::to_string(poses.size()));
     }
-    if (lines != nullptr) lines->push_back(table.line());
+    if (line_numbers != nullptr) line_numbers->push_back(table.line());
     poses.push_back({table.finite(at[1]), table.finite(at[2]), rotation(table.finite(at[3]))});
   }
   return poses;

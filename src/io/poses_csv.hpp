@@ -8,9 +8,9 @@
 
 namespace lilytank {
 
-/// Reads poses from a file's content, as any Table; adds the line of each to `lines`, if that is given. Throws
+/// Reads poses from a file's content, as any Table; adds the line of each to `line_numbers`, if that is given. Throws
 /// InputError with file, line and column.
 std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
-                              std::vector<int>* lines = nullptr);
+                              std::vector<int>* line_numbers = nullptr);
 
 }  // namespace lilytank
