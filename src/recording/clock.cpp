@@ -170,7 +170,7 @@ class ClockFinder {
     if (count < kFewest) return;
     for (const auto& [step, times] : steps) {
       if (step == 1 || static_cast<double>(times) < kUsual * static_cast<double>(count)) continue;
-      report_->add(Check::clock, Treatment::keep, file_, -1, -1,
+      report_->add(Check::gap, Treatment::keep, file_, -1, -1,
                    "most sightings are " + std::to_string(step) +
                        " frames after the last one of their body, but frame numbers have no step "
                        "in common: frames are counted one by one, most are holes of the tracks, "
