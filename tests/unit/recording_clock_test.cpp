@@ -92,6 +92,20 @@ TEST(Times, thatAreWholeSecondsAreRefusedWithTheKey) {
   EXPECT_EQ(complaint(framed, options), "");
 }
 
+TEST(Times, thatAreMinutesOrDaysAreRefusedWithTheKey) {
+  for (const auto& [seconds, name] : {std::pair{60.0, "min"}, {3600.0, "h"}, {86400.0, "d"}}) {
+    std::string table = "time,id,x,y\n";
+    for (int f = 0; f < 50; ++f) {
+      char row[80];
+      std::snprintf(row, sizeof row, "%.12f,0,0.1,%.4f\n", f / 30.0 / seconds, 0.002 * f);
+      table += row;
+    }
+    EXPECT_NE(complaint(table).find("say time_unit = \"1 " + std::string(name) + "\""),
+              std::string::npos)
+        << complaint(table);
+  }
+}
+
 TEST(Times, thatCountFrom1970CountFromTheFirstRow) {
   for (const auto& [first, seconds] :
        {std::pair{1700000000000, 1e-3}, {1700000000000000, 1e-6}, {1700000000000000000, 1e-9}}) {
