@@ -170,7 +170,7 @@ class ClockFinder {
     if (count < kFewest) return;
     for (const auto& [step, times] : steps) {
       if (step == 1 || static_cast<double>(times) < kUsual * static_cast<double>(count)) continue;
-      report_->add(Check::clock, Treatment::keep, file_, -1, -1,
+      report_->add(Check::gap, Treatment::keep, file_, -1, -1,
                    "most sightings are " + std::to_string(step) +
                        " frames after the last one of their body, but frame numbers have no step "
                        "in common: frames are counted one by one, most are holes of the tracks, "
@@ -251,17 +251,19 @@ class ClockFinder {
   // Nobody tracks what floats in a tank by a frame in more than two seconds, or thousands of frames
   // a second. Where the user gave the unit of the times, or the rate, it is believed.
   void check_unit() {
-    constexpr double kSlowest = 0.5, kFastest = 2000;  // frames/s
+    constexpr double kSlowest = 0.5, kFastest = 1000, kUsual = 30;  // frames/s
     const bool given = options_->rate > 0 || options_->time_unit;
     const bool dates = s_->times.dated();
     const bool usual = clock_.rate >= kSlowest && clock_.rate <= kFastest;
     if (given || dates || !options_->in_tank || usual) return;
     std::string hint;
+    double least = HUGE_VAL;
     for (const auto& [scale, name] :
-         {std::pair{1e-3, "ms"}, {1e-6, "us"}, {3600.0, "h"}, {86400.0, "d"}}) {
-      if (clock_.rate >= kSlowest * scale && clock_.rate < kFastest * scale) {
-        hint = "; if times are in " + std::string(name) + ", say time_unit = \"1 " + name + "\"";
-      }
+         {std::pair{1e-3, "ms"}, {1e-6, "us"}, {60.0, "min"}, {3600.0, "h"}, {86400.0, "d"}}) {
+      const double rate = clock_.rate / scale, off = std::fabs(std::log(rate / kUsual));
+      if (rate < kSlowest || rate > kFastest || off >= least) continue;
+      least = off;
+      hint = "; if times are in " + std::string(name) + ", say time_unit = \"1 " + name + "\"";
     }
     report_->add(Check::units, file_, -1, -1,
                  "frames are " + time_text(1 / clock_.rate) + " apart" + hint +

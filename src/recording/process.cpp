@@ -43,11 +43,18 @@ void check_columns(const Sightings& s, Report& report) {
                  short_list(s.unused));
 }
 
+std::string unit_text(double seconds) {
+  for (const auto& [unit, name] : {std::pair{1.0, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}}) {
+    if (std::fabs(seconds - unit) < 1e-3 * unit) return name;
+  }
+  return time_text(seconds);
+}
+
 /// How times were read, where that is more than numbers of a given unit.
 std::string times_text(const Sightings& s, const RecordingOptions& options) {
   switch (s.times.kind()) {
     case TimeText::Kind::epoch:
-      return "counts since 1970 in " + time_text(s.times.unit()) +
+      return "counts since 1970 in " + unit_text(s.times.unit()) +
              (options.time_unit ? "" : " (by their size)") + ", from the first row on";
     case TimeText::Kind::date:
       return "dates without a zone, from the first row on";

@@ -157,6 +157,27 @@ TEST(Contacts, ThatAreNotSeenToEndAreCensored) {
   EXPECT_TRUE(contacts_of({0.5, 0.5, 5}).durations.empty()) << "nor what was there at first";
 }
 
+// Of every third frame with both discs, the last sighting says that they were apart before.
+TEST(Contacts, BeginAfterTheLastSightingWhereMostFramesAreHoles) {
+  const std::vector<double> gaps{5, 5, 0.5, 0.5, 5, 5, 0.5, 5};
+  const auto at = [&](int f) { return gaps[static_cast<std::size_t>(f / 3)]; };
+  Recording r = recording_of(2, 22, 10, [&](int b, int f) {
+    return std::array{b * (0.03 + 1e-3 * at(f)), 0.0};
+  });
+  for (Track& track : r.tracks) {
+    for (std::size_t f = 0; f < track.x.size(); ++f) {
+      if (f % 3 != 0) track.x[f] = track.y[f] = test::kUnseen;
+    }
+  }
+  const Contacts c = find_contacts(unsmoothed(r), {0.03, false, 0.001, 0.002});
+  const Contacts close = contacts_of(gaps);
+  ASSERT_EQ(c.durations.size(), close.durations.size());
+  for (std::size_t i = 0; i < c.durations.size(); ++i) {
+    EXPECT_NEAR(c.durations[i].time, 3 * close.durations[i].time, 1e-12);
+  }
+  EXPECT_NEAR(ratio_values(c.begun)[0], ratio_values(close.begun)[0] / 3, 1e-12);
+}
+
 TEST(Contacts, OfSquaresDependOnTheirHeadings) {
   // Faces 4 mm apart side by side; a corner of the turned one closes the gap.
   for (const auto& [turn, touches] : {std::pair{0.0, false}, {kPi / 4, true}, {kPi / 2, false}}) {
