@@ -131,7 +131,7 @@ std::optional<Fitted> best_fit(const Group& g, const BodyModel& base, const Law&
   if (!best) return std::nullopt;
   Fitted f = fit_group(g, best->model);
   leave_folds_out(g, f);
-  return std::isfinite(f.held_out_sum()) ? std::optional(std::move(f)) : std::nullopt;
+  return f.usable() && std::isfinite(f.held_out_sum()) ? std::optional(std::move(f)) : std::nullopt;
 }
 
 // The baseline from several sizes of pushes and noise: one that is stuck makes any law look good.
@@ -159,7 +159,7 @@ std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
     if (best->likelihood < before + 0.02) break;
   }
   leave_folds_out(g, *best);
-  return std::isfinite(best->held_out_sum()) ? best : std::nullopt;
+  return best->usable() && std::isfinite(best->held_out_sum()) ? best : std::nullopt;
 }
 
 }  // namespace
@@ -168,7 +168,10 @@ LawTrial fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
   LawTrial out;
   for (Group& g : groups) {
     std::optional<Fitted> f = fit_from_sizes(g, baseline_model(e, g));
-    if (!f) throw InputError("experiment " + e.name + ": " + unusable("the baseline", g));
+    if (!f) {
+      out.failure = unusable("the baseline", g);
+      return out;
+    }
     out.fits.push_back(std::move(*f));
   }
   gather(out);
@@ -268,6 +271,8 @@ std::optional<std::vector<double>> null_gains(const BodyExperiment& e,
         made_up(e, groups, baseline, derived_seed(seed, static_cast<std::uint64_t>(r)), kMost);
     std::vector<Group> own = groups_of(drawn);
     const LawTrial base = fit_baseline(drawn, own);
+    // Without any fit nothing is gained.
+    if (!base.failure.empty()) return std::vector<double>{0};
     double best = -1e300;
     for (const Candidate& c : single_laws(drawn, own)) {
       const LawTrial trial = fit_candidate(own, base, base, c);

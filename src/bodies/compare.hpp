@@ -26,8 +26,8 @@ struct LawTrial {
 /// Runs that share coefficients: all, or those of one body.
 std::vector<Group> groups_of(const BodyExperiment& experiment);
 
-/// The baseline of the experiment, fitted. Throws InputError where no start gives finite
-/// predictions.
+/// The baseline of the experiment, fitted. Where no start gives finite predictions,
+/// `failure` says so. Throws InputError where a law of it cannot be had.
 LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
 
 /// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise

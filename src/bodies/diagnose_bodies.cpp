@@ -44,7 +44,7 @@ std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<La
 
 std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& options) {
   Fnv hash;
-  hash.add("1 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
+  hash.add("2 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
   hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.different), double(e.masses),
                                e.turning, double(e.latitude), options.minutes});
   for (const BaselineLaw& law : e.baseline) {
@@ -67,6 +67,8 @@ class Trials {
   bool run() {
     tell(0.01, "baseline");
     c_.baseline = fit_baseline(experiment_, c_.groups);
+    if (!c_.baseline.failure.empty())
+      throw InputError("experiment " + experiment_.name + ": " + c_.baseline.failure);
     return singles() && pairs() && nulls();
   }
 

@@ -225,6 +225,7 @@ class Filter {
     if (!std::isfinite(nu) || !std::isfinite(S)) {  // the law has run away: as bad as can be
       now_ = first_belief(*model_, *typical_, *run_, n_);
       out.value.push_back(1e3), out.variance.push_back(1);
+      ++out.lost;
       return;
     }
     out.value.push_back(nu), out.variance.push_back(S);

@@ -7,6 +7,7 @@ namespace lilytank::bodies {
 /// BodyResiduals (m) and their variances, one for every seen coordinate, in the order of the runs.
 struct BodyResiduals {
   std::vector<double> value, variance;
+  int lost = 0;  ///< coordinates whose prediction was not finite; the filter starts again there
 };
 
 /// What the filter believes after each sample: positions, velocities, pushes at

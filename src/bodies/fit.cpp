@@ -207,7 +207,7 @@ double Fitted::held_out_sum() const {
 }
 
 bool Fitted::usable() const {
-  return likelihood > kImpossible / 2;
+  return likelihood > kImpossible / 2 && lost == 0;
 }
 
 Fitted fit_group(const Group& group, const BodyModel& from, bool held, int rounds) {
@@ -215,7 +215,7 @@ Fitted fit_group(const Group& group, const BodyModel& from, bool held, int round
   const Top top = climb(hill, packed(from), rounds);
   Fitted out;
   out.model = unpacked(from, top.q), out.numbers = top.q;
-  out.likelihood = top.height - hill.prior(top.q);
+  out.likelihood = top.height - hill.prior(top.q), out.lost = top.in.lost;
   const auto n = static_cast<Eigen::Index>(top.q.size());
   Eigen::MatrixXd I = top.information;
   I.diagonal().array() += 1e-9;

@@ -30,6 +30,7 @@ struct Fitted {
   std::vector<double> numbers;    ///< as packed
   std::vector<double> deviation;  ///< their standard errors (of the packed numbers)
   double likelihood = 0;          ///< log, of everything that was fitted
+  int lost = 0;                   ///< coordinates whose prediction was not finite
   std::vector<double> held_out;   ///< log-likelihood of what was left out, by block; empty: not yet
   double held_out_sum() const;
   /// Whether the model's predictions are finite: what it says of these samples has a likelihood.

@@ -65,8 +65,7 @@ void warn_of_worse(Diagnosis& d) {
   if (worse.empty()) return;
   d.warnings.push_back(
       "with the findings, predictions a quarter of a run ahead are worse than without: " + worse +
-      ". The laws describe single steps only: give the tracker's noise, or samples that are closer "
-      "together");
+      "; noise in [experiment], or samples closer together, may mend that");
 }
 
 // Where the simple model takes motion for the tracker's noise.
