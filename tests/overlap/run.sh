@@ -14,10 +14,9 @@ printf '[tank]\nradius = 0.3\n[module]\ncount = 2\nside = 0.035\n[ball]\ncount =
 printf '"deepest_overlap_m": 0.00061\n' > "$work/known/summary.json"
 printf 'frame,time,id,x,y,theta\n0,0,0,0,0,1.0471976\n0,0,1,0.0172,0.02979127,1.0471976\n' \
   > "$work/known/trajectory.csv"
-if "$check" check "$work/known" | grep -q ' 0.6000 .* beyond 0.5 mm'; then
-  echo "a known overlap of 0.6 mm is found"
-else
-  echo "a known overlap of 0.6 mm is not found"
+found=$("$check" check "$work/known")
+if [[ $found != *' 0.6000 '*'beyond 0.5 mm' ]]; then
+  echo "a known overlap of 0.6 mm is not found: $found"
   exit 1
 fi
 
