@@ -145,7 +145,8 @@ std::string summary_json(const Scenario& scenario, const World& world, const Ass
     json.whole("diverged_step", outcome.divergence.step);
     json.whole("diverged_body", outcome.divergence.body);
     json.text("diverged_force", std::string(outcome.divergence.force));
-    json.number("diverged_force_N", outcome.divergence.size);
+    const bool stalled = outcome.divergence.force == kStalled;
+    json.number(stalled ? "visits_allowed" : "diverged_force_N", outcome.divergence.size);
   }
   json.text("fingerprint", hex(fingerprint(world.state())));
   return json.whole_object();

@@ -9,7 +9,7 @@
 namespace lilytank {
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 1024;  // between tellings of simulated time
+constexpr std::int64_t kStepsPerLook = 64;  // between reports of simulated time
 
 bool asked(const std::atomic<bool>* stop) {
   return stop != nullptr && stop->load(std::memory_order_relaxed);

@@ -6,6 +6,20 @@ set -uo pipefail
 lilytank=$1 check=$2 scenarios=$3 first=${4:-1} count=${5:-100}
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
+
+# Two modules 34.4 mm apart, turned by the same angle: 0.6 mm, which must be found.
+mkdir "$work/known"
+printf '[tank]\nradius = 0.3\n[module]\ncount = 2\nside = 0.035\n[ball]\ncount = 0\nradius = 0.01\n' \
+  > "$work/known/resolved.toml"
+printf '"deepest_overlap_m": 0.00061\n' > "$work/known/summary.json"
+printf 'frame,time,id,x,y,theta\n0,0,0,0,0,1.0471976\n0,0,1,0.0172,0.02979127,1.0471976\n' \
+  > "$work/known/trajectory.csv"
+found=$("$check" check "$work/known")
+if [[ $found != *' 0.6000 '*'beyond 0.5 mm' ]]; then
+  echo "a known overlap of 0.6 mm is not found: $found"
+  exit 1
+fi
+
 faults=0 diverged=0
 echo "scenario frames  pairs/mm   wall/mm  reported"
 for ((k = first; k < first + count; ++k)); do
