@@ -26,7 +26,7 @@ clang++ -fsanitize=fuzzer,address,undefined -o "$place/readers" "$place"/objects
 for reader in "$@"; do
   echo "== $reader"
   mkdir -p "$place/$reader"
-  LILYTANK_READER=$reader "$place/readers" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2000 \
+  LILYTANK_READER=$reader LILYTANK_CORPUS=$place/$reader "$place/readers" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2000 \
     -detect_leaks=0 -verbosity=0 -print_final_stats=1 -artifact_prefix="$place/$reader-" "$place/$reader" 2>&1 |
     tail -n 25
 done
