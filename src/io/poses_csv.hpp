@@ -8,8 +8,8 @@
 
 namespace lilytank {
 
-/// Reads poses from a file's content, as any Table; adds the line of each to `line_numbers`, if that is given. Throws
-/// InputError with file, line and column.
+/// Reads poses from a file's content, as any Table; adds the line of each to `line_numbers`, if
+/// that is given. Throws InputError with file, line and column.
 std::vector<Pose> parse_poses(const std::string& text, const std::string& file,
                               std::vector<int>* line_numbers = nullptr);
 

@@ -4,7 +4,7 @@
 // one reader; with FILE that one file is read. A failure is a report of the sanitizers, an
 // exception other than InputError, a read of more than 10 s or 2 GB, or a broken promise; the input
 // is then in the file named on the first line. With clang the same readers are libFuzzer targets:
-// libfuzzer.cpp.
+// libfuzzer.sh.
 #include <unistd.h>
 
 #include <algorithm>

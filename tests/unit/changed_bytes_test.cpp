@@ -1,5 +1,5 @@
-// A byte that changes in a directory of results, or an end that is cut off, is named by whoever reads it,
-// or changes nothing that comes out.
+// A byte that changes in a directory of results, or an end that is cut off, is named by whoever
+// reads it, or changes nothing that comes out.
 #include <gtest/gtest.h>
 
 #include "lilytank/run.hpp"
@@ -42,8 +42,8 @@ std::vector<std::string> changes_of(const std::string& content) {
   return out;
 }
 
-/// Changes every file of `dir` in every way, gives the directory to `read`, and expects a refusal that is
-/// one line and names a file of the directory, or the files of `expected`.
+/// Changes every file of `dir` in every way, gives the directory to `read`, and expects a refusal
+/// that is one line and names a file of the directory, or the files of `expected`.
 void expect_named_or_harmless(const TemporaryDirectory& here, const std::string& dir,
                               const Files& stored, const Files& expected,
                               const std::function<void()>& read) {
