@@ -6,6 +6,7 @@
 #include "io/poses_csv.hpp"
 #include "io/study_record.hpp"
 #include "io/table.hpp"
+#include "io/time_text.hpp"
 #include "io/trajectory_format.hpp"
 #include "io/units.hpp"
 #include "jobs/checkpoint.hpp"
@@ -296,7 +297,8 @@ bool read_kept_rows(std::string_view bytes) {
 /// A line is one value: a quantity, a number, a date, a shard of a study.
 bool read_values(std::string_view bytes) {
   const std::string text(bytes.substr(0, bytes.find('\n')));
-  parse_number(text), parse_whole(text), parse_date(text), parse_unit(text);
+  parse_number(text), parse_whole(text), parse_unit(text);
+  TimeText().seconds(text, std::nullopt), TimeText().seconds(text, 0.001);
   const bool shard = accepts("--shard", [&] { shard_from(text); });
   accepts("environment", [&] {
     shard_of_environment([&](const char* name) {
@@ -329,7 +331,7 @@ std::string checkpoint() {
 std::string binary_trajectory() {
   const std::string file = scratch() + "/some.bin";
   World world(around().scenario.model, 1);
-  const auto writer = open_trajectory(file, TrajectoryFormat::binary, around().scenario.model, -1);
+  const auto writer = open_trajectory(file, TrajectoryFormat::binary, around().scenario.model);
   writer->write(world, {});
   world.step();
   writer->write(world, {});

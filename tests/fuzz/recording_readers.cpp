@@ -46,7 +46,6 @@ bool read_as(RecordingFormat format, std::string_view bytes, bool lenient) {
     LineSource lines(bytes, "track00000007.csv");
     Sightings sightings;
     sightings.format = format;
-    if (format == RecordingFormat::automatic) sightings.format = detect_format(lines);
     read_sightings(lines, options, sightings);
     check_promises(process(std::move(sightings), options));
   });

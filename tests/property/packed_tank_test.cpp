@@ -186,7 +186,9 @@ TEST(PackedTank, AStepIsGivenUpBeforeItTakesTooMuchWork) {
     const Vec2 before(b.state.x[0], b.state.y[0]);
     stalled = b.motion->advance(b.state, b.assemblies, b.tallies);
     EXPECT_LE(b.overlap(), kOverlapLimit) << step;
-    if (stalled >= 0) EXPECT_EQ(before, Vec2(b.state.x[0], b.state.y[0]));
+    if (stalled >= 0) {
+      EXPECT_EQ(before, Vec2(b.state.x[0], b.state.y[0]));
+    }
   }
   EXPECT_GT(step, 1);  // easy steps are taken
   ASSERT_GE(stalled, 0);

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "io/file_digest.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace lilytank {
@@ -29,9 +30,10 @@ State bonded_state(const Model& model) {
   return state;
 }
 
-/// Writes `frames` frames, one every four steps, beginning in an existing file where `keep` >= 0.
-std::int64_t write(const std::string& file, TrajectoryFormat format, int from, int frames,
-                   std::int64_t keep = -1) {
+/// Writes `frames` frames, one every four steps, going on in an existing file where `keep` is
+/// given.
+FileDigest write(const std::string& file, TrajectoryFormat format, int from, int frames,
+                 const FileDigest* keep = nullptr) {
   const Model model = small_model();
   World world(model, model.module.count);
   auto writer = open_trajectory(file, format, model, keep);
@@ -62,8 +64,8 @@ TEST(Trajectory, BothFormatsHoldTheWorld) {
     const std::string file = dir.path("t");
     const auto writer = open_trajectory(file, format, model);
     writer->write(world, {0, 1, 0});
-    const std::int64_t length = writer->flush();
-    EXPECT_EQ(length, static_cast<std::int64_t>(dir.read("t").size()));
+    const FileDigest digest = writer->flush();
+    EXPECT_EQ(digest.length, static_cast<std::int64_t>(dir.read("t").size()));
     const Trajectory t = read_trajectory(file);
     ASSERT_EQ(t.frames(), 1);
     EXPECT_EQ(t.bodies, 4);
@@ -98,7 +100,7 @@ TEST(Trajectory, FormatsAgreeAndNoneWritesNothing) {
   EXPECT_EQ(a.y, b.y);
   EXPECT_EQ(a.theta, b.theta);
   EXPECT_LT(2 * dir.read("t.bin").size(), dir.read("t.csv").size());
-  EXPECT_EQ(write(dir.path("none"), TrajectoryFormat::none, 0, 5), 0);
+  EXPECT_EQ(write(dir.path("none"), TrajectoryFormat::none, 0, 5), FileDigest{});
   EXPECT_FALSE(dir.has("none"));
 }
 
@@ -106,13 +108,19 @@ TEST(Trajectory, GoesOnInAFileCutToACheckpoint) {
   for (const TrajectoryFormat format : kFormats) {
     const TemporaryDirectory dir;
     write(dir.path("whole"), format, 0, 6);
-    const std::int64_t length = write(dir.path("parts"), format, 0, 2);
+    const FileDigest digest = write(dir.path("parts"), format, 0, 2);
     write(dir.path("ahead"), format, 0, 5);  // written further than its checkpoint says
-    write(dir.path("parts"), format, 2, 4, length);
-    write(dir.path("ahead"), format, 2, 4, length);
+    write(dir.path("parts"), format, 2, 4, &digest);
+    write(dir.path("ahead"), format, 2, 4, &digest);
     EXPECT_EQ(dir.read("parts"), dir.read("whole"));
     EXPECT_EQ(dir.read("ahead"), dir.read("whole"));
-    EXPECT_THROW(write(dir.path("parts"), format, 0, 1, 1 << 20), InputError);
+    FileDigest longer = digest;
+    longer.length = 1 << 20;
+    EXPECT_THROW(write(dir.path("parts"), format, 0, 1, &longer), InputError);
+    std::string changed = dir.read("parts");
+    changed[40] = static_cast<char>(changed[40] ^ 4);
+    dir.write("parts", changed);
+    EXPECT_THROW(write(dir.path("parts"), format, 2, 4, &digest), InputError);
   }
 }
 
@@ -123,7 +131,7 @@ TEST(Trajectory, ACutLastFrameIsDropped) {
     write(dir.path("whole"), format, 0, 3);
     const std::string bytes = dir.read("whole");
     const Trajectory whole = read_trajectory(dir.path("whole"));
-    const std::size_t first = static_cast<std::size_t>(write(dir.path("one"), format, 0, 1));
+    const std::size_t first = static_cast<std::size_t>(write(dir.path("one"), format, 0, 1).length);
     for (std::size_t size = first; size < bytes.size(); ++size) {
       const Trajectory t = read_trajectory(dir.write("cut", bytes.substr(0, size)));
       ASSERT_GE(t.frames(), 1);
@@ -198,13 +206,25 @@ TEST(Trajectory, RefusesDamagedBinaries) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::string not_a_number(reinterpret_cast<const char*>(&nan), sizeof nan);
   EXPECT_EQ(refusal(dir.write("t", bytes.substr(0, 20))), "t: the trajectory's header is cut");
-  EXPECT_EQ(damaged(8, "\x09"), "t: trajectory version 9 instead of 1");
+  EXPECT_EQ(damaged(8, "\x09"), "t: trajectory version 9 instead of 2");
   EXPECT_EQ(damaged(15, "\x7f"),
             "t: the trajectory's header is damaged: 2130706436 bodies, 3 modules");
   EXPECT_EQ(damaged(16, "\x09"), "t: the trajectory's header is damaged: 4 bodies, 9 modules");
-  EXPECT_EQ(damaged(24 + 8, not_a_number), "t: frame 0: the pose of body 0 is not finite");
-  const std::size_t frame = 8 + 4 * 18;
-  EXPECT_EQ(damaged(24 + frame, std::string(8, '\0')), "t: frame 1: times do not rise");
+  EXPECT_EQ(
+      damaged(24 + 9, "\x09"),
+      "t: frame 0 (from byte 24) was changed since it was written; --force runs the run again");
+  // Frames with the checksum of what they hold, as a faulty writer would leave them.
+  const std::size_t content = 8 + 4 * 18, frame = content + 4;
+  const auto written = [&](std::size_t number, std::size_t at, const std::string& with) {
+    std::string copy = bytes;
+    const std::size_t begin = 24 + number * frame;
+    copy.replace(begin + at, with.size(), with);
+    const std::uint32_t sum = checksum_bits(std::string_view(copy).substr(begin, content));
+    copy.replace(begin + content, 4, std::string(reinterpret_cast<const char*>(&sum), 4));
+    return refusal(dir.write("t", copy));
+  };
+  EXPECT_EQ(written(0, 8, not_a_number), "t: frame 0: the pose of body 0 is not finite");
+  EXPECT_EQ(written(1, 0, std::string(8, '\0')), "t: frame 1: times do not rise");
 }
 
 }  // namespace
