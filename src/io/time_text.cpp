@@ -271,7 +271,7 @@ std::optional<double> TimeText::seconds(std::string_view text, std::optional<dou
 std::string TimeText::reason(std::string_view text) const {
   const auto date = date_of(text, day_first_);
   if (date && date->day.in_doubt) {
-    return ", is the day or the month first in it? Write dates as 2024-01-31";
+    return ": is the day or the month first in it? Write dates as 2024-01-31";
   }
   if (date && date->day.slashes && day_first_ >= 0) {
     return std::string(": the ") + (day_first_ == 1 ? "day" : "month") + " comes first in others";

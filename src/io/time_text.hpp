@@ -25,7 +25,7 @@ class TimeText {
   /// Seconds; nothing where the text is no time, or is of another kind than the first time.
   /// `unit`: s per unit of numbers.
   std::optional<double> seconds(std::string_view text, std::optional<double> unit);
-  /// Why seconds() gave nothing, as ", ..." to follow "... is not a time", or "".
+  /// Why seconds() gave nothing, as ": ..." to follow "... is not a time", or "".
   std::string reason(std::string_view text) const;
   /// Of the first time; none before it.
   Kind kind() const { return kind_; }

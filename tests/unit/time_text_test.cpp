@@ -59,7 +59,7 @@ TEST(TimeText, OneKindAndNoDoubt) {
   TimeText times;
   EXPECT_FALSE(times.seconds("01/02/2024", {}));
   EXPECT_EQ(times.reason("01/02/2024"),
-            ", is the day or the month first in it? Write dates as 2024-01-31");
+            ": is the day or the month first in it? Write dates as 2024-01-31");
   EXPECT_FALSE(times.seconds("noon", {}));
   EXPECT_EQ(times.reason("noon"), "");
   EXPECT_TRUE(times.seconds("2024-01-05", {}));
