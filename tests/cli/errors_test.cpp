@@ -85,7 +85,7 @@ TEST_F(ErrorsTest, Scenarios) {
        "is "
        "0.00625 s, 25 ms / 4"},
       {"run flow.toml",
-       "flow.csv:1:1: there is no column 'ix' - did you mean 'x'?; a flow grid has the columns "
+       "flow.csv:1:1: there is no column 'ix'; a flow grid has the columns "
        "ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured"},
   });
   const Answer rules = lilytank_("run rules.toml");
