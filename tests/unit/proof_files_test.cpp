@@ -4,6 +4,7 @@
 
 #include "diagnose/proof_files.hpp"
 #include "diagnose/sealed.hpp"
+#include "io/file_digest.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/proof.hpp"
@@ -195,7 +196,12 @@ TEST_F(ProofFiles, AreRefusedWhereDamaged) {
   EXPECT_NE(refusal("mute").find("such a verdict has findings"), std::string::npos);
   write("typo", p);
   std::string rows = proof_csv(p);
-  rows.replace(rows.find("complete"), 8, "compelte");
+  const std::size_t begin = rows.find('\n') + 1, end = rows.find('\n', begin);
+  std::string row = rows.substr(begin, rows.rfind(',', end) - begin);
+  row.replace(row.find("complete"), 8, "compelte");
+  here.write("typo/proof.csv", rows.substr(0, begin) + row + rows.substr(rows.rfind(',', end)));
+  EXPECT_NE(refusal("typo").find("was changed since it was written"), std::string::npos);
+  rows.replace(begin, end - begin, with_checksum(row));
   here.write("typo/proof.csv", rows);
   EXPECT_NE(refusal("typo").find("did you mean 'complete'?"), std::string::npos) << refusal("typo");
 }

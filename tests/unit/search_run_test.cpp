@@ -10,6 +10,7 @@
 #include <cmath>
 #include <csignal>
 
+#include "io/file_digest.hpp"
 #include "lilytank/error.hpp"
 #include "support/search_functions.hpp"
 #include "support/temporary_directory.hpp"
@@ -69,7 +70,7 @@ TEST(SearchRun, ListsEveryTrialAndIteration) {
     return std::count(text.begin(), text.end(), '\n');
   };
   EXPECT_EQ(lines(files[1]), 1 + 6 * 5 * 2 + 12);
-  EXPECT_TRUE(files[1].starts_with("batch,trial,replicate,x0,x1,value\n1,1,0,"));
+  EXPECT_TRUE(files[1].starts_with("batch,trial,replicate,x0,x1,value,checksum\n1,1,0,"));
   EXPECT_EQ(lines(files[2]), 1 + 5 + 1);  // and the final selection
   EXPECT_TRUE(files[2].starts_with("iteration,evaluations,best,median,worst,spread,x0,x1\n1,12,"));
 }
@@ -193,7 +194,10 @@ TEST(SearchRun, RefusesChangedFiles) {
   EXPECT_NE(refused(files[0], files[1].substr(0, files[1].size() / 2)).find("evaluations.csv"),
             std::string::npos);
   std::string other = files[1];
-  other.replace(other.find("\n1,1,0,") + 1, 5, "1,1,9");
+  const std::size_t begin = other.find("\n1,1,0,") + 1, end = other.find('\n', begin);
+  std::string row = other.substr(begin, other.rfind(',', end) - begin);
+  row.replace(0, 5, "1,1,9");
+  other.replace(begin, end - begin, with_checksum(row));
   EXPECT_NE(refused(first_checkpoint(), other).find("another search"), std::string::npos);
   EXPECT_NE(refused("x", files[1]).find("another search"), std::string::npos);
 }
