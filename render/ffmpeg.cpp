@@ -52,7 +52,11 @@ int spawn(const std::vector<std::string>& command, int standard_in, int standard
   // A group of its own: Ctrl-C is for us, and we end ffmpeg ourselves.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  // Broken pipes, which this program ignores, end ffmpeg as usual.
+  sigset_t usual;
+  sigemptyset(&usual), sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
   const int error =
       ::posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
@@ -113,7 +117,7 @@ std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& ou
   return c;
 }
 
-Ffmpeg::Ffmpeg(const Encoding& encoding, const std::string& output) : output_(output) {
+Ffmpeg::Ffmpeg(const Encoding& encoding, const std::string& output) {
   // A socket instead of a pipe: writing to it can be told not to raise SIGPIPE, without touching
   // the program's signal handlers.
   int sockets[2], pipes[2];
@@ -141,7 +145,6 @@ Ffmpeg::~Ffmpeg() {
   if (child_ > 0) {
     ::kill(child_, SIGKILL);
     wait();
-    ::unlink(output_.c_str());
   }
   close_and_forget(input_), close_and_forget(messages_);
 }
@@ -208,7 +211,6 @@ int Ffmpeg::end() {
 }
 
 void Ffmpeg::fail(int status) {
-  ::unlink(output_.c_str());
   std::string reason = words_;
   while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
   // Its messages are one a line; the user gets them in one.

@@ -18,7 +18,7 @@ struct Encoding {
 };
 
 /// Starts ffmpeg (found in PATH), sends it frames, and waits for it. If the object goes away
-/// before finish(), ffmpeg is ended and its output removed.
+/// before finish(), ffmpeg is ended. Its output belongs to the caller, who removes it then.
 class Ffmpeg {
  public:
   /// Writes to `output`, whatever its ending. Throws InputError if ffmpeg cannot be started.
@@ -39,7 +39,6 @@ class Ffmpeg {
   int wait();
   [[noreturn]] void fail(int status);
 
-  std::string output_;
   int input_ = -1;     // our end of a socket that is ffmpeg's standard input
   int messages_ = -1;  // our end of its standard error
   int child_ = -1;     // its process, -1: ended

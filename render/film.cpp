@@ -9,7 +9,7 @@
 #include "ffmpeg.hpp"
 #include "frame.hpp"
 #include "io/atomic_file.hpp"
-#include "output_file.hpp"
+#include "io/temporary_file.hpp"
 
 namespace lilytank {
 namespace {
@@ -79,12 +79,11 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
   const Schedule when = schedule(run, options);
   // H.264 with half-resolution colour needs even sizes.
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size / 2 * 2);
-  require_writable(file);
-  const std::string unfinished = unfinished_name(file);
+  TemporaryFile unfinished(file);
   const int palette = gif ? std::min(kMostPaletteFrames, when.frames) : 0;
-  Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette}, unfinished);
+  Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette}, unfinished.name());
   for (int k = 0; k < palette; ++k) {
-    if (stopped(options)) return;  // ffmpeg and its file go away
+    if (stopped(options)) return;  // ffmpeg and the file go away
     const double share = palette > 1 ? static_cast<double>(k) / (palette - 1) : 0;
     ffmpeg.send(raster.draw(when.time(static_cast<int>(share * (when.frames - 1)))).pixels());
   }
@@ -94,7 +93,8 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
     report(options, k + 1, when.frames);
   }
   ffmpeg.finish();
-  publish(unfinished, file);
+  unfinished.complete();
+  unfinished.publish();
 }
 
 std::vector<double> film_times(const StoredRun& run, const FilmOptions& options) {
@@ -107,9 +107,7 @@ std::vector<double> film_times(const StoredRun& run, const FilmOptions& options)
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
   const Schedule when = schedule(run, options);
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size);
-  std::error_code error;
-  std::filesystem::create_directories(dir, error);
-  if (error) throw InputError("cannot make the folder '" + dir + "': " + error.message());
+  make_directory(dir);
   for (int k = 0; k < when.frames && !stopped(options); ++k) {
     char name[40];
     std::snprintf(name, sizeof name, "frame_%06d.png", k);

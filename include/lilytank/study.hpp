@@ -177,7 +177,9 @@ struct SlurmJob {
   std::string time = "04:00:00";  ///< Slurm's form, of one task
 };
 /// A script for sbatch: an array with one shard a task, taken up again after a time limit, and how
-/// to submit it and the merging after it.
+/// to submit it and the merging after it. No name becomes a command or a directive: each is quoted,
+/// and the job's name has letters, digits, '_', '.' and '-' only. Throws InputError if the time is
+/// not of Slurm's form.
 std::string slurm_script(const SlurmJob& job);
 
 }  // namespace lilytank

@@ -13,6 +13,7 @@
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -22,26 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text as a part of a file name: letters, digits and a few signs, the rest as '-'.
-std::string file_name_of(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '_' || c == '.';
-    if (plain && !(out.empty() && c == '.')) {
-      out += c;
-    } else if (!out.empty() && out.back() != '-') {
-      out += '-';
-    }
-  }
-  while (out.ends_with('-')) out.pop_back();
-  return out.empty() ? "run" : out;
-}
-
 std::string default_out(const Scenario& scenario, const std::string& last_file) {
   const std::string name =
       scenario.title.empty() ? fs::path(last_file).stem().string() : scenario.title;
-  return (fs::path("out") / (file_name_of(name) + "-seed" + std::to_string(scenario.seed)))
+  return (fs::path("out") / (file_name_of(name, "run") + "-seed" + std::to_string(scenario.seed)))
       .string();
 }
 

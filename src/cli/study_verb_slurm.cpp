@@ -14,11 +14,6 @@ std::string own_path() {
   return problem ? "lilytank" : path.string();
 }
 
-void check_time(const VerbOptions& options, const std::string& time) {
-  const bool form = !time.empty() && time.find_first_not_of("0123456789:-") == std::string::npos;
-  if (!form) options.refuse("--time " + time + " is not of Slurm's form, as 04:00:00 or 1-12");
-}
-
 }  // namespace
 
 int study_slurm(const Arguments& arguments) {
@@ -42,7 +37,6 @@ int study_slurm(const Arguments& arguments) {
   job.shards = static_cast<int>(options.whole("shards", 8, 1, 100000));
   job.cpus = static_cast<int>(options.whole("cpus", 8, 1, 4096));
   job.time = options.text("time", job.time);
-  check_time(options, job.time);
   std::cout << slurm_script(job) << std::flush;
   return Exit::done;
 }

@@ -14,10 +14,18 @@ namespace lilytank {
 namespace {
 constexpr std::size_t kPiece = 1 << 18;  // bytes
 const std::string kBeginAgain = "--force begins the run again";
+
+/// Emptying a file must empty no other one: a link, or one of several names of a file, is removed.
+void remove_if_shared(const std::string& file) {
+  struct stat there {};
+  if (::lstat(file.c_str(), &there) != 0) return;
+  if (S_ISLNK(there.st_mode) || there.st_nlink > 1) ::unlink(file.c_str());
+}
 }  // namespace
 
 AppendFile::AppendFile(std::string file, std::int64_t keep_bytes) : file_(std::move(file)) {
-  const int fresh = keep_bytes < 0 ? O_CREAT | O_TRUNC : 0;
+  if (keep_bytes < 0) remove_if_shared(file_);
+  const int fresh = keep_bytes < 0 ? O_CREAT | O_TRUNC | O_NOFOLLOW : 0;
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CLOEXEC | fresh, 0666);
   if (descriptor_ < 0) throw InputError(system_problem("cannot write", file_, errno));
   if (keep_bytes < 0) return;

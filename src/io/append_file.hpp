@@ -11,8 +11,9 @@ namespace lilytank {
 /// Collects text and appends it in large pieces. Not shared between threads.
 class AppendFile {
  public:
-  /// Begins an empty file, or goes on in an existing one cut to `keep_bytes` >= 0. Throws
-  /// InputError if the file cannot be opened or is shorter than that.
+  /// Begins an empty file, or goes on in an existing one cut to `keep_bytes` >= 0. A link in the
+  /// place of a new file is replaced, not followed. Throws InputError if the file cannot be opened
+  /// or is shorter than that.
   explicit AppendFile(std::string file, std::int64_t keep_bytes = -1);
   /// Goes on in a file of which the first bytes are those of `keep`, and cuts off what follows
   /// them. Throws InputError if they are not.

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
+
+#include "io/temporary_file.hpp"
 
 namespace lilytank {
 namespace {
@@ -27,7 +29,34 @@ class Descriptor {
   int number_;
 };
 
-/// 0, or errno's value.
+/// Whether a name is of no file that another could take the place of: a device, a pipe, an open
+/// file. Throws InputError where nothing can be written.
+bool is_written_through(const std::string& file) {
+  struct stat there {};
+  if (::stat(file.c_str(), &there) != 0) {
+    if (errno == ENOENT) return false;
+    throw InputError(system_problem("cannot write", file, errno));
+  }
+  if (S_ISDIR(there.st_mode)) throw InputError(system_problem("cannot write", file, EISDIR));
+  return !S_ISREG(there.st_mode) || file_behind(file).starts_with("/proc/");
+}
+
+void write_through(const std::string& file, std::string_view content) {
+  const Descriptor opened(::open(file.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC));
+  const int problem = opened.number() < 0 ? errno : write_all(opened.number(), content);
+  if (problem != 0) throw InputError(system_problem("cannot write", file, problem));
+}
+
+/// A complete file, to be published.
+TemporaryFile written(const std::string& file, std::string_view content) {
+  TemporaryFile temporary(file);
+  temporary.write(content);
+  temporary.complete();
+  return temporary;
+}
+
+}  // namespace
+
 int write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {
     const ssize_t n = ::write(descriptor, content.data(), content.size());
@@ -38,70 +67,36 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
-/// Makes a rename last through a power cut; some file systems refuse, which does no harm.
-void sync_directory(const std::filesystem::path& directory) {
-  const Descriptor opened(
-      ::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.number() >= 0) ::fsync(opened.number());
-}
-
-/// The file that a name stands for: links are followed, as a shell's > does, also to one that is
-/// yet to be made. The links of /proc (where /dev/stdout and /dev/fd lead) stand for open files
-/// that may have no name.
-std::filesystem::path file_behind(std::filesystem::path file) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  for (int links = 0; links < 40; ++links) {
-    const fs::path in = fs::canonical(file.has_parent_path() ? file.parent_path() : ".", ignored);
-    if (!ignored) file = in / file.filename();
-    if (!fs::is_symlink(file, ignored) || file.native().starts_with("/proc/")) break;
-    file = file.parent_path() / fs::read_symlink(file, ignored);
-  }
-  return file;
-}
-
-/// Whether a name is of no file that another could take the place of: a device, a pipe, an open
-/// file. Throws InputError where nothing can be written.
-bool is_written_through(const std::string& file) {
-  struct stat there {};
-  if (::stat(file.c_str(), &there) != 0) {
-    if (errno == ENOENT) return false;
-    throw InputError(system_problem("cannot write", file, errno));
-  }
-  if (S_ISDIR(there.st_mode)) throw InputError(system_problem("cannot write", file, EISDIR));
-  return !S_ISREG(there.st_mode) || file_behind(file).native().starts_with("/proc/");
-}
-
-void write_through(const std::string& file, std::string_view content) {
-  const Descriptor opened(::open(file.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC));
-  const int problem = opened.number() < 0 ? errno : write_all(opened.number(), content);
-  if (problem != 0) throw InputError(system_problem("cannot write", file, problem));
-}
-
-}  // namespace
-
 std::string system_problem(const std::string& what, const std::string& file, int number) {
   return what + " '" + file + "': " + std::generic_category().message(number);
 }
 
 void write_atomically(const std::string& file, std::string_view content) {
   if (is_written_through(file)) return write_through(file, content);
-  const std::filesystem::path target = file_behind(file);
-  const std::string temporary = target.string() + ".tmp";
-  int problem = 0;
-  {
-    const Descriptor opened(
-        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-    if (opened.number() < 0) throw InputError(system_problem("cannot write", file, errno));
-    problem = write_all(opened.number(), content);
-    if (problem == 0 && ::fsync(opened.number()) != 0) problem = errno;
+  const HeldSignals held;
+  written(file, content).publish();
+}
+
+void write_together(const NamedContents& files) {
+  const HeldSignals held;
+  std::vector<TemporaryFile> complete;
+  std::set<std::string> directories;  // in one order, so that no two processes wait for each other
+  for (const auto& [file, content] : files) {
+    if (is_written_through(file)) continue;
+    complete.push_back(written(file, content));
+    directories.insert(std::filesystem::path(file_behind(file)).parent_path().string());
   }
-  if (problem == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) problem = errno;
-  if (problem != 0) {
-    ::unlink(temporary.c_str());
-    throw InputError(system_problem("cannot write", file, problem));
+  for (const auto& [file, content] : files) {
+    if (is_written_through(file)) write_through(file, content);
   }
-  sync_directory(target.parent_path());
+  std::vector<RenameLock> locks;
+  for (const std::string& directory : directories) locks.emplace_back(directory);
+  for (TemporaryFile& file : complete) file.publish();
+}
+
+bool create_atomically(const std::string& file, std::string_view content) {
+  const HeldSignals held;
+  return written(file, content).publish_as_new();
 }
 
 void make_directory(const std::string& dir) {
@@ -110,14 +105,15 @@ void make_directory(const std::string& dir) {
   if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
 }
 
-std::vector<std::string> write_files(
-    const std::string& dir, const std::vector<std::pair<std::string, std::string>>& files) {
+std::vector<std::string> write_files(const std::string& dir, const NamedContents& files) {
   make_directory(dir);
   std::vector<std::string> names;
+  NamedContents paths;
   for (const auto& [name, content] : files) {
-    write_atomically((std::filesystem::path(dir) / name).string(), content);
+    paths.emplace_back((std::filesystem::path(dir) / name).string(), content);
     names.push_back(name);
   }
+  write_together(paths);
   return names;
 }
 

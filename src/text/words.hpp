@@ -22,6 +22,23 @@ inline std::string in_small_letters(std::string_view text) {
   return out;
 }
 
+/// Text as a part of a file name: letters, digits, '_' and '.', the rest as '-'; it does not begin
+/// with '.' or '-'. `otherwise` where nothing is left.
+inline std::string file_name_of(const std::string& text, const std::string& otherwise) {
+  std::string out;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '_' || c == '.';
+    if (plain && !(out.empty() && c == '.')) {
+      out += c;
+    } else if (!out.empty() && out.back() != '-') {
+      out += '-';
+    }
+  }
+  while (out.ends_with('-')) out.pop_back();
+  return out.empty() ? otherwise : out;
+}
+
 /// "K_F" of "forces.face_drag.K_F".
 inline std::string own_name(const std::string& path) {
   return path.substr(path.rfind('.') + 1);
