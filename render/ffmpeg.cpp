@@ -52,11 +52,7 @@ int spawn(const std::vector<std::string>& command, int standard_in, int standard
   // A group of its own: Ctrl-C is for us, and we end ffmpeg ourselves.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // Broken pipes, which this program ignores, end ffmpeg as usual.
-  sigset_t usual;
-  sigemptyset(&usual), sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   const int error =
       ::posix_spawnp(&child, arguments[0], &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);

@@ -2,6 +2,7 @@
 // as text, tidy tables and (render.hpp) plots.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lilytank/distributions.hpp"
@@ -124,8 +125,10 @@ std::string velocity_map_csv(const Analysis& analysis);
 std::string contact_times_csv(const Analysis& analysis);
 std::string transfer_csv(const Analysis& analysis);
 std::string analysis_summary_csv(const Analysis& analysis);
-/// Writes all of these to a directory, made if absent: summary.txt, summary.csv and one CSV a plot.
-/// Returns the names of the files. Throws InputError if it cannot.
+/// All of these as files, pairs of name and content: summary.txt, summary.csv and one CSV a plot.
+std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis);
+/// Writes analysis_files() to a directory, made if absent. Returns their paths. Throws InputError
+/// if it cannot.
 std::vector<std::string> write_analysis(const Analysis& analysis, const std::string& dir);
 
 }  // namespace lilytank

@@ -1,9 +1,12 @@
 // lilytank analyze: what recordings and runs tell, alone and against each other.
+#include <filesystem>
 #include <iostream>
 
 #include "cli/analyze_sources.hpp"
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
+#include "io/atomic_file.hpp"
+#include "study/study_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -69,6 +72,28 @@ std::string default_directory(const std::vector<AnalysisSource>& sources) {
   return "out/" + name + "-analysis";
 }
 
+/// The files that an analysis would replace though none wrote them: a directory of an earlier one
+/// is recognised by the columns of its summary.csv.
+std::vector<std::string> files_in_the_way(const Analysis& analysis, const std::string& dir) {
+  namespace fs = std::filesystem;
+  const auto lies_there = [&](const std::string& name) {
+    std::error_code ignored;
+    return fs::exists(fs::path(dir) / name, ignored);
+  };
+  if (lies_there("summary.csv")) {
+    const std::string text = read_whole((fs::path(dir) / "summary.csv").string());
+    if (text.substr(0, text.find('\n')).ends_with(",number,unit,value,low,high")) return {};
+  }
+  std::vector<std::string> files;
+  for (const auto& [name, content] : analysis_files(analysis)) {
+    const std::string stem = fs::path(name).stem().string();
+    for (const std::string& file : {name, stem + ".png", stem + ".svg"}) {
+      if (lies_there(file)) files.push_back((fs::path(dir) / file).string());
+    }
+  }
+  return files;
+}
+
 void add_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("out", "directory of the results (default: out/<first source>-analysis)", text(),
@@ -88,7 +113,8 @@ void add_options(VerbOptions& options) {
       "TIME")("degree", "of these polynomials (3)", text(), "N")(
       "tank-radius", "of recordings without an experiment (30 cm)", text(), "LENGTH")(
       "size", "side or diameter of their bodies", text(), "LENGTH")(
-      "resamples", "of each band (1000)", text(), "N")("seed", "of the bands (1)", text(), "N");
+      "resamples", "of each band (1000)", text(), "N")("seed", "of the bands (1)", text(), "N")(
+      "force", "replace files of other results in the directory");
 }
 
 }  // namespace
@@ -108,7 +134,10 @@ int analyze_verb(const Arguments& arguments) {
   const auto sources = read_sources(options.positional(), source_options(options), files);
   const std::string dir = options.text("out", default_directory(sources));
   options.spare_directory("out", dir, files);
+  const bool force = options.has("force");
+  if (!force) refuse_foreign(dir, {}, "analysis");
   const Analysis analysis = analyse(sources, how);
+  if (!force) refuse_foreign(dir, files_in_the_way(analysis, dir), "analysis");
 #ifdef LILYTANK_HAS_RENDER
   report_analysis(analysis, dir);
 #else

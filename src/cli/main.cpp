@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <iostream>
 
@@ -115,6 +116,8 @@ int main(int argc, char** argv) {
   using lilytank::cli::PrintableStream;
   std::ios::sync_with_stdio(false);
   lilytank::cli::occupy_closed_streams();
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a write beyond the limit then fails, and the message names the file
   const PrintableStream out(std::cout, false), err(std::cerr, ::isatty(STDERR_FILENO) != 0);
   return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc});
 }

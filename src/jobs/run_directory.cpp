@@ -64,6 +64,10 @@ std::vector<std::string> files_of_run(const std::string& dir) {
 
 RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force)
     : dir_(std::move(dir)), scenario_(&scenario), force_(force) {
+  look();
+}
+
+void RunDirectory::look() {
   std::error_code ignored;
   if (exists(dir_) && !fs::is_directory(dir_, ignored)) {
     throw InputError("'" + dir_ + "' is a file; the results need a directory");
@@ -71,9 +75,15 @@ RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force
   ours_ = same_run();
   if (ours_ && exists(path(run_file::checkpoint))) {
     const std::string file = path(run_file::checkpoint);
-    checkpoint_ = checkpoint_from(read_whole(file), scenario.identity, file);
+    try {
+      checkpoint_ = checkpoint_from(read_whole(file), scenario_->identity, file);
+      if (force_) check_files();
+    } catch (const InputError&) {
+      if (!force_) throw;
+      ours_ = false, checkpoint_.reset();  // damaged: the run begins again
+    }
   }
-  if (ours_ || force) return;
+  if (ours_ || force_) return;
   const std::string advice = "; choose another --out, or --force to replace it";
   if (exists(path(run_file::resolved))) {
     throw InputError("'" + dir_ + "' holds another run (" + first_difference() + ")" + advice);
@@ -143,6 +153,15 @@ void RunDirectory::remove_old() const {
 
 void RunDirectory::open() {
   lock_.take(dir_);
+  // Another process may have worked here between the look and the lock.
+  const auto progress = [&] {
+    return std::pair(ours_, checkpoint_ ? checkpoint_->state.step : std::int64_t{-1});
+  };
+  const auto seen = progress();
+  look();
+  if (progress() != seen) {
+    throw InputError("another process has just been at work in '" + dir_ + "'; run again");
+  }
   if (ours_) return;
   if (force_) remove_old();
   // The resolved scenario comes last: it says that the run was begun.
@@ -156,9 +175,10 @@ void RunDirectory::check_files() const {
   const RunFileDigests& files = checkpoint_->files;
   const std::string advice = "--force runs the run again";
   const std::string poses = trajectory_path();
-  if (!poses.empty()) check_digest(poses, files.trajectory, true, advice);
-  check_digest(path(run_file::events), files.events, true, advice);
-  check_digest(path(run_file::metrics), files.metrics, true, advice);
+  const bool whole = checkpoint_->finished;
+  if (!poses.empty()) check_digest(poses, files.trajectory, whole, advice);
+  check_digest(path(run_file::events), files.events, whole, advice);
+  check_digest(path(run_file::metrics), files.metrics, whole, advice);
 }
 
 void RunDirectory::save(const Checkpoint& checkpoint) const {

@@ -29,8 +29,8 @@ std::vector<std::string> files_of_run(const std::string& dir);
 
 class RunDirectory {
  public:
-  /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run or
-  /// files that a run would overwrite, unless `force`.
+  /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run,
+  /// files that a run would overwrite, or a damaged run of this scenario, unless `force`.
   RunDirectory(std::string dir, const Scenario& scenario, bool force);
 
   /// Where this scenario's run stopped, if it was begun here.
@@ -39,8 +39,8 @@ class RunDirectory {
   /// what another one left and writes the resolved scenario. Throws InputError.
   void open();
 
-  /// Compares the files that a finished run left with its checkpoint. Throws InputError if one is
-  /// missing or was changed.
+  /// Compares the files of the run with its checkpoint. Throws InputError if one is missing or was
+  /// changed.
   void check_files() const;
   std::string path(const std::string& name) const;
   /// "" where the scenario stores no poses.
@@ -50,6 +50,7 @@ class RunDirectory {
   void put(const std::string& name, const std::string& content) const;
 
  private:
+  void look();
   bool same_run() const;
   std::string first_difference() const;
   std::string clash() const;

@@ -15,6 +15,7 @@
 #include "jobs/run_directory.hpp"
 #include "study/claimed_directory.hpp"
 #include "study/row_text.hpp"
+#include "study/search_store.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -112,17 +113,6 @@ void remove_other(const std::string& dir, const StudyPlan& plan) {
   fs::remove(file_in(dir, study_file::plan), ignored);
 }
 
-/// Several processes may write the same file at once, each under a temporary name of its own.
-void publish(const std::string& file, const std::string& content) {
-  char host[64] = "";
-  ::gethostname(host, sizeof host - 1);
-  const std::string own = file + "." + host + "." + std::to_string(::getpid());
-  write_atomically(own, content);
-  std::error_code problem;
-  fs::rename(own, file, problem);
-  if (problem) throw InputError("cannot write '" + file + "': " + problem.message());
-}
-
 /// A new file with the next free number, that no other process has.
 std::string claim_file(const std::string& dir) {
   for (std::size_t n = rows_files(dir).size() + 1;; ++n) {
@@ -142,14 +132,22 @@ std::string claim_file(const std::string& dir) {
 
 void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
                     const std::string& kind) {
-  std::error_code ignored;
-  if (fs::exists(file_in(dir, run_file::resolved), ignored)) {
-    throw InputError("'" + dir + "' holds a run" + kChooseAnother);
+  const auto there = [&](const char* name) {
+    std::error_code ignored;
+    return fs::exists(file_in(dir, name), ignored);
+  };
+  std::string results;
+  if (there(run_file::resolved)) results = "a run";
+  if (kind == "analysis") {
+    if (there(study_file::plan)) results = "a study";
+    if (there(search_file::state)) results = "a search";
+    if (there("work/identity")) results = "a calibration, diagnosis or proof";
   }
+  if (!results.empty()) throw InputError("'" + dir + "' holds " + results + kChooseAnother);
   if (files.empty()) return;
   const std::string name = fs::path(files.front()).lexically_relative(dir).string();
-  throw InputError("'" + dir + "' holds a file '" + name + "' that is not of a " + kind +
-                   kChooseAnother);
+  throw InputError("'" + dir + "' holds a file '" + name + "' that is not of " +
+                   (kind == "analysis" ? "an " : "a ") + kind + kChooseAnother);
 }
 
 void remove_results(const std::string& dir, const std::vector<std::string>& files) {
@@ -208,11 +206,13 @@ void check_study_directory(const std::string& dir, const StudyPlan& plan, bool f
 void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
   check_study_directory(dir, plan, force);
   if (force) remove_other(dir, plan);
-  std::error_code problem;
-  fs::create_directories(dir, problem);
-  if (problem) throw InputError("cannot make directory '" + dir + "': " + problem.message());
+  make_directory(dir);
   const std::string file = file_in(dir, study_file::plan), text = plan_text(plan);
-  if (!fs::exists(file, problem) || read_whole(file) != text) publish(file, text);
+  if (create_atomically(file, text)) return;
+  // It was there, or another process has begun a study here since the check: of two that begin at
+  // once one creates the plan, and the other one finds it.
+  check_study_directory(dir, plan, false);
+  if (read_whole(file) != text) write_atomically(file, text);
 }
 
 // Rows of all threads that wait for the disk go there together.

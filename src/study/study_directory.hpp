@@ -21,11 +21,12 @@ inline constexpr const char* table = "table.csv";
 inline constexpr const char* rows_prefix = "rows-";  ///< "rows-0001.csv"
 }  // namespace study_file
 
-/// What to do where a directory is somebody else's.
+/// What to do where a directory holds the results of something else.
 inline const std::string kChooseAnother = "; choose another --out, or --force to replace it";
 
-/// Throws InputError if `dir` holds a run, or any of these `files`, which lie there and are no
-/// `kind`'s ("study").
+/// Throws InputError if `dir` holds the results of another job (a run; also a study, a search, a
+/// calibration, ... where the `kind` is none of these), or any of these `files`, which lie there
+/// and are no `kind`'s ("study").
 void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
                     const std::string& kind);
 /// Removes files of a directory, made if absent. Throws InputError if another process is at work
