@@ -1,8 +1,11 @@
 // Readers of the product's own formats: what users write, and what it reads back of its own.
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <optional>
 
 #include "fuzz/readers.hpp"
+#include "io/file_digest.hpp"
 #include "io/poses_csv.hpp"
 #include "io/study_record.hpp"
 #include "io/table.hpp"
@@ -101,6 +104,7 @@ struct Around {
     RunOptions options;
     options.out = scratch() + "/run";
     run(scenario, options);
+    write_scratch("run/checkpoint.bin", "of another version");  // or its hashes refuse every damage
     row.replicate = 1, row.duration = 0.5, row.possible = 1;
     row.id = study->plan().id_of(0, 1), row.seed = study->plan().seed_of(1);
   }
@@ -124,6 +128,53 @@ std::string hash_of(std::string_view text) {
   Fnv hash;
   hash.add(text);
   return hex(hash.value());
+}
+
+/// Reads bytes as they are, and with their checksums made right, or damage would never come
+/// further.
+template <class Read>
+bool with_repair(std::string_view bytes, std::string (*repaired)(std::string_view), Read read) {
+  const bool as_is = read(bytes);
+  return read(repaired(bytes)) || as_is;
+}
+
+/// Rows that end with ",checksum"; kept rows with ";" behind it.
+std::string with_right_rows(std::string_view bytes) {
+  std::string out;
+  while (!bytes.empty()) {
+    const auto end = std::min(bytes.find('\n'), bytes.size());
+    const std::string_view line = bytes.substr(0, end), row = line.substr(0, line.rfind(','));
+    const bool header = out.empty() || row.size() == line.size();
+    out += header ? std::string(line) : with_checksum(std::string(row));
+    if (!header && line.ends_with(';')) out += ';';
+    if (end < bytes.size()) out += '\n';
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+  }
+  return out;
+}
+
+/// A text with a last line of its checksum.
+std::string with_right_last_line(std::string_view bytes) {
+  return with_checksum_line(std::string(bytes.substr(0, bytes.rfind("# checksum "))));
+}
+
+/// A binary trajectory.
+std::string with_right_frames(std::string_view bytes) {
+  std::string out(bytes);
+  const auto seal = [&](std::size_t begin, std::size_t size) {
+    const std::uint32_t sum = checksum_bits(std::string_view(out).substr(begin, size));
+    std::memcpy(out.data() + begin + size, &sum, sizeof sum);
+  };
+  std::uint32_t bodies = 0;
+  if (out.size() < kTrajectoryHeader) return out;
+  std::memcpy(&bodies, out.data() + 12, sizeof bodies);
+  seal(0, kTrajectoryHeader - sizeof(std::uint32_t));
+  const std::size_t frame = kFrameTime + kFrameBody * std::size_t{bodies};
+  for (std::size_t at = kTrajectoryHeader; at + frame + kFrameChecksum <= out.size();
+       at += frame + kFrameChecksum) {
+    seal(at, frame);
+  }
+  return out;
 }
 
 /// As it is, and with the hash on its first line made right, or damage would never come further.
@@ -183,7 +234,9 @@ bool read_study(std::string_view bytes) {
   return read_file("study.toml", bytes, [](const std::string& f) { Study study(f); });
 }
 bool read_study_record(std::string_view bytes) {
-  return read_file("record.toml", bytes, [](const std::string& f) { read_plan(f); });
+  return with_repair(bytes, with_right_last_line, [](std::string_view text) {
+    return read_file("record.toml", text, [](const std::string& f) { read_plan(f); });
+  });
 }
 bool read_optimize(std::string_view bytes) {
   return read_file("optimize.toml", bytes, [](const std::string& f) { Optimization what(f); });
@@ -220,7 +273,9 @@ bool read_poses(std::string_view bytes) {
   return accepts("start.csv", [&] { parse_poses(std::string(bytes), "start.csv"); });
 }
 bool read_binary(std::string_view bytes) {
-  return accepts("trajectory.bin", [&] { parse_binary_trajectory(bytes, "trajectory.bin"); });
+  return with_repair(bytes, with_right_frames, [](std::string_view frames) {
+    return accepts("trajectory.bin", [&] { parse_binary_trajectory(frames, "trajectory.bin"); });
+  });
 }
 bool read_csv(std::string_view bytes) {
   return accepts("trajectory.csv", [&] { parse_csv_trajectory(bytes, "trajectory.csv"); });
@@ -237,7 +292,9 @@ bool read_rates(std::string_view bytes) {
   return accepts("rates.csv", [&] { rate_table_from(std::string(bytes), "rates.csv"); });
 }
 bool read_measured(std::string_view bytes) {
-  return accepts("world.csv", [&] { measured_world_from(std::string(bytes), "world.csv", 7); });
+  return with_repair(bytes, with_right_last_line, [](std::string_view text) {
+    return accepts("world.csv", [&] { measured_world_from(std::string(text), "world.csv", 7); });
+  });
 }
 bool read_truth(std::string_view bytes) {
   return read_file("truth.csv", bytes, [](const std::string& f) { read_flow_truth(f, 4); });
@@ -276,21 +333,27 @@ std::string search_log() {
 }
 bool read_search_log(std::string_view bytes) {
   write_scratch("search/search.state", first_state());
-  return read_file("search/evaluations.csv", bytes,
-                   [](const std::string&) { search_small(nullptr); });
+  return with_repair(bytes, with_right_rows, [](std::string_view text) {
+    return read_file("search/evaluations.csv", text,
+                     [](const std::string&) { search_small(nullptr); });
+  });
 }
 bool read_rows(std::string_view bytes) {
   around();
-  return accepts("rows.csv", [&] {
-    bool foreign = false;
-    rows_from(bytes, "rows.csv", around().study->plan(), foreign);
+  return with_repair(bytes, with_right_rows, [](std::string_view text) {
+    return accepts("rows.csv", [&] {
+      bool foreign = false;
+      rows_from(text, "rows.csv", around().study->plan(), foreign);
+    });
   });
 }
 bool read_kept_rows(std::string_view bytes) {
-  return read_file("kept.rows", bytes, [](const std::string& f) {
-    KeptRows kept;
-    kept.file = f, kept.identity = 7, kept.threads = 1;
-    kept_rows(kept, 2, [](int i) { return std::vector<double>{1.5, double(i)}; });
+  return with_repair(bytes, with_right_rows, [](std::string_view text) {
+    return read_file("kept.rows", text, [](const std::string& f) {
+      KeptRows kept;
+      kept.file = f, kept.identity = 7, kept.threads = 1;
+      kept_rows(kept, 2, [](int i) { return std::vector<double>{1.5, double(i)}; });
+    });
   });
 }
 
@@ -368,7 +431,9 @@ std::vector<Reader> file_readers() {
       {"checkpoint", read_checkpoint, checkpoint()},
       {"study-rows", read_rows,
        row_header() + row_line(around().row, around().study->plan().identity())},
-      {"kept-rows", read_kept_rows, "lilytank rows 1 " + hex(7) + "\n0,1.5,0;\n1,1.5,nan;\n"},
+      {"kept-rows", read_kept_rows,
+       "lilytank rows 2 " + hex(7) + "\n" + with_checksum("0,1.5,0") + ";\n" +
+           with_checksum("1,1.5,nan") + ";\n"},
       {"search", read_search, search_state()},
       {"search-log", read_search_log, search_log()},
       {"measured-world", read_measured, to_csv(MeasuredWorld{}, 7)},
