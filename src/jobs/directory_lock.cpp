@@ -5,9 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
 
+#include "io/atomic_file.hpp"
 #include "lilytank/error.hpp"
 
 namespace lilytank {
@@ -17,9 +16,7 @@ DirectoryLock::~DirectoryLock() {
 }
 
 void DirectoryLock::take(const std::string& dir) {
-  std::error_code problem;
-  std::filesystem::create_directories(dir, problem);
-  if (problem) throw InputError("cannot make directory '" + dir + "': " + problem.message());
+  make_directory(dir);
   descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   // A file system without locks is no reason to stop.
