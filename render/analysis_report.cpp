@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
@@ -11,7 +11,6 @@ namespace {
 constexpr std::size_t kBandsUpTo = 4;  // sources in a plot; more bands hide each other
 constexpr int kWidth = 760, kHeight = 500, kLowHeight = 330;  // pixels
 constexpr int kPanelWidth = 560, kPanelHeight = 440;          // of plots beside each other
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Numbers as a reader wants them: metres as centimetres.
 struct Shown {
@@ -45,7 +44,7 @@ Curve curve_of(const std::string& name, const std::vector<double>& x, const Curv
   // Beside a value without a band, an infinite one would be drawn to the edge.
   for (std::size_t i = 0; i < curve.low.size(); ++i) {
     if (std::isinf(curve.low[i]) || std::isinf(curve.high[i])) {
-      curve.low[i] = curve.high[i] = kNone;
+      curve.low[i] = curve.high[i] = kUndefined;
     }
   }
   return curve;

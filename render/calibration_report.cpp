@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::string short_name(const CalibratedParameter& p) {
   const std::string& path = p.parameter.path;
@@ -28,8 +26,8 @@ Plot convergence_plot(const CalibrationResult& c) {
   double least = 1;
   for (const IterationRecord& r : c.history) {
     for (auto* curve : {&best, &median}) curve->x.push_back(r.iteration);
-    best.y.push_back(std::isfinite(r.best) ? r.best : kNone);
-    median.y.push_back(std::isfinite(r.median) ? r.median : kNone);
+    best.y.push_back(std::isfinite(r.best) ? r.best : kUndefined);
+    median.y.push_back(std::isfinite(r.median) ? r.median : kUndefined);
     least = std::min(least, r.best);
   }
   plot.log_y = least > 0;

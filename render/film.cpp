@@ -14,7 +14,6 @@
 namespace lilytank {
 namespace {
 
-constexpr double kUsualLength = 60;  // s of film where no speed is asked for
 constexpr int kMostPaletteFrames = 24;
 
 // When each frame is.
@@ -32,7 +31,7 @@ Schedule schedule(const StoredRun& run, const FilmOptions& options) {
     throw InputError("a film has 1 .. 240 frames per second, not " + std::to_string(options.fps));
   }
   if (!(options.speed >= 0) || !std::isfinite(options.speed)) {
-    throw InputError("a film's speed must be above 0, or 0 for a film of 60 s");
+    throw InputError("a film's speed must be above 0, or 0 for the usual length");
   }
   Schedule s;
   s.from = std::max(options.from, t.time.front());
@@ -41,7 +40,7 @@ Schedule schedule(const StoredRun& run, const FilmOptions& options) {
   check_time(t, s.to);
   if (!(s.to >= s.from)) throw InputError("a film cannot end before it begins");
   const double length = s.to - s.from;
-  s.speed = options.speed > 0 ? options.speed : length / kUsualLength;
+  s.speed = options.speed > 0 ? options.speed : length / options.length;
   if (!(s.speed > 0)) s.speed = 1;  // a single moment
   s.step = s.speed / options.fps;
   const double frames = std::max(1.0, std::round(length / s.step));

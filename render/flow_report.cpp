@@ -3,8 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/render.hpp"
 #include "text/number.hpp"
 
@@ -12,7 +12,6 @@ namespace lilytank {
 namespace {
 
 const std::string kHatching = "filled from the measured cells around";
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 bool in_tank(const FlowEstimate& e, std::size_t i) {
   const int at = static_cast<int>(i);
@@ -27,7 +26,7 @@ MapPanel panel(const FlowEstimate& e, const std::string& title, const std::strin
   out.title = title, out.label = label;
   out.cells = e.cells, out.extent = e.extent;
   for (std::size_t i = 0; i < e.cell.size(); ++i) {
-    out.values.push_back(in_tank(e, i) ? value(i) : kNone);
+    out.values.push_back(in_tank(e, i) ? value(i) : kUndefined);
     out.hatched.push_back(in_tank(e, i) && !e.cell[i].measured);
   }
   return out;
@@ -36,7 +35,7 @@ MapPanel panel(const FlowEstimate& e, const std::string& title, const std::strin
 void add_arrows(const FlowEstimate& e, MapPanel& out,
                 const std::function<std::array<double, 2>(std::size_t)>& vector) {
   for (std::size_t i = 0; i < e.cell.size(); ++i) {
-    const std::array<double, 2> v = in_tank(e, i) ? vector(i) : std::array{kNone, kNone};
+    const std::array<double, 2> v = in_tank(e, i) ? vector(i) : std::array{kUndefined, kUndefined};
     out.arrow_x.push_back(v[0]), out.arrow_y.push_back(v[1]);
   }
 }
@@ -59,7 +58,7 @@ Map flow_map(const FlowReport& report, const FlowEstimate& e) {
   }));
   map.panels.push_back(panel(e, "Standard error of the mean", "per axis (m/s)", [&](std::size_t i) {
     const FlowSample& s = cell[i].error;
-    return cell[i].measured ? std::sqrt((s.mu_x * s.mu_x + s.mu_y * s.mu_y) / 2) : kNone;
+    return cell[i].measured ? std::sqrt((s.mu_x * s.mu_x + s.mu_y * s.mu_y) / 2) : kUndefined;
   }));
   const std::string what = e.noise ? "Momentum balances" : "Frames";
   map.panels.push_back(panel(e, what + " in a cell", "number",
@@ -70,7 +69,7 @@ Map flow_map(const FlowReport& report, const FlowEstimate& e) {
 MapPanel rejections(const FlowEstimate& e, const std::string& title, const std::vector<double>& p,
                     const std::vector<bool>& rejected) {
   MapPanel out = panel(e, title, "", [&](std::size_t i) {
-    return std::isnan(p[i]) ? kNone : rejected[i] ? 1.0 : 0.0;
+    return std::isnan(p[i]) ? kUndefined : rejected[i] ? 1.0 : 0.0;
   });
   out.hatched.clear();
   out.classes = {"not rejected", "rejected"}, out.no_data = "not tested";
@@ -90,8 +89,8 @@ Map normality_map(const FlowReport& report, const FlowEstimate& e) {
     for (const FlowCell& c : e.cell) {
       const NormalityTest& a = along_x ? c.all_x : c.all_y;
       const NormalityTest& t = along_x ? c.normal_x : c.normal_y;
-      every.push_back(a.samples < 4 ? kNone : a.raw_p);
-      thinned.push_back(t.samples < 4 ? kNone : t.p);
+      every.push_back(a.samples < 4 ? kUndefined : a.raw_p);
+      thinned.push_back(t.samples < 4 ? kUndefined : t.p);
       below.push_back(a.raw_p < level);
     }
     const std::string axis = along_x ? ", x axis" : ", y axis";
@@ -133,7 +132,7 @@ Map error_map(const FlowReport& report) {
     means.push_back(panel(e, e.name + ": error of the mean", "size (m/s)",
                           [&](std::size_t i) { return std::hypot(apart(i)[0], apart(i)[1]); }));
     add_arrows(e, means.back(), [&](std::size_t i) {
-      return e.cell[i].measured ? apart(i) : std::array{kNone, kNone};
+      return e.cell[i].measured ? apart(i) : std::array{kUndefined, kUndefined};
     });
     deviations.push_back(
         panel(e, e.name + ": error of the deviation", "difference (m/s)", [&](std::size_t i) {

@@ -9,10 +9,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kRow = 23, kPad = 9, kSample = 30, kGap = 9, kMargin = 10;
+constexpr double kBoxRow = 23, kBoxPad = 9, kSample = 30, kBoxGap = 9, kBoxMargin = 10;
 constexpr double kWidest = 320;  // longer names are cut
 const TextStyle kName{14, palette::ink, false, Align::left};
-const TextStyle kTitle{14, palette::ink, true, Align::left};
+const TextStyle kBoxTitle{14, palette::ink, true, Align::left};
 
 bool within(const LegendBox& box, const PagePoint& p) {
   constexpr double kRoom = 4;
@@ -84,7 +84,7 @@ Names names_of(const Canvas& canvas, const Plot& plot) {
     return place(plot.curves[a].shade) < place(plot.curves[b].shade);
   });
   // Three are never cut: a legend that says less than it could is no help in a low plot either.
-  const auto most = static_cast<std::size_t>(std::max(3.0, (plot.height - 90) / kRow));
+  const auto most = static_cast<std::size_t>(std::max(3.0, (plot.height - 90) / kBoxRow));
   if (names.shown.size() > most) {
     names.more = names.shown.size() - (most - 1);
     names.shown.resize(most - 1);
@@ -106,19 +106,19 @@ LegendBox legend_size(const Canvas& canvas, const Plot& plot) {
     box.width = std::max(box.width, std::min(kWidest, canvas.width_of(text, kName)));
   }
   const bool titled = !plot.legend_title.empty();
-  const double title = std::min(kWidest, canvas.width_of(plot.legend_title, kTitle));
+  const double title = std::min(kWidest, canvas.width_of(plot.legend_title, kBoxTitle));
   const auto rows =
       static_cast<double>(names.shown.size() + (names.more > 0 ? 1 : 0) + (titled ? 1 : 0));
-  box.width = std::max(box.width + kSample + kGap, title) + 2 * kPad;
-  box.height = rows * kRow + 2 * kPad - 6;
+  box.width = std::max(box.width + kSample + kBoxGap, title) + 2 * kBoxPad;
+  box.height = rows * kBoxRow + 2 * kBoxPad - 6;
   return box;
 }
 
 LegendBox place_legend(const LegendBox& size, const Plot& plot, const PlotArea& area,
                        std::size_t& hidden) {
   const std::vector<PagePoint> ink = ink_of(plot, area);
-  const double x0 = area.left + kMargin, x1 = area.right() - kMargin - size.width;
-  const double y0 = area.top + kMargin, y1 = area.bottom() - kMargin - size.height;
+  const double x0 = area.left + kBoxMargin, x1 = area.right() - kBoxMargin - size.width;
+  const double y0 = area.top + kBoxMargin, y1 = area.bottom() - kBoxMargin - size.height;
   LegendBox best = size;
   bool first = true;
   // Corners before edges, the top right before all, where equally free.
@@ -148,18 +148,19 @@ void draw_legend_box(const Canvas& canvas, const LegendBox& box, const Plot& plo
     canvas.fill_keep(faded(palette::paper, 0.86));
     canvas.stroke(palette::hairline, 1);
   }
-  double y = box.y + kPad - 3 + kRow / 2;
-  const double x = box.x + kPad + kSample + kGap;
+  double y = box.y + kBoxPad - 3 + kBoxRow / 2;
+  const double x = box.x + kBoxPad + kSample + kBoxGap;
   if (!plot.legend_title.empty()) {
-    canvas.text(box.x + kPad, y + 5, canvas.fitted(plot.legend_title, kWidest + 1, kTitle), kTitle);
-    y += kRow;
+    canvas.text(box.x + kBoxPad, y + 5, canvas.fitted(plot.legend_title, kWidest + 1, kBoxTitle),
+                kBoxTitle);
+    y += kBoxRow;
   }
   const Names names = names_of(canvas, plot);
   for (std::size_t k = 0; k < names.shown.size(); ++k) {
     const std::size_t i = names.shown[k];
-    draw_sample(canvas, plot.curves[i], static_cast<int>(i), box.x + kPad, y, kSample);
+    draw_sample(canvas, plot.curves[i], static_cast<int>(i), box.x + kBoxPad, y, kSample);
     canvas.text(x, y + 5, names.texts[k], kName);
-    y += kRow;
+    y += kBoxRow;
   }
   if (names.more > 0) canvas.text(x, y + 5, "… " + std::to_string(names.more) + " more", kName);
 }

@@ -8,10 +8,11 @@
 namespace lilytank {
 namespace {
 
-constexpr double kPixels = 2;                              // of a PNG, per unit
-constexpr double kLeft = 62, kTop = 40, kBottom = 54;      // room around a panel, units
-constexpr double kKey = 30;                                // below all panels, units
-constexpr double kScale = 116, kClasses = 170, kGap = 12;  // to its right: bar, legend, nothing
+constexpr double kMapPixels = 2;                       // of a PNG, per unit
+constexpr double kLeft = 62, kTop = 40, kBottom = 54;  // room around a panel, units
+constexpr double kKey = 30;                            // below all panels, units
+constexpr double kScale = 116, kClasses = 170,
+                 kRightGap = 12;  // to its right: bar, legend, nothing
 
 // The panels on the page, and which of them show a scale.
 struct MapPage {
@@ -32,7 +33,7 @@ MapPage page_of(const Map& map) {
   const std::size_t n = map.panels.size();
   page.scales.assign(n, true);
   // Room right of a column is the same in all rows, so that panels stand below each other.
-  std::vector<double> room(columns, kGap);
+  std::vector<double> room(columns, kRightGap);
   for (std::size_t i = 0; i < n; ++i) {
     const bool last = i + 1 == n || (i + 1) % columns == 0;
     page.scales[i] = last || !same_scale(map.panels[i], map.panels[i + 1]);
@@ -75,7 +76,7 @@ void draw_map(const Map& map, const std::string& file) {
   const PictureFormat format = format_of(file, kFormats);
   check(map);
   const MapPage page = page_of(map);
-  Canvas canvas = Canvas::page(format, page.width, page.height, kPixels);
+  Canvas canvas = Canvas::page(format, page.width, page.height, kMapPixels);
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
   const TextStyle title{17, palette::ink, true, Align::centre};

@@ -13,7 +13,7 @@ namespace lilytank {
 namespace {
 
 constexpr Colour kNoData{0.925, 0.933, 0.941};
-const TextStyle kTickText{13, palette::ink, false, Align::centre};
+const TextStyle kMapTickText{13, palette::ink, false, Align::centre};
 constexpr double kBarGap = 16, kBarWidth = 16;  // units
 
 double value_at(const std::vector<double>& values, std::size_t i) {
@@ -195,7 +195,7 @@ void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pl
   const Axis axis = make_axis(-cm, cm, false, 5, true);
   cairo_rectangle(canvas.get(), place.left, place.top, place.size, place.size);
   canvas.stroke(palette::ink, 1.1);
-  TextStyle right = kTickText;
+  TextStyle right = kMapTickText;
   right.align = Align::right;
   for (const AxisTick& t : axis.ticks) {
     const double k = place.size * axis.share(t.value);
@@ -203,7 +203,7 @@ void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pl
     const double x = place.left + k, y = place.bottom() - k;
     canvas.line(x, place.bottom(), x, place.bottom() + kTick, palette::ink, 1.1);
     canvas.line(place.left - kTick, y, place.left, y, palette::ink, 1.1);
-    canvas.text(x, place.bottom() + 20, t.label, kTickText);
+    canvas.text(x, place.bottom() + 20, t.label, kMapTickText);
     canvas.text(place.left - 9, y + 4.5, t.label, right);
   }
   const TextStyle label{14, palette::ink, false, Align::centre};

@@ -12,7 +12,7 @@ namespace lilytank {
 namespace {
 
 // Heights of the panel's parts, units from its top.
-constexpr double kTitle = 52, kSubtitle = 94, kRule = 122;
+constexpr double kTitleAt = 52, kSubtitle = 94, kRule = 122;
 constexpr double kClockCaption = 164, kClock = 242;
 constexpr double kYieldCaption = 306, kYield = 360;
 constexpr double kPlotTop = 424;
@@ -65,7 +65,7 @@ void Panel::title(const Canvas& canvas) const {
   // A long title is set smaller, then in two lines, then cut.
   while (style.size > 28 && canvas.width_of(name, style) > box_.width) style.size -= 1;
   if (canvas.width_of(name, style) <= box_.width) {
-    canvas.text(box_.x, box_.y + kTitle, name, style);
+    canvas.text(box_.x, box_.y + kTitleAt, name, style);
   } else {
     std::size_t cut = name.size();
     while (cut != std::string::npos && canvas.width_of(name.substr(0, cut), style) > box_.width) {
@@ -73,8 +73,8 @@ void Panel::title(const Canvas& canvas) const {
     }
     const bool two = cut != std::string::npos && cut > 0;
     const std::string rest = two ? name.substr(cut + 1) : name;
-    if (two) canvas.text(box_.x, box_.y + kTitle - 32, name.substr(0, cut), style);
-    canvas.text(box_.x, box_.y + kTitle + 4, canvas.fitted(rest, box_.width, style), style);
+    if (two) canvas.text(box_.x, box_.y + kTitleAt - 32, name.substr(0, cut), style);
+    canvas.text(box_.x, box_.y + kTitleAt + 4, canvas.fitted(rest, box_.width, style), style);
   }
   const TextStyle small{22, palette::muted, false, Align::left};
   canvas.text(box_.x, box_.y + kSubtitle, canvas.fitted(subtitle(), box_.width, small), small);

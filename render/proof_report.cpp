@@ -8,10 +8,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kUsual = 1.959964;  // deviations that a half width is
-constexpr double kFar = 3;           // half widths, where larger errors are drawn
-constexpr double kRoom = 1.2;        // of z, beside the outermost
-constexpr double kApart = 0.009;     // of the axis' length, that bars are apart at least
+constexpr double kUsual = 1.959964;   // deviations that a half width is
+constexpr double kFar = 3;            // half widths, where larger errors are drawn
+constexpr double kRoom = 1.2;         // of z, beside the outermost
+constexpr double kBarsApart = 0.009;  // of the axis' length, that bars are apart at least
 
 // `apart`: a factor of z by which bars are to be apart from those in `taken`, or they would hide
 // them: they move to the right until they are.
@@ -48,7 +48,7 @@ Plot power_plot(const ProofFigures& of) {
   plot.y_label = "told rightly (%)";
   plot.log_x = true, plot.y_low = 0, plot.y_high = 100;
   spread_x(of, plot);
-  const double apart = std::pow(plot.x_high / plot.x_low, kApart);
+  const double apart = std::pow(plot.x_high / plot.x_low, kBarsApart);
   std::vector<double> taken;
   plot.curves.push_back(power_curve("one effect", of.named, apart, taken));
   if (!of.two.empty()) {

@@ -12,9 +12,9 @@
 namespace lilytank {
 namespace {
 
-constexpr double kSide = 54, kPitch = 62;   // units, of a module
-constexpr double kCaption = 30, kGap = 46;  // above a stage, between two
-constexpr double kMargin = 24, kFoot = 34, kHead = 40;
+constexpr double kSide = 54, kPitch = 62;        // units, of a module
+constexpr double kCaption = 30, kStageGap = 46;  // above a stage, between two
+constexpr double kPageMargin = 24, kFoot = 34, kHead = 40;
 constexpr double kWidest = 1290, kHighest = 900;
 constexpr double kHop = 16;  // of the hop numbers from a module's centre
 constexpr std::array<int, 4> kX = {1, 0, -1, 0}, kY = {0, 1, 0, -1};
@@ -38,10 +38,10 @@ Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage
     grid.width = std::max(grid.width, 26 + canvas.width_of(stage.text, kSmall));
   grid.height = (high.y + 1) * kPitch + kCaption;
   const int n = static_cast<int>(stages.size());
-  const double across = grid.width + kGap;
+  const double across = grid.width + kStageGap;
   if (n * across <= kWidest)
     grid.columns = n;
-  else if (n * (grid.height + kGap) > kHighest)
+  else if (n * (grid.height + kStageGap) > kHighest)
     grid.columns = std::max(1, static_cast<int>(kWidest / across));
   grid.rows = (n + grid.columns - 1) / grid.columns;
   return grid;
@@ -151,26 +151,29 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
   const Canvas ruler = Canvas::raster(8, 8);
   const Grid grid = grid_of(ruler, target, stages);
   const double head = title.empty() ? 0 : kHead;
-  const double width = std::ceil(2 * kMargin + std::max(30 + ruler.width_of(kKey, kSmall),
-                                                        grid.columns * (grid.width + kGap) - kGap));
-  const double height = 2 * kMargin + head + kFoot + grid.rows * (grid.height + kGap) - kGap;
+  const double width =
+      std::ceil(2 * kPageMargin + std::max(30 + ruler.width_of(kKey, kSmall),
+                                           grid.columns * (grid.width + kStageGap) - kStageGap));
+  const double height =
+      2 * kPageMargin + head + kFoot + grid.rows * (grid.height + kStageGap) - kStageGap;
   Canvas canvas = Canvas::page(format, width, height, 2);
   canvas.colour(palette::paper);
   cairo_paint(canvas.get());
   if (!title.empty())
-    canvas.text(kMargin, kMargin + 18, title, {18, palette::ink, true, Align::left});
+    canvas.text(kPageMargin, kPageMargin + 18, title, {18, palette::ink, true, Align::left});
   for (int k = 0; k < static_cast<int>(stages.size()); ++k) {
-    const double left = kMargin + k % grid.columns * (grid.width + kGap);
-    const double top = kMargin + head + k / grid.columns * (grid.height + kGap);
+    const double left = kPageMargin + k % grid.columns * (grid.width + kStageGap);
+    const double top = kPageMargin + head + k / grid.columns * (grid.height + kStageGap);
     draw_stage(canvas, target, stages[static_cast<std::size_t>(k)], left, top, grid.width);
     const bool last = k + 1 == static_cast<int>(stages.size());
     if (last) continue;
     if (grid.columns == 1)
-      draw_arrow(canvas, left + grid.width / 2, top + grid.height + kGap / 2, true);
+      draw_arrow(canvas, left + grid.width / 2, top + grid.height + kStageGap / 2, true);
     else if (k % grid.columns + 1 < grid.columns)
-      draw_arrow(canvas, left + grid.width + kGap / 2, top + (grid.height + kCaption) / 2, false);
+      draw_arrow(canvas, left + grid.width + kStageGap / 2, top + (grid.height + kCaption) / 2,
+                 false);
   }
-  draw_key(canvas, kMargin, height - kMargin);
+  draw_key(canvas, kPageMargin, height - kPageMargin);
   write_atomically(file, canvas.encoded());
 }
 

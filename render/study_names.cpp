@@ -1,8 +1,8 @@
 #include "study_names.hpp"
+#include "analysis/undefined.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "io/scenario_keys.hpp"
@@ -11,8 +11,6 @@
 
 namespace lilytank {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // What a label says of each axis: "count=15" and "p_e" of "count=15, p_e". Nothing where it is not
 // written so.
@@ -98,7 +96,7 @@ SettingNames names_by_parts(const StudySummary& summary, const Parts& parts) {
     };
     out.names.push_back(axes.empty() ? summary.settings[s].label : joined(axes, ", ", said));
   }
-  out.shades.assign(out.names.size(), kNone);
+  out.shades.assign(out.names.size(), kUndefined);
   return out;
 }
 
@@ -129,7 +127,7 @@ SettingNames shades_by(const StudySummary& summary, std::size_t axis) {
   SettingNames out;
   out.title = axis_label(summary.axes[axis]);
   const std::size_t n = summary.settings.size();
-  out.names.assign(n, ""), out.shades.assign(n, kNone);
+  out.names.assign(n, ""), out.shades.assign(n, kUndefined);
   const std::set<double> values = values_of(summary, axis);
   const double low = *values.begin(), high = *values.rbegin();
   const bool log = value_axis(summary, axis).log;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <map>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/render.hpp"
 #include "study_names.hpp"
 #include "yield.hpp"
@@ -73,8 +73,8 @@ Curve survival_curve(const Survival& survival, double horizon, const TimeUnit& u
     add(survival.time[i], survival.survival[i], before ? 1 : survival.low[i], survival.high[i]);
     if (survival.censored[i] > 0) curve.marks.push_back(survival.time[i] / unit.seconds);
   }
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (curve.y.back() <= 0 && survival.time.back() < horizon) add(horizon, 0, kNone, kNone);
+  if (curve.y.back() <= 0 && survival.time.back() < horizon)
+    add(horizon, 0, kUndefined, kUndefined);
   return curve;
 }
 

@@ -34,7 +34,8 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
 struct FilmOptions {
   double from = 0, to = -1;  ///< s, to < 0: the end
   double fps = 30;           ///< frames per second of the film
-  double speed = 0;          ///< simulated seconds per second of film; 0: the film takes 60 s
+  double speed = 0;          ///< simulated seconds per second of film; 0: by `length`
+  double length = 60;        ///< s of film
   FrameStyle style;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done)> progress;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/motion_model.hpp"
 #include "analysis/source_summary.hpp"
+#include "analysis/undefined.hpp"
 #include "lilytank/analysis.hpp"
 #include "text/number.hpp"
 
@@ -11,7 +11,6 @@ namespace lilytank {
 namespace {
 
 using Values = std::vector<double>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Every frame up to 2 s, then coarser: an oscillation of some seconds still shows.
 Values choose_lags(double rate, double longest) {

@@ -4,16 +4,14 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/metrics.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 using Values = std::vector<double>;
 
 // Curves of the bodies and of resamples of them.
@@ -58,7 +56,8 @@ class Resampler {
       }
     }
     Values out(bins);
-    for (std::size_t i = 0; i < bins; ++i) out[i] = weight_[i] > 0 ? total_[i] / weight_[i] : kNone;
+    for (std::size_t i = 0; i < bins; ++i)
+      out[i] = weight_[i] > 0 ? total_[i] / weight_[i] : kUndefined;
     if (bootstrap_.relative && bins > 0) {
       const double unit = out[0];
       for (double& v : out) v /= unit;
@@ -96,7 +95,7 @@ Estimate interval(double value, Values& resamples, double level, double wider) {
   resamples.erase(
       std::remove_if(resamples.begin(), resamples.end(), [](double v) { return std::isnan(v); }),
       resamples.end());
-  if (std::isnan(value)) return {kNone, kNone, kNone};
+  if (std::isnan(value)) return {kUndefined, kUndefined, kUndefined};
   if (resamples.size() < 2) return {value, -kInfinity, kInfinity};
   const double low = quantile_of(resamples, (1 - level) / 2);
   const double high = quantile_of(resamples, (1 + level) / 2);
@@ -111,7 +110,7 @@ CurveEstimate banded(Values curve, const Bootstrap& bootstrap, int bodies, Resam
   const std::size_t bins = out.value.size();
   out.low.assign(bins, -kInfinity), out.high.assign(bins, kInfinity);
   for (std::size_t i = 0; i < bins; ++i) {
-    if (std::isnan(out.value[i])) out.low[i] = out.high[i] = kNone;
+    if (std::isnan(out.value[i])) out.low[i] = out.high[i] = kUndefined;
   }
   if (bodies < 2) return out;
   const auto n = static_cast<std::size_t>(bootstrap.resamples);

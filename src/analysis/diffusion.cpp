@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/metrics.hpp"
 
 namespace lilytank {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct LagRange {
   std::size_t from = 0, to = 0;  // bins, `to` included
@@ -19,7 +17,7 @@ double exponent_at(const std::vector<double>& lag, const std::vector<double>& ms
   std::size_t a = i, b = i;
   while (a > 0 && lag[a - 1] >= lag[i] / kReach) --a;
   while (b + 1 < lag.size() && lag[b + 1] <= lag[i] * kReach) ++b;
-  if (a == b || !(lag[a] > 0) || !(msd[a] > 0) || !(msd[b] > 0)) return kNone;
+  if (a == b || !(lag[a] > 0) || !(msd[a] > 0) || !(msd[b] > 0)) return kUndefined;
   return std::log(msd[b] / msd[a]) / std::log(lag[b] / lag[a]);
 }
 
@@ -50,14 +48,14 @@ double slope(const std::vector<double>& lag, const std::vector<double>& msd,
     sxx += w * lag[i] * lag[i], sxy += w * lag[i] * msd[i];
   }
   const double spread = n * sxx - sx * sx;
-  return spread > 0 ? (n * sxy - sx * sy) / spread : kNone;
+  return spread > 0 ? (n * sxy - sx * sy) / spread : kUndefined;
 }
 
 }  // namespace
 
 Diffusion diffusion(const BodySums& sums, const std::vector<double>& lags, int dimensions,
                     double from, double to, const Bootstrap& bootstrap) {
-  Diffusion result{{kNone, kNone, kNone}, 0, 0};
+  Diffusion result{{kUndefined, kUndefined, kUndefined}, 0, 0};
   LagRange range;
   if (to > 0) {
     const auto low = std::lower_bound(lags.begin(), lags.end(), std::max(from, 1e-12));

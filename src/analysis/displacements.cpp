@@ -1,17 +1,16 @@
 // Squared displacements and autocorrelations of a recording's tracks.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "analysis/lagged_sums.hpp"
+#include "analysis/undefined.hpp"
 #include "lilytank/metrics.hpp"
 
 namespace lilytank {
 namespace {
 
 using Signal = std::vector<std::complex<double>>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // A lag in frames, or three neighbouring ones with the weights of the parabola through them.
 struct LagPlace {
@@ -137,7 +136,7 @@ BodySums velocity_products(const SmoothRecording& recording, const std::vector<d
   return products(recording, lags, [](const SmoothTrack& track, Signal& z) {
     z.resize(track.vx.size());
     for (std::size_t f = 0; f < z.size(); ++f) {
-      z[f] = {track.seen[f] ? track.vx[f] : kNone, track.vy[f]};
+      z[f] = {track.seen[f] ? track.vx[f] : kUndefined, track.vy[f]};
     }
   });
 }
@@ -145,7 +144,7 @@ BodySums velocity_products(const SmoothRecording& recording, const std::vector<d
 BodySums spin_products(const SmoothRecording& recording, const std::vector<double>& lags) {
   return products(recording, lags, [](const SmoothTrack& track, Signal& z) {
     z.resize(track.spin.size());
-    for (std::size_t f = 0; f < z.size(); ++f) z[f] = track.seen[f] ? track.spin[f] : kNone;
+    for (std::size_t f = 0; f < z.size(); ++f) z[f] = track.seen[f] ? track.spin[f] : kUndefined;
   });
 }
 

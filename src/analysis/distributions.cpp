@@ -1,8 +1,8 @@
 #include "lilytank/distributions.hpp"
+#include "analysis/undefined.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/frames_view.hpp"
 
@@ -159,7 +159,6 @@ void add_passages(const SmoothRecording& recording, const Bins& bins,
 }  // namespace
 
 VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto count = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells);
   std::vector<Passage> passages, totals(count);
   for (const SmoothRecording& r : recordings) add_passages(r, {-extent, extent, cells}, passages);
@@ -172,8 +171,8 @@ VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cel
   map.bodies.assign(count, 0), map.se_x.assign(count, 0), map.se_y.assign(count, 0);
   for (const Passage& total : totals) {
     map.samples.push_back(std::llround(total.n));
-    map.vx.push_back(total.n > 0 ? total.vx / total.n : kNone);
-    map.vy.push_back(total.n > 0 ? total.vy / total.n : kNone);
+    map.vx.push_back(total.n > 0 ? total.vx / total.n : kUndefined);
+    map.vy.push_back(total.n > 0 ? total.vy / total.n : kUndefined);
   }
   // The error of a ratio of sums over independent bodies, to first order.
   for (const Passage& p : passages) {
@@ -183,7 +182,7 @@ VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cel
   }
   for (std::size_t c = 0; c < count; ++c) {
     const double m = map.bodies[c], n = totals[c].n;
-    const double k = m > 1 ? m / (m - 1) / (n * n) : kNone;
+    const double k = m > 1 ? m / (m - 1) / (n * n) : kUndefined;
     map.se_x[c] = std::sqrt(k * map.se_x[c]), map.se_y[c] = std::sqrt(k * map.se_y[c]);
   }
   return map;

@@ -1,4 +1,5 @@
 #include "lilytank/motion_summary.hpp"
+#include "analysis/undefined.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@
 namespace lilytank {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEq9Steps = 2400;  // N_s of the paper
 
 std::vector<std::unique_ptr<SummaryPart>> parts_of(const MotionSummary& summary) {
@@ -91,7 +91,7 @@ std::vector<double> eq9_curve(const std::vector<Recording>& recordings, const Eq
     }
   }
   std::vector<double> out;
-  for (const MeanSum& sum : sums) out.push_back(sum.weight > 0 ? sum.mean() : kNone);
+  for (const MeanSum& sum : sums) out.push_back(sum.weight > 0 ? sum.mean() : kUndefined);
   return out;
 }
 

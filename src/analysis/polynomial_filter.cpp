@@ -1,15 +1,15 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/motion_model.hpp"
+#include "analysis/undefined.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr int kMostDegree = 5;
-using Moments =
+using MomentMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostDegree + 1, kMostDegree + 1>;
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostDegree + 1, 1>;
 
@@ -35,10 +35,10 @@ class Window {
       rows_.push_back(powers(static_cast<double>(g - middle) / half_));
     }
     if (static_cast<int>(rows_.size()) < degree_ + 2) return false;
-    Moments m = Moments::Zero(degree_ + 1, degree_ + 1);
+    MomentMatrix m = MomentMatrix::Zero(degree_ + 1, degree_ + 1);
     for (const Coefficients& row : rows_) m += row * row.transpose();
-    const Eigen::LDLT<Moments> solver(m);
-    inverse_ = solver.solve(Moments::Identity(degree_ + 1, degree_ + 1));
+    const Eigen::LDLT<MomentMatrix> solver(m);
+    inverse_ = solver.solve(MomentMatrix::Identity(degree_ + 1, degree_ + 1));
     weights_.clear();
     for (const Coefficients& row : rows_) weights_.push_back(inverse_ * row);
     ready_whole_ = whole;
@@ -77,7 +77,7 @@ class Window {
   bool ready_whole_ = false;  // the weights are those of a window without gaps
   std::vector<std::ptrdiff_t> frames_;
   std::vector<Coefficients> rows_, weights_;
-  Moments inverse_;
+  MomentMatrix inverse_;
 };
 
 }  // namespace
@@ -93,14 +93,13 @@ AxesEstimate smooth_polynomial(const Axes& axes, const SmoothingOptions& options
   const double unit = half * interval;  // s
   Window window(half, options.degree);
   AxesEstimate out;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   for (int k = 0; k < axes.count(); ++k) {
     for (auto* v : {&out.axis[k].value, &out.axis[k].velocity, &out.axis[k].acceleration}) {
-      v->assign(axes.frames(), kNone);
+      v->assign(axes.frames(), kUndefined);
     }
   }
   for (auto* v : {&out.sd_value, &out.sd_velocity, &out.sd_acceleration}) {
-    v->assign(axes.frames(), kNone);
+    v->assign(axes.frames(), kUndefined);
   }
   for (std::size_t f = 0; f < axes.frames(); ++f) {
     if (!window.prepare(axes, f)) continue;

@@ -1,14 +1,13 @@
 #include "analysis/source_summary.hpp"
+#include "analysis/undefined.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lilytank {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr Estimate kUnknown{kNone, kNone, kNone};
+constexpr Estimate kUnknown{kUndefined, kUndefined, kUndefined};
 using Values = std::vector<double>;
 
 // The first maximum that the curve then falls from by a twentieth; its index, or -1.
@@ -24,7 +23,7 @@ int first_maximum(const Values& curve) {
 
 // Its place and height between bins: those of the parabola through three.
 struct Peak {
-  double lag = kNone, height = kNone;
+  double lag = kUndefined, height = kUndefined;
 };
 Peak first_peak(const Values& lags, const Values& curve) {
   const int at = first_maximum(curve);
@@ -47,7 +46,7 @@ double plateau(const Values& lags, const Values& curve) {
     const double w = lags[i] - lags[i - 1];
     sum += w * 0.5 * (curve[i] + curve[i - 1]), width += w;
   }
-  return width > 0 ? sum / width : kNone;
+  return width > 0 ? sum / width : kUndefined;
 }
 
 void add_counts(const AnalysisSource& source, SourceSummary& s) {
@@ -121,7 +120,7 @@ void add_velocities(const SmoothSource& source, const Values& lags, const Bootst
       seen += static_cast<double>(std::count(t.seen.begin(), t.seen.end(), 1)) / r.rate;
     }
   }
-  s.independent_samples = s.velocity_memory > 0 ? seen / (2 * s.velocity_memory) : kNone;
+  s.independent_samples = s.velocity_memory > 0 ? seen / (2 * s.velocity_memory) : kUndefined;
 }
 
 void add_contacts(const SmoothSource& source, const Bootstrap& b, SourceSummary& s) {

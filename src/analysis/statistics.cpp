@@ -1,4 +1,5 @@
 #include "lilytank/statistics.hpp"
+#include "analysis/undefined.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -6,25 +7,21 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace lilytank {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-struct Moments {
-  double mean = kUnknown;
+struct SampleMoments {
+  double mean = kUndefined;
   double variance = 0;  // unbiased; 0 for fewer than two values
 };
 
-Moments moments_of(const std::vector<double>& values) {
+SampleMoments moments_of(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
   if (values.empty()) return {};
   double sum = 0;
   for (const double v : values) sum += v;
-  Moments m{sum / n, 0};
+  SampleMoments m{sum / n, 0};
   // The second sum is zero but for rounding; taking it out keeps equal values at variance 0.
   double squares = 0, rest = 0;
   for (const double v : values) squares += (v - m.mean) * (v - m.mean), rest += v - m.mean;
@@ -36,7 +33,7 @@ Moments moments_of(const std::vector<double>& values) {
 
 Estimate wilson(std::int64_t successes, std::int64_t n, double level) {
   assert(0 <= successes && successes <= n && 0 < level && level < 1);
-  if (n == 0) return {kUnknown, 0, 1};
+  if (n == 0) return {kUndefined, 0, 1};
   const double z = boost::math::quantile(boost::math::normal(), (1 + level) / 2);
   const auto count = static_cast<double>(n), hits = static_cast<double>(successes);
   const double p = hits / count, k = z * z / count;
@@ -54,7 +51,7 @@ double chi_squared_z(double square, int freedom) {
 
 Estimate poisson_rate(std::int64_t events, double exposure, double level) {
   assert(events >= 0 && exposure >= 0 && 0 < level && level < 1);
-  if (!(exposure > 0)) return {kUnknown, 0, kInfinity};
+  if (!(exposure > 0)) return {kUndefined, 0, kInfinity};
   const auto count = static_cast<double>(events);
   const double tail = (1 - level) / 2;
   using boost::math::chi_squared;
@@ -65,7 +62,7 @@ Estimate poisson_rate(std::int64_t events, double exposure, double level) {
 
 Estimate mean_interval(const std::vector<double>& values, double level) {
   assert(0 < level && level < 1);
-  const Moments m = moments_of(values);
+  const SampleMoments m = moments_of(values);
   if (values.size() < 2) return {m.mean, -kInfinity, kInfinity};
   const auto n = static_cast<double>(values.size());
   const double t = quantile(boost::math::students_t(n - 1), (1 + level) / 2);
@@ -92,7 +89,7 @@ PairedComparison compare_pairs(const std::vector<double>& a, const std::vector<d
   PairedComparison result;
   result.difference = mean_interval(differences, level);
   if (a.size() < 2) return result;
-  const Moments d = moments_of(differences);
+  const SampleMoments d = moments_of(differences);
   const double apart = moments_of(a).variance + moments_of(b).variance;
   if (d.variance > 0) {
     const auto n = static_cast<double>(a.size());

@@ -3,18 +3,19 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/statistics.hpp"
 
 namespace lilytank {
 namespace {
 
-using Bins = std::vector<std::vector<std::size_t>>;
+using StepBins = std::vector<std::vector<std::size_t>>;
 
 // [run] the index of the first of `times` by which each of its steps has happened; later ones left
 // out. Counting steps by these makes a resample cost one pass over its runs, not one a time.
-Bins bins_of(const std::vector<std::vector<double>>& steps, const std::vector<double>& times) {
-  Bins bins(steps.size());
+StepBins bins_of(const std::vector<std::vector<double>>& steps, const std::vector<double>& times) {
+  StepBins bins(steps.size());
   for (std::size_t r = 0; r < steps.size(); ++r) {
     for (const double step : steps[r]) {
       const auto at = std::lower_bound(times.begin(), times.end(), step);
@@ -58,14 +59,13 @@ CurveBand yield_band(const std::vector<std::vector<double>>& steps,
                      const std::vector<double>& times, std::uint64_t seed, int resamples,
                      double level) {
   assert(std::is_sorted(times.begin(), times.end()) && resamples > 0 && 0 < level && level < 1);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CurveBand band;
   band.time = times;
   band.mean.assign(times.size(), std::numeric_limits<double>::quiet_NaN());
   band.low.assign(times.size(), -kInfinity);
   band.high.assign(times.size(), kInfinity);
   if (steps.empty()) return band;
-  const Bins bins = bins_of(steps, times);
+  const StepBins bins = bins_of(steps, times);
   const auto n = static_cast<double>(steps.size());
   std::vector<std::int64_t> rises(times.size(), 0);
   for (const auto& run : bins) {

@@ -23,9 +23,9 @@ std::string setting_cells(const StudySummary& s, std::size_t setting) {
 }
 
 // The rows of one setting in summary.csv.
-class SummaryRows {
+class SettingRows {
  public:
-  SummaryRows(const StudySummary& s, std::size_t setting, std::string& out)
+  SettingRows(const StudySummary& s, std::size_t setting, std::string& out)
       : start_(setting_cells(s, setting)),
         runs_(std::to_string(s.settings[setting].runs)),
         out_(out) {}
@@ -56,7 +56,7 @@ std::string summary_csv(const StudySummary& s) {
   std::string out = setting_head(s) + ",metric,k,unit,value,low,high,runs\n";
   for (std::size_t i = 0; i < s.settings.size(); ++i) {
     const SettingSummary& setting = s.settings[i];
-    SummaryRows rows(s, i, out);
+    SettingRows rows(s, i, out);
     rows.count("finished", setting.runs);
     rows.count("diverged", setting.diverged);
     rows.count("stopped", setting.stopped);

@@ -19,7 +19,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kReplicateSeed = 2000;
 constexpr double kReplicateSpread = 0.8;  // of their parameters, as a share of the last design's
-constexpr double kReach = 5;              // deviations of the points that an estimate may be off
+constexpr double kEstimateReach = 5;      // deviations of the points that an estimate may be off
 constexpr double kLeastSlope = 0.1;       // of an estimate in the truth: less is noise
 constexpr int kProfilePoints = 41;
 constexpr double kProfileReach = 4;      // standard errors
@@ -58,7 +58,7 @@ Replicates by_others(const LocalAnswer& answer, Design made, const Vector& obser
 // estimates stay within the bounds, and all replicates are at the answer.
 Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design made) {
   FitBounds bounds = stages.bounds();
-  bounds.reach = kReach;
+  bounds.reach = kEstimateReach;
   const Eigen::Index n = made.points.rows();
   Replicates out{
       std::move(made), Matrix(n, answer.fit.point.size()), Vector(n), {}, {}, 0, answer.fit.misfit,
@@ -145,7 +145,7 @@ Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const V
 void tell_profiles(const Stages& stages, const Replicates& replicates, const Vector& observed,
                    CalibrationResult& out) {
   FitBounds bounds = stages.bounds();
-  bounds.reach = kReach;
+  bounds.reach = kEstimateReach;
   const LocalFit best = replicates.model.fit(observed, bounds);
   for (std::size_t i = 0; i < out.parameters.size(); ++i) {
     CalibratedParameter& p = out.parameters[i];

@@ -18,15 +18,16 @@ constexpr double kFirstSpread = 0.04;  // deviation of the first design, as a sh
 constexpr double kNoiseSpread = 0.08;  // of the camera's noise, on its log scale
 constexpr double kRoughSpread = 3, kLastSpread = 2.5;  // of designs, in standard errors
 constexpr double kNarrowest =
-    0.4;                           // of whole experiments' first design, as a share of pieces' last
-constexpr double kSettled = 2;     // deviations of the design that the answer may be off its centre
+    0.4;  // of whole experiments' first design, as a share of pieces' last
+constexpr double kSettledWithin =
+    2;                             // deviations of the design that the answer may be off its centre
 constexpr double kFarOff = 2;      // ... beyond which the next design is stretched that way
 constexpr double kWidest = 2;      // most of both, in deviations of the first design
 constexpr double kWidestLast = 3;  // the same of whole experiments
-constexpr double kLeastSlope = 0.25;  // of an answer in the truth
-constexpr double kResolved = 1.5;     // times a design that is wide enough would be wider
-constexpr double kNear = 1.6;  // farthest points that count, over the root of their dimension
-constexpr double kReach = 2;   // deviations of the design that a round may go
+constexpr double kLeastAnswerSlope = 0.25;  // of an answer in the truth
+constexpr double kResolved = 1.5;           // times a design that is wide enough would be wider
+constexpr double kNear = 1.6;      // farthest points that count, over the root of their dimension
+constexpr double kRoundReach = 2;  // deviations of the design that a round may go
 constexpr std::uint64_t kRoundSeed = 1000;
 
 // All simulations so far; those of worlds that diverged are left out.
@@ -126,12 +127,12 @@ class Way {
   LocalRound look(Design design, bool close, const std::string& name) {
     LocalModel model(design, kind_);
     FitBounds near = bounds_;
-    near.reach = kReach;
+    near.reach = kRoundReach;
     LocalFit fit = model.fit(observed_, near);
     Matrix next = own_;
     if (fixed_ && kind_ == Misfit::covariance) {
       const CrossFit by_others = cross_fit(design, observed_, kind_, Slopes::found);
-      const HonestFit honest = turned_round(design, by_others, kLeastSlope);
+      const HonestFit honest = turned_round(design, by_others, kLeastAnswerSlope);
       fit = within_reach(honest.point, by_others.misfit);
       next = next_spread(honest.covariance);
     } else if (fixed_) {
@@ -141,7 +142,8 @@ class Way {
     }
     const Vector moved = solve_lower(spread_, fit.point - centre_);
     const bool wide = (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0;
-    const bool settled = close && wide && !stretched_ && !fit.at_reach && moved.norm() < kSettled;
+    const bool settled =
+        close && wide && !stretched_ && !fit.at_reach && moved.norm() < kSettledWithin;
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_reach, stages_.from_scale(fit.point)});
     answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
@@ -162,7 +164,7 @@ class Way {
   // As far along the way to a point as the round may go.
   LocalFit within_reach(const Vector& point, double misfit) const {
     const Vector step = solve_lower(spread_, point - centre_);
-    const double far = step.cwiseAbs().maxCoeff() / kReach;
+    const double far = step.cwiseAbs().maxCoeff() / kRoundReach;
     const Vector at = centre_ + spread_ * step / std::max(1.0, far);
     return {at.cwiseMax(bounds_.low).cwiseMin(bounds_.high), misfit, far > 1};
   }

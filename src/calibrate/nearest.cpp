@@ -15,9 +15,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNearestSeed = 2500;
-constexpr double kMostSpread = 0.1;  // deviation of a round's points, as a share of the ranges
-constexpr double kReach = 2;         // deviations of the points that a round may go
-constexpr double kSettled = 1;       // ... that its answer may be off their centre
+constexpr double kMostSpread = 0.1;    // deviation of a round's points, as a share of the ranges
+constexpr double kNearestReach = 2;    // deviations of the points that a round may go
+constexpr double kNearestSettled = 1;  // ... that its answer may be off their centre
 constexpr int kMostRounds = 6;
 // Points of a round at least: three for each coefficient of a quadratic of five parameters.
 constexpr int kPerParameter = 12;
@@ -45,7 +45,7 @@ class Nearest {
     Vector told = centre.head(told_);
     while (!out.settled && out.rounds < kMostRounds) {
       const Vector next = step(told, ++out.rounds);
-      out.settled = solve_lower(spread_, next - told).cwiseAbs().maxCoeff() < kSettled;
+      out.settled = solve_lower(spread_, next - told).cwiseAbs().maxCoeff() < kNearestSettled;
       told = next;
     }
     out.point = with(told);
@@ -85,7 +85,7 @@ class Nearest {
                          model.covariance().diagonal().cwiseSqrt().sum();
     SearchSpace space;
     for (Eigen::Index k = 0; k < told_; ++k) {
-      space.push_back({"z" + std::to_string(k), -kReach, kReach});
+      space.push_back({"z" + std::to_string(k), -kNearestReach, kNearestReach});
     }
     const auto point = [&](const std::vector<double>& z) -> Vector {
       const Vector at = centre + spread_ * Eigen::Map<const Vector>(z.data(), told_);

@@ -14,8 +14,6 @@
 namespace lilytank::cli {
 namespace {
 
-constexpr double kLongest = 1e9;  // s
-
 SourceOptions source_options(const VerbOptions& options) {
   SourceOptions s;
   if (options.has("body")) {
@@ -94,7 +92,7 @@ std::vector<std::string> files_in_the_way(const Analysis& analysis, const std::s
   return files;
 }
 
-void add_options(VerbOptions& options) {
+void add_analyze_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("out", "directory of the results (default: out/<first source>-analysis)", text(),
                 "DIR")("body", "only these: lily, ball or point (a plain recording is of lilies)",
@@ -123,7 +121,7 @@ int analyze_verb(const Arguments& arguments) {
   VerbOptions options("analyze", "RUN|EXPERIMENT.toml|RECORDING...",
                       "Tells what tracks show: displacements, velocities, maps, neighbours; two "
                       "sources also against each other. Text, tables and plots.");
-  add_options(options);
+  add_analyze_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank analyze RUN, EXPERIMENT.toml or a recording");

@@ -18,7 +18,7 @@
 namespace lilytank::cli {
 namespace {
 
-void add_options(VerbOptions& options) {
+void add_calibrate_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   const auto list = [] { return cxxopts::value<std::vector<std::string>>(); };
   options.add()("objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", text(),
@@ -152,7 +152,7 @@ int calibrate_verb(const Arguments& arguments) {
                       "Finds the model's parameters from an experiment's recordings: estimates, "
                       "intervals, what the data cannot tell, and how like the recordings the "
                       "model then is.");
-  add_options(options);
+  add_calibrate_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank calibrate EXPERIMENT.toml");

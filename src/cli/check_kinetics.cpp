@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongest = 1e9;  // s
 constexpr int kMostModules = 1000;
 
 // Worlds that were run, or what was counted elsewhere.

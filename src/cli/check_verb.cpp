@@ -11,7 +11,7 @@
 namespace lilytank::cli {
 namespace {
 
-void add_options(VerbOptions& options) {
+void add_check_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
       "lattice", "worlds of the lattice model to run (20)", text(), "N")(
@@ -27,7 +27,7 @@ int check_verb(const Arguments& arguments) {
                       "Proves what a ruleset can build, where it gets stuck and whether its "
                       "reverse rules undo their joins; counts rates in worlds and runs a "
                       "well-mixed model on them.");
-  add_options(options);
+  add_check_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().size() != 1)
     options.refuse("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");

@@ -39,7 +39,7 @@ std::string directory_of(const VerbOptions& options, const std::string& name) {
   return out;
 }
 
-void add_options(VerbOptions& options) {
+void add_diagnose_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("out", "directory of the results (default: out/diagnose-<name>)", text(), "DIR")(
       "seed", "of everything that is drawn (1)", text(), "N")(
@@ -57,7 +57,7 @@ int diagnose_verb(const Arguments& arguments) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
                       "Says where an experiment's recordings and the model differ, which effect is "
                       "missing, how large it is, and how much of the difference it removes.");
-  add_options(options);
+  add_diagnose_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank diagnose EXPERIMENT.toml");

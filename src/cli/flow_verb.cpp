@@ -58,7 +58,7 @@ BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
   return ball;
 }
 
-void add_options(VerbOptions& options) {
+void add_flow_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("estimator", "paper (Eq. 3), smooth (momentum balance), or both", text(), "WORD")(
       "truth", "a grid whose flow is known: prints and draws the errors", text(), "GRID.csv")(
@@ -106,7 +106,7 @@ int flow_verb(const Arguments& arguments) {
   VerbOptions options("flow", "EXPERIMENT.toml...",
                       "Finds the water's velocity from the tracks of an experiment's balls: mean "
                       "and deviation on a grid, with errors. Text, tables and maps.");
-  add_options(options);
+  add_flow_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {
     options.refuse("of what? write lilytank flow EXPERIMENT.toml");

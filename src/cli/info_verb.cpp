@@ -8,14 +8,10 @@
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/run.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
-
-std::string padded(std::string text, std::size_t width) {
-  if (text.size() < width) text.resize(width, ' ');
-  return text;
-}
 
 std::string with_unit(const ScenarioEntry& entry) {
   return entry.unit.empty() || entry.unit == "1" ? entry.value : entry.value + " " + entry.unit;

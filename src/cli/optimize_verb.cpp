@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostThreads = 4096;
-
 std::string four(double value) {
   return significant(value, 4);
 }
@@ -110,7 +108,7 @@ int compare(const Optimization& what, const OptimizationResult& result,
   return done.failed > 0 ? Exit::diverged : Exit::done;
 }
 
-void add_options(VerbOptions& options) {
+void add_optimize_options(VerbOptions& options) {
   options.add()("overlay", "a file laid over the scenarios, before --set",
                 cxxopts::value<std::vector<std::string>>(),
                 "FILE")("set", "a value for every world, as run.duration='1 h'",
@@ -128,7 +126,7 @@ int optimize_verb(const Arguments& arguments) {
   VerbOptions options("optimize", "STUDY.toml",
                       "Searches rule probabilities, a switch of them, pump power or rulesets for "
                       "what builds a target best.");
-  add_options(options);
+  add_optimize_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().size() != 1) {
     options.refuse("one file, please: lilytank optimize scenarios/optimize/chain5.toml");

@@ -13,6 +13,9 @@
 
 namespace lilytank::cli {
 
+constexpr double kLongest = 1e9;    ///< s, the longest time that an option takes
+constexpr int kMostThreads = 4096;  ///< that an option takes
+
 /// Options and positional arguments of one verb.
 class VerbOptions {
  public:

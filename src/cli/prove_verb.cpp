@@ -17,7 +17,7 @@
 namespace lilytank::cli {
 namespace {
 
-void report(std::span<const Proof> proofs, const std::string& dir) {
+void report_proofs(std::span<const Proof> proofs, const std::string& dir) {
   const std::string text = proof_text(proofs);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), text);
 #ifdef LILYTANK_HAS_RENDER
@@ -47,12 +47,12 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
     std::cout << proof_text(proofs) << std::flush;
   } else {
     const ClaimedDirectory own(out, force, {"proof", "pooled" + hashes, proof_files()});
-    report(proofs, out);
+    report_proofs(proofs, out);
   }
   return Exit::done;
 }
 
-void add_options(VerbOptions& options) {
+void add_prove_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("worlds", "sealed experiments (100)", text(), "N")(
       "only", "null, named, two or unnamed: leave out those of another kind", text(), "KIND")(
@@ -113,7 +113,7 @@ int prove_verb(const Arguments& arguments) {
       "blind, opens the key, and tells how often the diagnosis was right. With "
       "the directories of finished proofs: tells it of all their experiments, with --out "
       "as a report.");
-  add_options(options);
+  add_prove_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     for (const char* other : {"worlds", "only", "minutes", "known-flow", "drawn-tank", "modelled",
@@ -141,7 +141,7 @@ int prove_verb(const Arguments& arguments) {
     return Exit::stopped;
   }
   write_atomically((dir / "key.txt").string(), proof->key);
-  report({&*proof, 1}, job.diagnosis.out);
+  report_proofs({&*proof, 1}, job.diagnosis.out);
   return Exit::done;
 }
 

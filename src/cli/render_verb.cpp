@@ -18,8 +18,6 @@ namespace lilytank::cli {
 #ifdef LILYTANK_HAS_RENDER
 namespace {
 
-constexpr double kLongest = 1e9;  // s
-
 FlowStyle flow_style(const VerbOptions& options) {
   const std::vector<std::string> words{"none", "arrows", "streamlines"};
   const std::string word = options.text("flow", "streamlines");

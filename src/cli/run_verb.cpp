@@ -47,6 +47,7 @@ bool draw(const std::string& out, bool quiet) {
 #ifdef LILYTANK_HAS_RENDER
   const StoredRun stored = load_run(out);
   FilmOptions film;
+  film.length = 35, film.style.size = 720;  // 10 MB at most; `lilytank render` draws larger ones
   std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
   Progress progress(quiet);
   film.stop = &stop_signal();
@@ -121,7 +122,8 @@ int run_verb(const Arguments& arguments) {
                 cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
       "seed", "where all random numbers come from", cxxopts::value<std::string>(), "N")(
       "out", "directory of the results (default: out/<title>-seed<N>)",
-      cxxopts::value<std::string>(), "DIR")("video", "draw video.mp4 and yield.png afterwards")(
+      cxxopts::value<std::string>(),
+      "DIR")("video", "draw video.mp4 (35 s, 1280 x 720) and yield.png")(
       "dry-run", "check everything, write nothing")("force", "replace another run's files")(
       "quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;

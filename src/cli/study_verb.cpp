@@ -13,8 +13,6 @@
 namespace lilytank::cli {
 namespace {
 
-constexpr int kMostThreads = 4096;
-
 Shard shard_of(const VerbOptions& options) {
   if (options.has("shard")) return shard_from(options.text("shard"));
   return shard_of_environment(std::getenv);

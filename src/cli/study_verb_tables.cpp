@@ -5,6 +5,7 @@
 
 #include "cli/study_verb.hpp"
 #include "lilytank/study_summary.hpp"
+#include "text/words.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -59,11 +60,6 @@ int completeness(const StoredStudy& study, const std::string& done) {
     return Exit::stopped;
   }
   return failed > 0 ? Exit::diverged : Exit::done;
-}
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(text.size(), width), ' ');
-  return text;
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
   return Exit::done;
 }
 
-void add_options(VerbOptions& options) {
+void add_synthesize_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("algorithm", "singleton (the default), linchpin, balanced, or plan", text(),
                 "WORD")("tree", "a drawing of the same cells with the bonds to use", text(),
@@ -144,7 +144,7 @@ int synthesize_verb(const Arguments& arguments) {
   VerbOptions options("synthesize", "TARGET.txt",
                       "Makes a ruleset that builds a target: a drawing of '#' for modules, with "
                       "bonds '-' and '|' between spaced ones where they matter.");
-  add_options(options);
+  add_synthesize_options(options);
   if (!options.parse(with_long_name(arguments))) return Exit::done;
   if (options.positional().size() != 1)
     options.refuse("one target, please: lilytank synthesize scenarios/targets/chain5.txt");

@@ -12,8 +12,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kClear = 3;       // standard errors of what simulations say beside the filter
-constexpr double kLeastShown = 2;  // deviations at an amplitude of one
+constexpr double kClearOfNoise = 3;  // standard errors of what simulations say beside the filter
+constexpr double kLeastShown = 2;    // deviations at an amplitude of one
 constexpr double kLeastFactor = 0.2, kMostFactor = 2;  // of the filter's answer, that is believed
 
 std::string key_of(const Effect& effect) {
@@ -74,7 +74,7 @@ const Matrix& Alignment::response(const Effect& effect) {
 // noise that is left out of one score would be found in another.
 Vector Alignment::clear(const Vector& scores, double error) const {
   return root_ * (plain_ * scores).unaryExpr([&](double v) {
-    return std::fabs(v) < kClear * error ? 0.0 : v;
+    return std::fabs(v) < kClearOfNoise * error ? 0.0 : v;
   });
 }
 

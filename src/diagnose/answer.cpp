@@ -12,10 +12,10 @@ constexpr int kSteps = 12;
 constexpr double kStart = 0.3;   // sizes
 constexpr double kMostSize = 6;  // sizes beyond which an answer is no guide
 // How far from its own amplitudes an answer about found ones holds.
-constexpr double kNear = 0.5, kNearLeast = 0.4;
+constexpr double kNearShare = 0.5, kNearLeast = 0.4;
 
 Vector reach(const Answer& of) {
-  return of.local() ? Vector((kNear * of.about.cwiseAbs()).array() + kNearLeast)
+  return of.local() ? Vector((kNearShare * of.about.cwiseAbs()).array() + kNearLeast)
                     : Vector(Vector::Constant(of.about.size(), kMostSize));
 }
 

@@ -22,8 +22,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
-constexpr int kFolds = 8;
-constexpr double kReach = 2.5;  // deviations of the design that a calibration may go
+constexpr int kAtlasFolds = 8;
+constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
 // Of the design, about what was found: parameters are known better than what nulls are spread over.
 constexpr double kNarrow = 0.6;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
@@ -35,11 +35,11 @@ constexpr double kFarOff = 100;     // deviations
 constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
 // Of how an effect grows: of squares that chance has, by which it is clear, and of the amplitudes'
 // logarithms.
-constexpr double kClearly = 0.5, kLeastSpread = 0.03, kMostGrowth = 2.5;
+constexpr double kClearly = 0.5, kLeastScoreSpread = 0.03, kMostGrowth = 2.5;
 
 FitBounds within() {
   FitBounds out;
-  out.reach = kReach;
+  out.reach = kCalibrationReach;
   return out;
 }
 
@@ -47,10 +47,10 @@ FitBounds within() {
 // models that did not know it: as it will be with data.
 Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
   Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel parameters(without_fold(summaries, fold, kFolds));
-    const LocalModel scores(without_fold(numbers, fold, kFolds));
-    for (Eigen::Index i = fold; i < out.rows(); i += kFolds) {
+  for (int fold = 0; fold < kAtlasFolds; ++fold) {
+    const LocalModel parameters(without_fold(summaries, fold, kAtlasFolds));
+    const LocalModel scores(without_fold(numbers, fold, kAtlasFolds));
+    for (Eigen::Index i = fold; i < out.rows(); i += kAtlasFolds) {
       const Vector at =
           parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
       out.row(i) = numbers.numbers.row(i) - scores.mean(at).transpose();
@@ -102,7 +102,7 @@ double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
     x.add(a), y.add(f), xx.add(a * a), xy.add(a * f);
   }
   const double spread = xx.mean() - x.mean() * x.mean();
-  if (!(spread > kLeastSpread)) return 1;
+  if (!(spread > kLeastScoreSpread)) return 1;
   return std::clamp((xy.mean() - x.mean() * y.mean()) / spread, 1.0, kMostGrowth);
 }
 

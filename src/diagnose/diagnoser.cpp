@@ -19,12 +19,12 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostCentres = 5;
-constexpr double kReach = 2.5;  // deviations of the points that an answer may be off
-constexpr double kStays = 1.5;  // deviations of the points
+constexpr double kAnswerReach = 2.5;  // deviations of the points that an answer may be off
+constexpr double kStays = 1.5;        // deviations of the points
 // Deviations of designs: shares of the parameters' ranges, and standard errors. Points closer than
 // the errors would tell next to nothing of slopes, and errors from such slopes would be too small.
-constexpr double kFirstSpread = 0.05, kLeastSpread = 0.015, kMostSpread = 0.08;
-constexpr double kWide = 2, kEnough = 1.5, kNullsWide = 2;
+constexpr double kFirstSpread = 0.05, kLeastPointSpread = 0.015, kMostPointSpread = 0.08;
+constexpr double kWiderThanError = 2, kWideEnough = 1.5, kNullsWide = 2;
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
                                   const DiagnosisBudget& budget) {
@@ -96,14 +96,14 @@ void Diagnoser::prepare(double after) {
   // Points about the answer before, until the answer stays among them. They begin where the
   // experiment's model is: a search would lead to where a baseline imitates what it lacks.
   const Vector range = bounds.high - bounds.low;
-  Centre now{stages_.to_scale(setup_.start), kFirstSpread / kWide * range, false};
+  Centre now{stages_.to_scale(setup_.start), kFirstSpread / kWiderThanError * range, false};
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
     now = centre_of(now, round, *maps_, bounds);
   }
   deviation_ = now.deviation;
   spread_ = (kNullsWide * now.deviation)
-                .cwiseMax(kLeastSpread * range)
-                .cwiseMin(kMostSpread * range)
+                .cwiseMax(kLeastPointSpread * range)
+                .cwiseMin(kMostPointSpread * range)
                 .asDiagonal();
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(now.point), now.point, spread_,
@@ -167,8 +167,9 @@ std::string Diagnoser::identity() const {
 Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const FlowMaps& maps,
                                        const FitBounds& bounds) {
   const Vector range = bounds.high - bounds.low;
-  const Vector wide =
-      (kWide * before.deviation).cwiseMax(kFirstSpread * range).cwiseMin(kMostSpread * range);
+  const Vector wide = (kWiderThanError * before.deviation)
+                          .cwiseMax(kFirstSpread * range)
+                          .cwiseMin(kMostPointSpread * range);
   const std::uint64_t seed = derived_seed(options_.seed, 3000 + static_cast<std::uint64_t>(round));
   const Matrix points = scattered(before.point, wide.asDiagonal(), budget_.centre, bounds, seed);
   const LocalModel model(
@@ -176,7 +177,7 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
       Misfit::covariance, Slopes::shrunk);
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
-  near.reach = kReach;
+  near.reach = kAnswerReach;
   // What the baseline does not explain must not push its parameters about.
   const KnownFit known =
       model.fit(Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())),
@@ -185,7 +186,8 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
   const Vector moved = (fit.point - before.point).cwiseQuotient(wide);
   const Vector deviation = known.covariance.diagonal().cwiseSqrt();
   const bool enough =
-      (kEnough * deviation.cwiseMin(kMostSpread / kEnough * range) - wide).maxCoeff() < 1e-9;
+      (kWideEnough * deviation.cwiseMin(kMostPointSpread / kWideEnough * range) - wide).maxCoeff() <
+      1e-9;
   return {fit.point, deviation, enough && !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};
 }
 

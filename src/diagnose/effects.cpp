@@ -35,7 +35,7 @@ constexpr double kSlowest = 0.05;  // m/s, of water that curves over slip and sp
 constexpr const char* kLogLatches = "latches off, or their times logged";
 constexpr const char* kLonely = "a recording of one module alone";
 constexpr const char* kOtherBody = "a recording of bodies of another shape or mass";
-constexpr const char* kTurned = "a recording with the camera turned by half a turn";
+constexpr const char* kTurnedCamera = "a recording with the camera turned by half a turn";
 constexpr const char* kGrid = "a picture of a square grid on the water";
 constexpr const char* kPumps = "a recording at another pump power";
 
@@ -96,10 +96,10 @@ void add_water(std::vector<Effect>& all, const Model& model) {
   turning.two_sided = true;
   all.push_back(turning);
   Effect coriolis = one("coriolis", "rate", 0.4, "1/s", "slip");
-  coriolis.two_sided = true, coriolis.split = kTurned;
+  coriolis.two_sided = true, coriolis.split = kTurnedCamera;
   all.push_back(coriolis);
   Effect push = two("body_force", "force_x", "force_y", 1.5e-3, "N", "position");
-  push.split = kTurned;
+  push.split = kTurnedCamera;
   all.push_back(push);
   Effect drift = one("flow_drift", "rate", 5e-4, "1/s", "time");
   drift.two_sided = true;

@@ -13,7 +13,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kMostEffects = 3;
-constexpr std::size_t kTried = 8;  // candidates that are fitted together with those before
+constexpr std::size_t kFittedTogether = 8;  // candidates that are fitted together with those before
 constexpr int kMostPasses = 4;
 // Share of what was found that a remainder may be: fingerprints are known to some per cent only,
 // those about found amplitudes better; of a curve six straight pieces are off by more.
@@ -24,7 +24,7 @@ constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve m
 constexpr double kBent = 0.15, kBentAbout = 0.5;  // the second: by one experiment
 // Shares of a distance that an explanation may not leave: where something is left, and where that
 // is as many times what nulls have.
-constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFar = 2;
+constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFarBeyond = 2;
 
 }  // namespace
 
@@ -163,7 +163,7 @@ double Naming::cost(const Together& set) const {
 Naming::Together Naming::extended(const Vector& all, const Together& set) const {
   EffectFit strongest;
   std::vector<Candidate> next = candidates(set, strongest);
-  if (next.size() > kTried) next.resize(kTried);
+  if (next.size() > kFittedTogether) next.resize(kFittedTogether);
   Together best = set;
   for (Candidate& c : next) {
     Together with = set;
@@ -174,7 +174,8 @@ Naming::Together Naming::extended(const Vector& all, const Together& set) const 
   return best;
 }
 
-// Pairs of known effects by how much they explain together, in first order; at most `kTried`.
+// Pairs of known effects by how much they explain together, in first order; at most
+// `kFittedTogether`.
 std::vector<std::pair<std::size_t, std::size_t>> Naming::leading_pairs(const Vector& all) const {
   std::vector<Eigen::Index> first{0};
   for (const Known& k : known_) {
@@ -206,7 +207,7 @@ std::vector<std::pair<std::size_t, std::size_t>> Naming::leading_pairs(const Vec
       }
     }
   }
-  const auto count = static_cast<std::ptrdiff_t>(std::min(ranked.size(), kTried));
+  const auto count = static_cast<std::ptrdiff_t>(std::min(ranked.size(), kFittedTogether));
   std::partial_sort(ranked.begin(), ranked.begin() + count, ranked.end());
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (auto pair = ranked.begin(); pair != ranked.begin() + count; ++pair) {
@@ -315,7 +316,7 @@ Explanation Naming::explain(const Vector& residual, const std::vector<EffectFit>
 
 bool Naming::fails(const Explanation& e) const {
   const double far = e.misfit / misfit_threshold_;
-  return (far > 1 && e.share_left > kMostLeft) || (far > kFar && e.share_left > kMuchLeft);
+  return (far > 1 && e.share_left > kMostLeft) || (far > kFarBeyond && e.share_left > kMuchLeft);
 }
 
 Naming::Together Naming::set_of(const Vector& all, const std::vector<EffectFit>& found) const {

@@ -5,9 +5,9 @@
 namespace lilytank {
 namespace {
 
-constexpr double kProbe = 0.02;  // m/s, and share of the gain: steps of the drag's derivatives
-constexpr double kTurned = 0.5;  // rad/s, likewise
-constexpr double kGusty = 0.1;   // share of the gusts, likewise
+constexpr double kProbe = 0.02;    // m/s, and share of the gain: steps of the drag's derivatives
+constexpr double kTurnRate = 0.5;  // rad/s, likewise
+constexpr double kGusty = 0.1;     // share of the gusts, likewise
 
 }  // namespace
 
@@ -101,7 +101,7 @@ void Features::derive(const Kinematics& k, const Moment& now) {
   };
   probe(kProbe, 0, 0, 0, 0, kProbe, by_x_);
   probe(0, kProbe, 0, 0, 0, kProbe, by_y_);
-  probe(0, 0, kTurned, 0, 0, kTurned, by_turning_);
+  probe(0, 0, kTurnRate, 0, 0, kTurnRate, by_turning_);
   probe(0, 0, 0, kProbe, 0, kProbe, by_gain_);
   probe(0, 0, 0, 0, kGusty, kGusty, by_gusts_);
 }

@@ -8,12 +8,12 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kApart = 0.25, kApartLeast = 0.5;  // of amplitudes, and in sizes
+constexpr double kApartShare = 0.25, kApartLeast = 0.5;  // of amplitudes, and in sizes
 
 }  // namespace
 
 Vector apart(const Vector& amplitudes) {
-  return kApart * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+  return kApartShare * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
 }
 
 double Fingerprint::noise_at(const Vector& amplitudes) const {

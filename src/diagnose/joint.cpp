@@ -21,10 +21,10 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kMostRounds = 5;
-constexpr double kSettled = 1;  // deviations of the design
-constexpr double kReach = 2.5;  // likewise, that an answer may be off
+constexpr double kSettled = 1;       // deviations of the design
+constexpr double kJointReach = 2.5;  // likewise, that an answer may be off
 // Designs, in an answer's errors, of which slopes would else be noise, and in parameters' ranges.
-constexpr double kWide = 1.5, kEnough = 0.67, kMostSpread = 0.1;
+constexpr double kJointWiderThanError = 1.5, kJointWideEnough = 0.67, kMostJointSpread = 0.1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kChecks = 60;       // experiments at the answer
@@ -174,12 +174,13 @@ void tell(const Scatter& answer, JointFit& fit) {
 // The next design: about the answer, as far as this one reaches, and as wide as the answer's errors
 // ask for. True if it is where this one is.
 bool settled(const Scatter& answer, const FitBounds& bounds, Vector& centre, Matrix& width) {
-  const Vector reach = kReach * width.diagonal();
+  const Vector reach = kJointReach * width.diagonal();
   const Vector next = answer.estimate.cwiseMax(bounds.low).cwiseMin(bounds.high);
   const Vector moved = (next - centre).cwiseQuotient(width.diagonal());
-  const Vector wide = (kWide * answer.deviation).cwiseMin(kMostSpread * (bounds.high - bounds.low));
+  const Vector wide = (kJointWiderThanError * answer.deviation)
+                          .cwiseMin(kMostJointSpread * (bounds.high - bounds.low));
   const bool stays = moved.cwiseAbs().maxCoeff() < kSettled;
-  const bool enough = (kEnough * wide - width.diagonal()).maxCoeff() < 0;
+  const bool enough = (kJointWideEnough * wide - width.diagonal()).maxCoeff() < 0;
   if (stays && enough) return true;
   centre = next.cwiseMax(centre - reach).cwiseMin(centre + reach);
   width.diagonal() = width.diagonal().cwiseMax(wide);
@@ -266,7 +267,7 @@ class Rounds {
   // Whether an effect is no longer asked for; then all begins again without it.
   bool drops_one(const Design& design, const Prior& prior) {
     FitBounds near = bounds_;
-    near.reach = kReach;
+    near.reach = kJointReach;
     const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
     const KnownFit known = model.fit(data_, near, prior);
     Vector point = known.fit.point;

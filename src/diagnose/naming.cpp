@@ -15,10 +15,10 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kFolds = 20;
+constexpr int kNullFolds = 20;
 constexpr double kLeastShrinkage = 0.02;
 constexpr Eigen::Index kLeastScatter = 4;
-constexpr double kAside = 0.1;   // of an excess, that is not along what few experiments show
+constexpr double kExcessAside = 0.1;  // of an excess, that is not along what few experiments show
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 constexpr double kEulerGamma = 0.57721566490153286;
 // Of an effect's sizes: what is claimed of less than a tenth of what was learned would be a guess.
@@ -47,7 +47,7 @@ Matrix loosened_by(const Matrix& own, const Matrix& off) {
   // Most of it is along the few directions of parameters, which the experiments themselves show.
   const Vector share = excess.cwiseQuotient(square.cwiseSqrt().cwiseMax(1e-9));
   const Matrix along = off * share.asDiagonal();
-  const Vector aside = std::sqrt(kAside) * excess;
+  const Vector aside = std::sqrt(kExcessAside) * excess;
   return own + (1 + 1 / n) / n * (along.transpose() * along) +
          Matrix(aside.cwiseAbs2().asDiagonal());
 }
@@ -205,16 +205,16 @@ Naming::NullGains Naming::gains_of(const Matrix& nulls) {
   NullGains out;
   out.effects.resize(known_.size());
   out.knots.resize(n, static_cast<Eigen::Index>(root_.size()));
-  for (int fold = 0; fold < kFolds; ++fold) {
-    Matrix others(n - (n - fold + kFolds - 1) / kFolds, nulls.cols());
+  for (int fold = 0; fold < kNullFolds; ++fold) {
+    Matrix others(n - (n - fold + kNullFolds - 1) / kNullFolds, nulls.cols());
     Eigen::Index at = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (i % kFolds != fold) others.row(at++) = nulls.row(i);
+      if (i % kNullFolds != fold) others.row(at++) = nulls.row(i);
     }
     whitener_ = inverse_root(covariance_of(others.leftCols(named_)));
     std::vector<Known> known = known_;
     for (Known& k : known) renew(k, Fingerprint(k.source));
-    for (Eigen::Index i = fold; i < n; i += kFolds) {
+    for (Eigen::Index i = fold; i < n; i += kNullFolds) {
       const Vector all = whitened(nulls.row(i).transpose() - centre_);
       out.misfits.push_back(all.head(named_).squaredNorm());
       for (std::size_t k = 0; k < known.size(); ++k) {

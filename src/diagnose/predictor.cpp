@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "analysis/undefined.hpp"
 #include "lilytank/start.hpp"
 #include "lilytank/world.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFirstSpeed = 0.3,
                  kFirstSpin = 5;  // m/s, rad/s: deviation before anything is seen
 
@@ -193,7 +192,7 @@ class Filter {
       const bool there = k < static_cast<int>(c.track->x.size()) &&
                          !std::isnan(c.track->x[static_cast<std::size_t>(k)]);
       if (!there) {
-        at_.dx[i] = at_.dy[i] = at_.dtheta[i] = kNone;
+        at_.dx[i] = at_.dy[i] = at_.dtheta[i] = kUndefined;
         at_.gain_x[i] = at_.gain_v[i] = at_.gain_theta[i] = at_.gain_omega[i] = 0;
         continue;
       }

@@ -21,7 +21,7 @@ constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSee
                         kExpectedSeed = 1u << 21, kDrawnSeed = 5;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
-constexpr int kExpected = 8;  // experiments that tell how strongly an effect shows
+constexpr int kExpectedRuns = 8;  // experiments that tell how strongly an effect shows
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
 Experiment open_tank(const ProofOptions& options, const Model& tank) {
@@ -166,10 +166,10 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
     const Eigen::VectorXd mean =
-        diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpected, stage, seed);
+        diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
     const Naming& naming = diagnoser.naming();
     least = std::min(least, own.like < 0 ? naming.shapes(mean).front().z
-                                         : naming.expected_z(own.like, mean, kExpected));
+                                         : naming.expected_z(own.like, mean, kExpectedRuns));
   }
   return s.effects.empty() ? 0 : least;
 }

@@ -40,7 +40,7 @@ enum WorldColumn : std::size_t {
 const std::string kIntervalColumns = "world,effect,path,truth,value,low,high,holds,checksum";
 enum IntervalColumn : std::size_t { kOf, kEffect, kPath, kTruth, kValue, kLow, kHigh };
 // Between the words of a cell, between those of one finding, and where a finding has none.
-constexpr std::string_view kAnd = " + ", kOr = " | ", kNone = "-";
+constexpr std::string_view kAnd = " + ", kOr = " | ", kNoAlternative = "-";
 const std::string kUnnamed = "unnamed: ";
 
 std::vector<std::string> split(std::string_view cell, std::string_view between) {
@@ -88,7 +88,7 @@ std::vector<ProofFinding> findings_in(const CsvReader& rows) {
     if (f.effect.starts_with(kUnnamed)) {
       f.variable = f.effect.substr(kUnnamed.size()), f.effect = "unnamed";
     }
-    if (others[i] != kNone) f.alternatives = split(others[i], kOr);
+    if (others[i] != kNoAlternative) f.alternatives = split(others[i], kOr);
     const auto number = parse_number(z[i]);
     if (!number) rows.refuse(kZ, "'" + z[i] + "' is not a number");
     f.z = *number;
@@ -170,7 +170,8 @@ std::string proof_csv(const Proof& proof) {
     std::vector<std::string> said, others, z;
     for (const ProofFinding& f : w.findings) {
       said.push_back(f.effect == "unnamed" ? kUnnamed + f.variable : f.effect);
-      others.push_back(f.alternatives.empty() ? std::string(kNone) : joined(f.alternatives, kOr));
+      others.push_back(f.alternatives.empty() ? std::string(kNoAlternative)
+                                              : joined(f.alternatives, kOr));
       z.push_back(significant(f.z, 3));
     }
     out += with_checksum(std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +

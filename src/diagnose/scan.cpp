@@ -10,10 +10,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kSpacing = 0.16, kFarthest = 0.8;  // of the tank's radius
-constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
-constexpr double kApart = 0.06;                     // m, of places that are tried
-constexpr std::size_t kTried = 3, kTriedNear = 4;   // of each way to rank them
+constexpr double kSpacing = 0.16, kFarthest = 0.8;       // of the tank's radius
+constexpr double kWidths[] = {0.04, 0.06, 0.09};         // m
+constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
+constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
 // What has a range, from where to where it is tried, m, and a factor from one to the next.
 struct Ranged {
   const char* effect;
@@ -22,7 +22,7 @@ struct Ranged {
 constexpr Ranged kRanged[] = {
     {"pair_attraction", 0.002, 0.08}, {"wall_force", 0.002, 0.05}, {"wall_layer", 0.005, 0.08}};
 constexpr double kLonger = 1.25;
-constexpr double kClear = 30;  // twice a log-likelihood: a rise that is no chance
+constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
 std::vector<StreamPlace> grid_of(const Model& model) {
   std::vector<StreamPlace> places;
@@ -77,10 +77,11 @@ double apart(const StreamPlace& a, const StreamPlace& b) {
 std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
   std::vector<StreamPlace> out;
   for (const StreamPlace& place : ranking) {
-    const bool near = std::any_of(
-        out.begin(), out.end(), [&](const StreamPlace& one) { return apart(one, place) < kApart; });
+    const bool near = std::any_of(out.begin(), out.end(), [&](const StreamPlace& one) {
+      return apart(one, place) < kPlacesApart;
+    });
     if (!near) out.push_back(place);
-    if (out.size() == kTried) break;
+    if (out.size() == kTriedPlaces) break;
   }
   return out;
 }
@@ -90,7 +91,7 @@ std::vector<StreamPlace> around(const StreamPlace& centre,
                                 const std::vector<StreamPlace>& ranking) {
   std::vector<StreamPlace> out;
   for (const StreamPlace& place : ranking) {
-    if (apart(centre, place) < kApart) out.push_back(place);
+    if (apart(centre, place) < kPlacesApart) out.push_back(place);
     if (out.size() == kTriedNear) break;
   }
   return out;
@@ -147,7 +148,7 @@ std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
   for (std::size_t k = 0; k < told.size(); ++k) {
     const Effect& effect = scan.effects[k];
     const bool possible = effect.two_sided || effect.name == "pair_attraction";
-    double& best = most.emplace(effect.name, kClear).first->second;
+    double& best = most.emplace(effect.name, kClearRise).first->second;
     if (!(told[k].gain > best) || (!possible && told[k].estimate < 0)) continue;
     best = told[k].gain, out[effect.name] = {effect.shape[0].second, told[k].estimate};
   }

@@ -18,9 +18,9 @@ struct Mean {
 
 // Innovations that are far off count as this many deviations: a lost identity is one frame, not a
 // whole verdict.
-constexpr double kFar = 8;
+constexpr double kFarScore = 8;
 double clipped(double z) {
-  return std::clamp(z, -kFar, kFar);
+  return std::clamp(z, -kFarScore, kFarScore);
 }
 
 class Memory final : public ScatterPart {
@@ -271,7 +271,7 @@ class Touches final : public ScatterPart {
     pairs_ += 0.5 * static_cast<double>(seen.size() * (seen.size() - 1));
     for_near_pairs(frame.now, side_ * 1.6, [&](const NearPair& pair) {
       const SquareGap at = square_gap(frame.now, pair, side_);
-      if (at.gap > kApart) return;
+      if (at.gap > kPartedGap) return;
       near_ += 1;
       const auto a = static_cast<std::size_t>(pair.i), b = static_cast<std::size_t>(pair.j);
       Touch& touch = touching_[key(seen[a], seen[b])];
@@ -310,7 +310,7 @@ class Touches final : public ScatterPart {
 
  private:
   static constexpr int kNever = -1;
-  static constexpr double kTouch = 1e-3, kApart = 4e-3;  // m: they meet; they have parted
+  static constexpr double kTouch = 1e-3, kPartedGap = 4e-3;  // m: they meet; they have parted
   struct Touch {
     int last = -9;
     double interval = 0;
@@ -318,7 +318,7 @@ class Touches final : public ScatterPart {
   std::size_t key(const Seen& a, const Seen& b) const {
     return std::min(a.module, b.module) * modules_ + std::max(a.module, b.module);
   }
-  // Meetings end once a pair is farther apart than kApart.
+  // Meetings end once a pair is farther apart than kPartedGap.
   void close(const PredictedFrame& frame, const std::vector<Seen>& seen) {
     for (std::size_t a = 0; a < seen.size(); ++a) {
       for (std::size_t b = a + 1; b < seen.size(); ++b) {

@@ -15,7 +15,7 @@
 namespace lilytank {
 namespace {
 
-constexpr double kContact = 0.03;  // m/s: a prediction that was pushed by a contact
+constexpr double kContactPush = 0.03;  // m/s: a prediction that was pushed by a contact
 // Information of amplitudes, in sizes, that they are 0: of what is beside, of several together.
 constexpr double kHardlyKnown = 1e-4, kJointKnown = 0.1;
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
@@ -262,7 +262,7 @@ class Scorer {
       out.zt = frame.dtheta[i] / frame.sd_theta[i];
     }
     const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
-    const bool held = frame.contact[i] > kContact || touching_[i] != 0;
+    const bool held = frame.contact[i] > kContactPush || touching_[i] != 0;
     if (visible && frame.told[i] != 0 && !held) {
       for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
     }

@@ -12,14 +12,14 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNear = 0.85;
+constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNearGain = 0.85;
 constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
 constexpr int kRivals = 3, kMostSharpened = 6;
-constexpr int kMostMoved = 3;   // times that one fingerprint follows the amplitudes it finds
-constexpr double kClear = 100;  // twice a log-likelihood: amplitudes that the filter tells well
+constexpr int kMostMoved = 3;       // times that one fingerprint follows the amplitudes it finds
+constexpr double kClearGain = 100;  // twice a log-likelihood: amplitudes that the filter tells well
 
 bool tells(const Effect& effect, const JointAmplitudes& own) {
-  return own.gain > kClear && (effect.two_sided || own.estimate.minCoeff() > 0);
+  return own.gain > kClearGain && (effect.two_sided || own.estimate.minCoeff() > 0);
 }
 
 // A distance between places, ranges by their logarithms.
@@ -70,7 +70,7 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
   const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
     const bool same = other.effect >= 0 && effect(other).name == effect(f).name;
-    return !same && other.gain > kNear * leading.front().gain;
+    return !same && other.gain > kNearGain * leading.front().gain;
   });
 }
 
@@ -231,7 +231,7 @@ std::vector<EffectFit> Diagnoser::Sharpening::clearest() {
   std::stable_sort(out.begin(), out.end(),
                    [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
   if (out.size() > kRivals) out.resize(kRivals);
-  const double least = std::max(kClear, kRival * out.front().gain);
+  const double least = std::max(kClearGain, kRival * out.front().gain);
   std::erase_if(out, [&](const EffectFit& f) { return f.gain < least; });
   return out;
 }

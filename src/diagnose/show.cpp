@@ -18,9 +18,9 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-constexpr double kBlock = 10;  // s
-constexpr double kFar = 6;     // deviations at which an innovation stops to count more
-constexpr double kContact = 0.03;
+constexpr double kBlock = 10;         // s
+constexpr double kFarInnovation = 6;  // deviations at which an innovation stops to count more
+constexpr double kContactPushed = 0.03;
 constexpr int kPhases = 8, kFinePhases = 360;
 
 struct Moments {
@@ -79,10 +79,11 @@ Innovations innovations(const Model& model, const Recording& recording,
   Innovations out;
   predict(model, {recording}, predictor, [&](const PredictedFrame& f) {
     for (std::size_t i = 0; i < f.dx.size(); ++i) {
-      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContact) continue;
-      out[{f.module[i], f.frame}] = {std::clamp(f.dx[i] / f.sd_x[i], -kFar, kFar),
-                                     std::clamp(f.dy[i] / f.sd_x[i], -kFar, kFar),
-                                     std::clamp(f.dtheta[i] / f.sd_theta[i], -kFar, kFar)};
+      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContactPushed) continue;
+      out[{f.module[i], f.frame}] = {
+          std::clamp(f.dx[i] / f.sd_x[i], -kFarInnovation, kFarInnovation),
+          std::clamp(f.dy[i] / f.sd_x[i], -kFarInnovation, kFarInnovation),
+          std::clamp(f.dtheta[i] / f.sd_theta[i], -kFarInnovation, kFarInnovation)};
     }
   });
   return out;

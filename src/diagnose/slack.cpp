@@ -9,7 +9,7 @@
 namespace lilytank {
 namespace {
 
-constexpr double kMean = 0.02, kGusts = 0.03;
+constexpr double kMeanError = 0.02, kGustError = 0.03;
 // True flows of sealed tanks are 1.2 to 1.7 times as far from the best map as what balls leave
 // open, most at the centre and at the wall, where few balls come.
 constexpr double kWider = 1.4;
@@ -58,17 +58,17 @@ std::shared_ptr<const FlowField> loosened(const FlowMaps& maps, std::uint64_t fi
   for (std::size_t i = 0; i < samples.size(); ++i) widen(samples[i], field.samples()[i]);
   double square = 0;
   for (const FlowSample& s : field.samples()) square += s.mu_x * s.mu_x + s.mu_y * s.mu_y;
-  const double size = kMean * std::sqrt(0.5 * square / static_cast<double>(samples.size()));
+  const double size = kMeanError * std::sqrt(0.5 * square / static_cast<double>(samples.size()));
   const Smooth x(seed, run, 0, field.extent()), y(seed, run, 1, field.extent()),
       gusts(seed, run, 2, field.extent());
-  const double common = kGusts * normal_pair({seed, Stream::calibrate, run, 3, 19})[0];
+  const double common = kGustError * normal_pair({seed, Stream::calibrate, run, 3, 19})[0];
   const double pitch = 2 * field.extent() / field.cells();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto cells = static_cast<std::size_t>(field.cells());
     const double px = (static_cast<double>(i % cells) + 0.5) * pitch - field.extent();
     const double py = (static_cast<double>(i / cells) + 0.5) * pitch - field.extent();
     samples[i].mu_x += size * x.at(px, py), samples[i].mu_y += size * y.at(px, py);
-    const double factor = std::max(0.2, 1 + common + kGusts * gusts.at(px, py));
+    const double factor = std::max(0.2, 1 + common + kGustError * gusts.at(px, py));
     samples[i].sigma_x *= factor, samples[i].sigma_y *= factor;
   }
   return std::make_shared<const FlowField>(field.cells(), field.extent(), std::move(samples),

@@ -13,8 +13,8 @@ namespace {
 constexpr double kFastest = 6;        // Hz, of pulsation
 constexpr double kOversampled = 1.5;  // frequencies in a line's width
 constexpr int kPiece = 512;           // frames of a piece of a module's series
-constexpr int kAside = 6;             // lines on either side that a line is compared with
-constexpr double kClear = 8;          // deviations, of a line that is no chance
+constexpr int kLinesAside = 6;        // lines on either side that a line is compared with
+constexpr double kClearLine = 8;      // deviations, of a line that is no chance
 
 constexpr std::size_t kBank = 16;
 
@@ -114,7 +114,7 @@ class Spectrum final : public ScatterPart {
     std::vector<double> out;
     for (int k = 0; k < kSwings; ++k) {
       std::vector<double> about;
-      for (int j = std::max(0, k - kAside); j <= std::min(kSwings - 1, k + kAside); ++j) {
+      for (int j = std::max(0, k - kLinesAside); j <= std::min(kSwings - 1, k + kLinesAside); ++j) {
         if (std::abs(j - k) > 1) about.push_back(swing_[static_cast<std::size_t>(j)]);
       }
       const double usual = std::max(median(std::move(about)), 1e-300);
@@ -128,7 +128,7 @@ class Spectrum final : public ScatterPart {
   double swinging() const {
     const std::vector<double> more = beyond();
     const auto most = std::max_element(more.begin(), more.end());
-    if (!(*most * std::sqrt(whole_) > kClear)) return 0;
+    if (!(*most * std::sqrt(whole_) > kClearLine)) return 0;
     const auto best = static_cast<int>(most - more.begin());
     double sum = 0, place = 0;
     for (int k = std::max(0, best - 1); k <= std::min(kSwings - 1, best + 1); ++k) {

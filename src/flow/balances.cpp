@@ -6,10 +6,10 @@
 namespace lilytank {
 namespace {
 
-constexpr double kDuration = 0.1;    // s, of a balance
-constexpr double kLongest = 0.3;     // s
-constexpr double kLeastKick = 1e-6;  // m^2/s^3
-constexpr double kNear = 0.15;       // m, farther balls are not looked at
+constexpr double kDuration = 0.1;         // s, of a balance
+constexpr double kLongestDuration = 0.3;  // s
+constexpr double kLeastKick = 1e-6;       // m^2/s^3
+constexpr double kNear = 0.15;            // m, farther balls are not looked at
 
 // A ball at the first frame of a balance, and where it is going.
 struct Place {
@@ -181,7 +181,7 @@ BalanceShape balance_shape(double rate, const TrackNoise& noise, double hold) {
   const double kick = std::max(noise.kick, kLeastKick);
   // Long enough that noise adds less than a fifth to the kicks.
   const double quiet = 5 * 4 * noise.variance / (kick * s.box() * s.box());
-  const double duration = std::clamp(quiet, kDuration, kLongest);
+  const double duration = std::clamp(quiet, kDuration, kLongestDuration);
   s.length = std::max(2 * s.half, static_cast<int>(std::lround(duration * rate)));
   s.gap = std::max(1, static_cast<int>(std::ceil(hold * rate - 1e-9)));
   return s;

@@ -5,8 +5,8 @@
 namespace lilytank {
 namespace {
 
-// Columns of a strictly lower triangle.
-struct Columns {
+// LowerTriangle of a strictly lower triangle.
+struct LowerTriangle {
   const int *start, *row;
   int begin(int j) const { return start[j]; }
   int end(int j) const { return start[j + 1]; }
@@ -25,7 +25,7 @@ SelectedInverse::SelectedInverse(const SparseFactor& factor) {
   place_ = factor.permutationP().indices();
   const int n = static_cast<int>(l.cols());
   diagonal_.assign(static_cast<std::size_t>(n), 0);
-  const Columns c{l.outerIndexPtr(), l.innerIndexPtr()};
+  const LowerTriangle c{l.outerIndexPtr(), l.innerIndexPtr()};
   const double* factor_value = l.valuePtr();
   double* z = lower_.valuePtr();
   std::vector<int> where(static_cast<std::size_t>(n), -1);

@@ -5,8 +5,8 @@
 namespace lilytank {
 namespace {
 
-constexpr double kLongest = 3;      // s
-constexpr double kUnrelated = 0.1;  // autocorrelation
+constexpr double kLongestInterval = 3;  // s
+constexpr double kUnrelated = 0.1;      // autocorrelation
 
 // The samples' differences from their cells' means.
 void centre(const FlowSamples& s, const std::vector<CellSamples>& cells, std::vector<float>& x,
@@ -27,7 +27,7 @@ void centre(const FlowSamples& s, const std::vector<CellSamples>& cells, std::ve
 double thinning_time(const FlowSamples& s, const std::vector<CellSamples>& cells) {
   std::vector<float> x, y;
   centre(s, cells, x, y);
-  const auto longest = static_cast<std::size_t>(kLongest * s.rate);
+  const auto longest = static_cast<std::size_t>(kLongestInterval * s.rate);
   const auto product = [&](std::size_t lag) {
     double sum = 0;
     std::int64_t pairs = 0;
@@ -44,7 +44,7 @@ double thinning_time(const FlowSamples& s, const std::vector<CellSamples>& cells
   for (std::size_t lag = 1; lag < longest; ++lag) {
     if (product(lag) < kUnrelated * variance) return static_cast<double>(lag) / s.rate;
   }
-  return kLongest;
+  return kLongestInterval;
 }
 
 void find_stays(const FlowSamples& s, double thinning, CellSamples& cell) {

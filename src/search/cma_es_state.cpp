@@ -10,9 +10,9 @@
 namespace lilytank {
 namespace {
 
-constexpr int kMostPopulation = 100'000, kMostEvaluations = 10'000;
+constexpr int kMostPopulation = 100'000, kMostEvaluationsEach = 10'000;
 constexpr std::int64_t kMostBudget = 1'000'000'000;
-constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+constexpr auto kMostWholeNumber = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostElites = 10;
 
 void check_whole(const std::string& name, std::int64_t value, std::int64_t low, std::int64_t high) {
@@ -26,8 +26,8 @@ void check_whole(const std::string& name, std::int64_t value, std::int64_t low, 
 void check_cma_es_options(const CmaEsOptions& o, const SearchSpace& space) {
   check_whole("budget", o.budget, 1, kMostBudget);
   if (o.population != 0) check_whole("population", o.population, 4, kMostPopulation);
-  check_whole("evaluations", o.evaluations, 1, kMostEvaluations);
-  check_whole("most evaluations", o.most_evaluations, o.evaluations, kMostEvaluations);
+  check_whole("evaluations", o.evaluations, 1, kMostEvaluationsEach);
+  check_whole("most evaluations", o.most_evaluations, o.evaluations, kMostEvaluationsEach);
   if (o.final_evaluations != 0) {
     check_whole("final evaluations", o.final_evaluations, 4, o.budget);
   }
@@ -56,9 +56,9 @@ CmaEsOptions load_cma_es_options(StateReader& in, const SearchSpace& space) {
   o.population = static_cast<int>(in.whole("population", 0, kMostPopulation));
   o.sigma = in.number("first_sigma");
   o.start = in.numbers("start");
-  o.evaluations = static_cast<int>(in.whole("evaluations", 1, kMostEvaluations));
+  o.evaluations = static_cast<int>(in.whole("evaluations", 1, kMostEvaluationsEach));
   o.handle_uncertainty = in.whole("uncertainty", 0, 1) == 1;
-  o.most_evaluations = static_cast<int>(in.whole("most", 1, kMostEvaluations));
+  o.most_evaluations = static_cast<int>(in.whole("most", 1, kMostEvaluationsEach));
   o.final_evaluations = static_cast<int>(in.whole("final", 0, o.budget));
   o.common_random_numbers = in.whole("common", 0, 1) == 1;
   check_cma_es_options(o, space);
@@ -88,11 +88,11 @@ std::string CmaEs::save() const {
 
 CmaEs::CmaEs(StateReader& in)
     : space_(load_space(in)), options_(load_cma_es_options(in, space_)), seed_(0) {
-  seed_ = static_cast<std::uint64_t>(in.whole("seed", -kMost - 1, kMost));
+  seed_ = static_cast<std::uint64_t>(in.whole("seed", -kMostWholeNumber - 1, kMostWholeNumber));
   distribution_ = CmaDistribution(in, static_cast<int>(space_.size()), kMostPopulation);
-  generation_ = in.whole("generation", 0, kMost);
+  generation_ = in.whole("generation", 0, kMostWholeNumber);
   each_ = in.number("each");
-  if (!(each_ >= 1 && each_ <= kMostEvaluations)) in.refuse("no number of evaluations");
+  if (!(each_ >= 1 && each_ <= kMostEvaluationsEach)) in.refuse("no number of evaluations");
   told_ = in.whole("told", 0, options_.budget);
   asked_ = in.whole("asked", 0, 1) == 1;
   lows_ = in.numbers("lows");

@@ -8,14 +8,14 @@
 namespace lilytank {
 namespace {
 
-constexpr int kFirst = 2;   ///< evaluations of each candidate before any is preferred
-constexpr int kMost = 10;   ///< candidates
-constexpr int kStages = 8;  ///< after the first evaluations
+constexpr int kFirst = 2;            ///< evaluations of each candidate before any is preferred
+constexpr int kMostCandidates = 10;  ///< candidates
+constexpr int kStages = 8;           ///< after the first evaluations
 
 }  // namespace
 
 int selection_size(int evaluations) {
-  return std::clamp(evaluations / (2 * kFirst), 1, kMost);
+  return std::clamp(evaluations / (2 * kFirst), 1, kMostCandidates);
 }
 
 Selection::Selection(std::vector<UnitPoint> points, int evaluations, std::int64_t first_replicate)
@@ -101,7 +101,7 @@ void Selection::save(StateWriter& out) const {
 }
 
 Selection::Selection(StateReader& in, std::size_t axes) {
-  points_.resize(static_cast<std::size_t>(in.whole("candidates", 0, kMost)));
+  points_.resize(static_cast<std::size_t>(in.whole("candidates", 0, kMostCandidates)));
   if (!begun()) return;
   const auto counts = in.wholes("selection");
   if (counts.size() != 4) in.refuse("four whole numbers were expected");

@@ -9,7 +9,7 @@
 namespace lilytank {
 namespace {
 
-constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+constexpr auto kMostWhole = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
@@ -39,10 +39,10 @@ std::string Swarm::save() const {
 
 Swarm::Swarm(StateReader& in)
     : space_(load_space(in)), options_(load_swarm_options(in, space_)), seed_(0) {
-  seed_ = static_cast<std::uint64_t>(in.whole("seed", -kMost - 1, kMost));
+  seed_ = static_cast<std::uint64_t>(in.whole("seed", -kMostWhole - 1, kMostWhole));
   iteration_ = static_cast<int>(in.whole("iteration", 0, options_.iterations));
   spent_ = static_cast<int>(in.whole("spent", 0, iteration_budget()));
-  stage_ = static_cast<int>(in.whole("stage", 0, kMost >> 32));
+  stage_ = static_cast<int>(in.whole("stage", 0, kMostWhole >> 32));
   evaluations_ = in.whole("told", 0, budget());
   particles_.resize(static_cast<std::size_t>(options_.particles));
   for (Particle& p : particles_) {

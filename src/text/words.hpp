@@ -56,4 +56,10 @@ std::string joined(const List& list, std::string_view between, Text&& text = {})
   return out;
 }
 
+/// A text with spaces up to a width.
+inline std::string padded(std::string text, std::size_t width) {
+  if (text.size() < width) text.resize(width, ' ');
+  return text;
+}
+
 }  // namespace lilytank

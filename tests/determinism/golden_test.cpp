@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lilytank/random.hpp"
-#include "lilytank/study.hpp"
+#include "lilytank/world.hpp"
 #include "math/bulk_exp.hpp"
 #include "support/scenes.hpp"
 
@@ -85,18 +85,6 @@ TEST(Determinism, EveryInstructionSetGivesTheSameExponentials) {
     bulk_exp(x.data(), static_cast<int>(x.size()), out.data());
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(out[i], exp_portable(x[i])) << set;
   });
-}
-
-TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
-  const Model model = test::chain_scene(Clock::firmware);
-  std::vector<std::string> alone(12);
-  for (int i = 0; i < 12; ++i) alone[i] = final_hash(model, derived_seed(1, i), 10);
-  for (const int threads : {1, 2, 3, 5, 8}) {
-    std::vector<std::string> together(12);
-    for_each_world(12, threads,
-                   [&](int i) { together[i] = final_hash(model, derived_seed(1, i), 10); });
-    EXPECT_EQ(together, alone) << threads << " threads";
-  }
 }
 
 TEST(Determinism, SavingAndLoadingInTheMiddleChangesNothing) {

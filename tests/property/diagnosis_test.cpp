@@ -11,7 +11,7 @@
 namespace lilytank {
 namespace {
 
-constexpr int kModules = 6, kFrames = 30 * 30 + 1;
+constexpr int kModules = 6, kFrames = 30 * 30 + 1, kFewFrames = 12 * 30 + 1;
 
 Model small_tank() {
   Model model = standard_model();
@@ -21,9 +21,10 @@ Model small_tank() {
 }
 
 // `tilt`: rad, how far the camera leans towards +x.
-std::vector<Recording> filmed(const Model& model, std::uint64_t seed, double tilt = 0) {
+std::vector<Recording> filmed(const Model& model, std::uint64_t seed, double tilt = 0,
+                              int frames = kFrames) {
   RecordingShape shape;
-  shape.name = "simulated", shape.bodies = kModules, shape.frames = kFrames;
+  shape.name = "simulated", shape.bodies = kModules, shape.frames = frames;
   EmulatorOptions options;
   options.moment_matched = false;
   const std::vector<double> values{tilt};
@@ -59,15 +60,43 @@ double removed_beyond_one(const Diagnosis& d) {
   return 1 - after / before;
 }
 
-// One test: nulls and fingerprints of the tank take most of the time and serve every question.
-TEST(SmallTank, IsDiagnosed) {
+Experiment small_experiment(int frames) {
   Experiment experiment;
   experiment.name = "small";
   experiment.base.model = small_tank();
-  experiment.recordings = filmed(small_tank(), 11);
+  experiment.recordings = filmed(small_tank(), 11, 0, frames);
+  return experiment;
+}
+
+DiagnosisOptions least_budget() {
   DiagnosisOptions options;
   options.hold_out = 0, options.minutes = 1;
-  Diagnoser diagnoser(experiment, options);
+  return options;
+}
+
+// Strong effects in short recordings: a complete model, a force and a camera get the right
+// verdicts.
+TEST(SmallTank, StrongEffectsInShortRecordings) {
+  Diagnoser diagnoser(small_experiment(kFewFrames), least_budget());
+  diagnoser.prepare();
+  const auto of = [&](const Model& model, std::uint64_t seed, double tilt) {
+    Diagnosis out;
+    diagnoser.judge(filmed(model, seed, tilt, kFewFrames), out);
+    return out;
+  };
+  const Diagnosis complete = of(small_tank(), 21, 0);
+  EXPECT_EQ(complete.verdict, Verdict::complete) << diagnosis_text(complete);
+  const Diagnosis torque = of(with("forces.spin_torque.torque", 2e-4), 31, 0);
+  ASSERT_EQ(torque.verdict, Verdict::missing) << diagnosis_text(torque);
+  EXPECT_EQ(torque.findings.front().effect, "spin_torque") << diagnosis_text(torque);
+  const Diagnosis camera = of(small_tank(), 61, 0.1);
+  ASSERT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);
+  EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
+}
+
+// One test: nulls and fingerprints of the tank take most of the time and serve every question.
+TEST(LongSmallTank, IsDiagnosed) {
+  Diagnoser diagnoser(small_experiment(kFrames), least_budget());
   diagnoser.prepare();
   const auto of = [&](const Model& model, std::uint64_t seed) {
     Diagnosis out;

@@ -75,12 +75,20 @@ void report(const Bodies& b, double deepest) {
   testing::Test::RecordProperty("moves_undone", static_cast<int>(b.tallies.moves_undone));
 }
 
-TEST(PackedTank, AMillionStepsOfASmallTank) {
+void small_tank(int steps) {
   Bodies b(bare_model(12, 0.09));
   lay(b, lattice(0.09, 0.036));
-  const double deepest = endure(b, {0.01, 0.3, 0.005}, 1000000 / kLess);
+  const double deepest = endure(b, {0.01, 0.3, 0.005}, steps);
   report(b, deepest);
   EXPECT_LT(deepest, kOverlapLimit);
+}
+
+TEST(PackedTank, AHundredThousandStepsOfASmallTank) {
+  small_tank(100'000 / kLess);
+}
+
+TEST(LongPackedTank, AMillionStepsOfASmallTank) {
+  small_tank(1'000'000 / kLess);
 }
 
 TEST(PackedTank, StrongKicksOfASmallTank) {
@@ -90,12 +98,20 @@ TEST(PackedTank, StrongKicksOfASmallTank) {
 }
 
 // As many as lie on a lattice with 1 mm between them, kicked at random and pushed to one side,
-// which goes round the tank one and a half times.
-TEST(PackedTank, AFullTank) {
+// which goes round the tank one and a half times in 5000 steps.
+void full_tank(int steps) {
   const std::vector<Vec2> points = lattice(0.3, 0.036);
   Bodies b(bare_model(static_cast<int>(points.size())));
   lay(b, points);
-  report(b, endure(b, {0.01, 0.3, 0.01}, 5000 / kLess));
+  report(b, endure(b, {0.01, 0.3, 0.01}, steps));
+}
+
+TEST(PackedTank, AFullTank) {
+  full_tank(1000 / kLess);
+}
+
+TEST(LongPackedTank, AFullTank) {
+  full_tank(5000 / kLess);
 }
 
 // A thinner tank, whose pushed heap comes to lie at all angles.

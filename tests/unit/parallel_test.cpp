@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "support/scenes.hpp"
 
 namespace lilytank {
 namespace {
@@ -43,6 +45,23 @@ TEST(ForEachWorld, ThrowsAFailureOnceTheOthersHaveEnded) {
     }
     EXPECT_EQ(begun, ended);
     EXPECT_LE(begun, threads == 1 ? 4 : 1000) << "nothing is begun after a failure";
+  }
+}
+
+TEST(ForEachWorld, AnyNumberOfThreadsGivesTheSameBits) {
+  const Model model = test::chain_scene(Clock::firmware);
+  const auto final_hash = [&](int i) {
+    World world(model, derived_seed(1, static_cast<std::uint64_t>(i)));
+    test::advance(world, 10);
+    return hex(fingerprint(world.state()));
+  };
+  std::vector<std::string> alone(12);
+  for (int i = 0; i < 12; ++i) alone[static_cast<std::size_t>(i)] = final_hash(i);
+  for (const int threads : {1, 2, 3, 5, 8}) {
+    std::vector<std::string> together(12);
+    for_each_world(12, threads,
+                   [&](int i) { together[static_cast<std::size_t>(i)] = final_hash(i); });
+    EXPECT_EQ(together, alone) << threads << " threads";
   }
 }
 
