@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // A mark of our temporary files: the sticky bit has no effect on a file and nobody else sets it.
 constexpr mode_t kOurs = S_ISVTX;
-constexpr int kSwept = 8;        // names that are always looked at for leftovers
+constexpr int kSwept = 8;          // names that are always looked at for leftovers
 constexpr int kMostNames = 10000;  // temporary files of one target at a time
 
 std::string hashed(const std::string& text) {
@@ -52,8 +52,7 @@ bool has_name(int descriptor, const std::string& name) {
 /// lock that its process would hold is free. Anything else of that name stays. Whoever holds the
 /// lock is alone in renaming or removing the file.
 bool remove_leftover(const std::string& name) {
-  const int opened =
-      ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const int opened = ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (opened < 0) return false;
   struct stat there {};
   const bool ours = ::fstat(opened, &there) == 0 && S_ISREG(there.st_mode) &&

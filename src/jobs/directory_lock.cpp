@@ -5,10 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
-#include <system_error>
 
-#include "lilytank/error.hpp"
+#include "io/atomic_file.hpp"
 
 namespace lilytank {
 
@@ -17,13 +15,16 @@ DirectoryLock::~DirectoryLock() {
 }
 
 void DirectoryLock::take(const std::string& dir) {
-  std::error_code problem;
-  std::filesystem::create_directories(dir, problem);
-  if (problem) throw InputError("cannot make directory '" + dir + "': " + problem.message());
-  descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-  // A file system without locks is no reason to stop.
-  if (errno == EWOULDBLOCK) throw InputError("another process is at work in '" + dir + "'");
+  if (!try_take(dir, false)) throw InputError("another process is at work in '" + dir + "'");
+}
+
+bool DirectoryLock::try_take(const std::string& dir, bool shared) {
+  if (descriptor_ < 0) {
+    make_directory(dir);
+    descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  }
+  if (descriptor_ < 0) return true;
+  return ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 }  // namespace lilytank

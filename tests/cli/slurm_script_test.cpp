@@ -1,5 +1,5 @@
-// Scripts for Slurm, run with programs in Slurm's place: whatever things are called, no name becomes a
-// command or a directive, and the study gets its arguments byte by byte.
+// Scripts for Slurm, run with programs in Slurm's place: whatever things are called, no name
+// becomes a command or a directive, and the study gets its arguments byte by byte.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -113,7 +113,9 @@ TEST_F(SlurmScript, NamesAreArgumentsAndNothingElse) {
                                         (name.starts_with('-') ? "./" : "") + name, "--set", set,
                                         "--threads", "2"}))
         << text;
-    EXPECT_EQ(here().read("requeued"), std::string("requeue\0" "17\0", 11));
+    EXPECT_EQ(here().read("requeued"), std::string("requeue\0"
+                                                   "17\0",
+                                                   11));
   }
 }
 

@@ -1,4 +1,5 @@
-// Nothing but the named file changes: no neighbour, no input, nothing behind a link, whatever its name.
+// Nothing but the named file changes: no neighbour, no input, nothing behind a link, whatever its
+// name.
 #include "io/temporary_file.hpp"
 
 #include <fcntl.h>
@@ -26,8 +27,8 @@ class TemporaryFiles : public testing::Test {
     std::map<std::string, std::string> found;
     for (const auto& entry : fs::directory_iterator(here_.path())) {
       const std::string name = entry.path().filename().string();
-      found[name] = entry.is_symlink() ? "-> " + fs::read_symlink(entry.path()).string()
-                                       : here_.read(name);
+      found[name] =
+          entry.is_symlink() ? "-> " + fs::read_symlink(entry.path()).string() : here_.read(name);
     }
     return found;
   }
