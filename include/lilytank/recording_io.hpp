@@ -138,6 +138,7 @@ struct CheckedRecording {
   std::vector<std::string> files;
   std::int64_t rows = 0;  ///< sightings in the files
   RowCounts counts;
+  std::int64_t identities = 0;     ///< bodies that the files name; 0 where they name none
   std::int64_t comment_lines = 0;  ///< passed over below the names
   std::int64_t frame_step = 1;  ///< common step of the frame numbers, which the rate is divided by
   std::string times;            ///< how times were read, where that was a guess; or ""

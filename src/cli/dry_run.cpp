@@ -18,7 +18,7 @@ void check_directory_can_be(const std::string& dir) {
   fs::path above = fs::absolute(dir, ignored);
   while (above.has_relative_path() && !fs::exists(above, ignored)) above = above.parent_path();
   if (fs::is_directory(above, ignored)) return;
-  throw InputError(system_problem("cannot make directory", dir, ENOTDIR));
+  throw InputError(system_problem("cannot make", dir, ENOTDIR));
 }
 
 void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force) {

@@ -126,8 +126,17 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
               << counted(static_cast<std::size_t>(checked.comment_lines), "comment line")
               << " passed over\n";
   }
-  if (!checked.refused()) print_tracks(checked, named.options);
+  if (!checked.refused()) {
+    print_tracks(checked, named.options);
+  } else if (checked.identities > 0) {
+    std::cout << "  bodies    " << checked.identities << "\n";
+  }
   std::cout << "  findings  " << findings_line(checked.findings) << "\n";
+  for (const Finding& finding : checked.findings) {
+    if (finding.treatment != Treatment::refuse) continue;
+    std::cout << "  refused   " << finding.text() << "\n";
+    break;
+  }
 }
 
 std::string csv_row(const Finding& f) {

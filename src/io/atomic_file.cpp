@@ -102,7 +102,7 @@ bool create_atomically(const std::string& file, std::string_view content) {
 void make_directory(const std::string& dir) {
   std::error_code problem;
   std::filesystem::create_directories(dir, problem);
-  if (problem) throw InputError(system_problem("cannot make directory", dir, problem.value()));
+  if (problem) throw InputError(system_problem("cannot make", dir, problem.value()));
 }
 
 std::vector<std::string> write_files(const std::string& dir, const NamedContents& files) {

@@ -60,7 +60,7 @@ void CsvReader::check_row(std::string_view row) const {
   if (checksum(cells) == cells_.back()) return;
   throw InputError({file_, line_, 1},
                    "the row was changed since it was written (its checksum does not fit); remove "
-                   "the row to have it computed again");
+                   "the row to have it computed again, or begin again with --force");
 }
 
 double CsvReader::number(std::size_t column) const {

@@ -7,6 +7,7 @@
 #include <cerrno>
 
 #include "io/atomic_file.hpp"
+#include "lilytank/error.hpp"
 
 namespace lilytank {
 
@@ -24,6 +25,7 @@ bool DirectoryLock::try_take(const std::string& dir, bool shared) {
     descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   }
   if (descriptor_ < 0) return true;
+  // A file system without locks is no reason to stop.
   return ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 

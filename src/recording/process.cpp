@@ -21,6 +21,13 @@ bool one_body(const Sightings& s) {
   });
 }
 
+std::int64_t identities_in(const Sightings& s) {
+  if (!s.identities) return one_body(s) ? 1 : 0;
+  std::unordered_set<std::int64_t> ids;
+  for (const Sighting& row : s.rows) ids.insert(row.id);
+  return static_cast<std::int64_t>(ids.size());
+}
+
 /// Columns that are not used but may matter, and ids that number rows instead of bodies.
 void check_columns(const Sightings& s, Report& report) {
   for (const std::string& hint : s.hints) {
@@ -151,6 +158,7 @@ CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
   out.rows = static_cast<std::int64_t>(sightings.rows.size());
   out.unused_columns = sightings.unused;
   out.counts = sightings.counts;
+  out.identities = identities_in(sightings);
   out.comment_lines = sightings.comment_lines;
   out.names = sightings.names;
   Report report(options.rules);

@@ -195,7 +195,12 @@ void SearchStore::checkpoint(const Search& search) {
 }
 
 void SearchStore::finish(const Search& search) {
-  if (finished_) return;
+  if (finished_) {  // what is missing or was changed is written again
+    const std::string history = history_text(search);
+    const std::string file = path(search_file::history);
+    if (!exists(file) || read_whole(file) != history) write_atomically(file, history);
+    return;
+  }
   log_->flush();
   std::string text = header_of(axes_) + "\n";
   for (const auto& [key, row] : rows_) text += with_checksum(row) + "\n";

@@ -92,14 +92,14 @@ TEST_F(SlurmScript, NamesAreArgumentsAndNothingElse) {
   const auto usual = directives(script({"plain.toml"}));
   EXPECT_EQ(usual.size(), 9u);
   for (const std::string& name : kHostile) {
-    const std::string file = name + ".toml";
+    const std::string file = name + ".toml", out = "out/" + name;
     std::string escaped;
     for (const char c : name) {
       char code[16];
       std::snprintf(code, sizeof code, "\\u%04x", unsigned{static_cast<unsigned char>(c)});
       escaped += static_cast<unsigned char>(c) < 0x80 ? code : std::string(1, c);
     }
-    here().write(file, here().read("plain.toml"));
+    here().write(file, "[study]\nname = \"n\"\nscenario = \"pair.toml\"\nreplicates = 2\n");
     const std::string path = name.starts_with('-') ? "./" + file : file;
     const std::string set = "title=\"" + escaped + "\"";
     const std::string text = script({path, "--out=" + name, "--set", set});
@@ -129,7 +129,7 @@ TEST_F(SlurmScript, TheMergeIsOfTheDirectoryNamed) {
     std::istringstream in(slurm_script(job));
     std::string merge;
     for (std::string line; std::getline(in, line);) {
-      if (line.starts_with("#   sbatch ")) merge = line.substr(1);
+      if (line.find("--job-name=merge --wrap ") != std::string::npos) merge = line.substr(1);
     }
     std::filesystem::remove(here().path("arguments"));
     run("job=1\n" + merge + "\n");
