@@ -19,7 +19,7 @@ run_tests() {  # <tree> [ctest option...]
 configure build-debug -DCMAKE_BUILD_TYPE=Debug -DLILYTANK_SIMD=OFF -DLILYTANK_RENDER=OFF -DLILYTANK_BENCH=OFF \
                       -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
 cmake --build build-debug --target unit_tests analytic_tests determinism_tests
-run_tests build-debug --exclude-regex '_NOT_BUILT$' --label-exclude '^(tree|slurm)$'
+run_tests build-debug --exclude-regex '_NOT_BUILT$' --label-exclude '^(tree|slurm|program)$'
 
 configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH=ON \
                 -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
