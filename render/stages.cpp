@@ -144,8 +144,8 @@ void draw_key(const Canvas& canvas, double x, double y) {
 
 }  // namespace
 
-void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
-                 const std::string& file) {
+std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
+                           const std::string& title, const std::string& file) {
   constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
   const PictureFormat format = format_of(file, kFormats);
   const Canvas ruler = Canvas::raster(8, 8);
@@ -174,7 +174,12 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
                  false);
   }
   draw_key(canvas, kPageMargin, height - kPageMargin);
-  write_atomically(file, canvas.encoded());
+  return std::string(canvas.encoded());
+}
+
+void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
+                 const std::string& file) {
+  write_atomically(file, stages_picture(target, stages, title, file));
 }
 
 }  // namespace lilytank

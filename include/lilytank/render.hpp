@@ -172,6 +172,9 @@ void report_flow(const FlowReport& report, const std::string& dir);
 /// .pdf by the ending. Throws InputError if it cannot be written.
 void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
                  const std::string& file);
+/// The bytes that draw_stages() writes to `file`.
+std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
+                           const std::string& title, const std::string& file);
 
 /// How a search came along: the best point's mean so far and the median of each iteration's new
 /// points, over evaluations [paper, Figs. 10 (a) and 12 (a)]. `selected`: the last record is that

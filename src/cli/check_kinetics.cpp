@@ -345,10 +345,12 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
     report.text += table_text(counted->table) + kinetics_text(input.rules, kinetics) +
                    run_model(options, input, kinetics, *counted, dir);
   }
+  NamedContents exports;
   for (const auto& [name, text] : {std::pair("kappa", &to_kappa), std::pair("bngl", &to_bngl)})
     if (options.has(name))
-      write_atomically(options.text(name),
-                       text(input.rules, face_rate, evaluation_rate, input.modules));
+      exports.emplace_back(options.text(name),
+                           text(input.rules, face_rate, evaluation_rate, input.modules));
+  write_together(exports);
   return report;
 }
 

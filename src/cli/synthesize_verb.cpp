@@ -66,11 +66,10 @@ std::string file_text(const Plan& plan, const Ruleset& rules, const std::vector<
   return text.substr(0, first) + comments + text.substr(first);
 }
 
-void draw(const VerbOptions& options, [[maybe_unused]] const Target& target,
-          [[maybe_unused]] const Plan& plan) {
-  if (!options.has("figure")) return;
+std::string picture(const VerbOptions& options, [[maybe_unused]] const Target& target,
+                    [[maybe_unused]] const Plan& plan) {
 #ifdef LILYTANK_HAS_RENDER
-  draw_stages(target, stages_of(target, plan), target.name, options.text("figure"));
+  return stages_picture(target, stages_of(target, plan), target.name, options.text("figure"));
 #else
   options.refuse("--figure: this program was built without the renderer (Cairo was not found)");
 #endif
@@ -166,11 +165,12 @@ int synthesize_verb(const Arguments& arguments) {
   const Ruleset rules = emit(target, plan, emitting);
   const std::vector<Note> notes = notes_on(target, plan, rules, modules);
   const std::string text = file_text(plan, rules, notes);
-  draw(options, target, plan);
-  if (options.has("out"))
-    write_atomically(options.text("out"), text);
-  else
-    std::cout << text << std::flush;
+  NamedContents files;
+  if (options.has("out")) files.emplace_back(options.text("out"), text);
+  if (options.has("figure"))
+    files.emplace_back(options.text("figure"), picture(options, target, plan));
+  write_together(files);
+  if (!options.has("out")) std::cout << text << std::flush;
   for (const Note& note : notes)
     std::cerr << (note.warning ? "warning: " : "note: ") << note.text << "\n";
   return Exit::done;

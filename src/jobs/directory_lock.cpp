@@ -16,11 +16,17 @@ DirectoryLock::~DirectoryLock() {
 }
 
 void DirectoryLock::take(const std::string& dir) {
-  make_directory(dir);
-  descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+  if (!try_take(dir, false)) throw InputError("another process is at work in '" + dir + "'");
+}
+
+bool DirectoryLock::try_take(const std::string& dir, bool shared) {
+  if (descriptor_ < 0) {
+    make_directory(dir);
+    descriptor_ = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  }
+  if (descriptor_ < 0) return true;
   // A file system without locks is no reason to stop.
-  if (errno == EWOULDBLOCK) throw InputError("another process is at work in '" + dir + "'");
+  return ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-// One process at a time in a directory of results.
+// One process at a time in a directory of results, or several that do the same work.
 #pragma once
 #include <string>
 
@@ -15,6 +15,10 @@ class DirectoryLock {
   /// Makes the directory if absent and takes it. Throws InputError if it cannot be made or another
   /// process is at work there.
   void take(const std::string& dir);
+  /// Makes the directory if absent and takes it, `shared` with others that share it, or alone; also
+  /// changes the one into the other. False if another process is at work there. Throws InputError
+  /// if the directory cannot be made. A file system without locks is taken for free.
+  bool try_take(const std::string& dir, bool shared);
 
  private:
   int descriptor_ = -1;

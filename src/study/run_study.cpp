@@ -76,7 +76,7 @@ class Job {
         meter_(*plan_, options) {}
 
   StudyResult run() {
-    open_study_directory(options_->out, *plan_, options_->force);
+    open_study_directory(options_->out, *plan_, options_->force, lock_);
     read();
     if (options_->begin) options_->begin(static_cast<int>(missing_here().size()));
     for (;;) {
@@ -139,6 +139,7 @@ class Job {
   std::uint64_t identity_;
   Ledger ledger_;
   std::mutex ledger_lock_;
+  DirectoryLock lock_;
   RowWriter writer_;
   Meter meter_;
 };

@@ -89,16 +89,31 @@ void refuse_other(const std::string& dir, const StudyPlan& plan) {
   if (!there) refuse_foreign(dir, files_that(dir, is_made), "study");
 }
 
-/// Removes what is not of this study. Shards may do so at once: files of `plan` are spared.
-void remove_other(const std::string& dir, const StudyPlan& plan) {
-  std::error_code ignored;
-  bool ours = false;
+/// Whether the plan in a directory is this study's; false if it is of an older version, or damaged.
+bool is_plan_of(const std::string& dir, const StudyPlan& plan) {
   try {
     const auto there = plan_in(dir);
-    ours = there && there->identity() == plan.identity();
+    return there && there->identity() == plan.identity();
   } catch (const InputError&) {
-    // Of an older version, or damaged.
+    return false;
   }
+}
+
+/// Whether all rows in a directory are this study's, too.
+bool is_of(const std::string& dir, const StudyPlan& plan) {
+  try {
+    std::string foreign;
+    read_rows(dir, plan, foreign);
+    return foreign.empty() && is_plan_of(dir, plan);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Removes what is not of this study: files of `plan` are spared.
+void remove_other(const std::string& dir, const StudyPlan& plan) {
+  std::error_code ignored;
+  const bool ours = is_plan_of(dir, plan);
   for (const std::string& file : rows_files(dir)) {
     bool foreign = false;
     try {
@@ -203,16 +218,25 @@ void check_study_directory(const std::string& dir, const StudyPlan& plan, bool f
   if (!force) refuse_other(dir, plan);
 }
 
-void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
-  check_study_directory(dir, plan, force);
-  if (force) remove_other(dir, plan);
-  make_directory(dir);
+void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force,
+                          DirectoryLock& lock) {
+  constexpr int kMostLooks = 200;  // within 2 s: others hold the directory alone only briefly
+  for (int look = 1;; ++look) {
+    check_study_directory(dir, plan, force);
+    const bool replaced = force && !is_of(dir, plan);
+    if (lock.try_take(dir, !replaced)) break;
+    if (look == kMostLooks) throw InputError("another process is at work in '" + dir + "'");
+    ::usleep(10'000);
+  }
+  check_study_directory(dir, plan, force);  // now that nobody can begin another job here
   const std::string file = file_in(dir, study_file::plan), text = plan_text(plan);
-  if (create_atomically(file, text)) return;
-  // It was there, or another process has begun a study here since the check: of two that begin at
-  // once one creates the plan, and the other one finds it.
-  check_study_directory(dir, plan, false);
-  if (read_whole(file) != text) write_atomically(file, text);
+  if (force && !is_of(dir, plan)) remove_other(dir, plan);
+  if (!create_atomically(file, text)) {
+    // Of two studies that begin at once one creates the plan, and the other one finds it.
+    check_study_directory(dir, plan, false);
+    if (read_whole(file) != text) write_atomically(file, text);
+  }
+  if (!lock.try_take(dir, true)) throw InputError("another process is at work in '" + dir + "'");
 }
 
 // Rows of all threads that wait for the disk go there together.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/append_file.hpp"
+#include "jobs/directory_lock.hpp"
 #include "lilytank/study.hpp"
 
 namespace lilytank {
@@ -48,9 +49,11 @@ std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std
 /// names of results that are nobody's.
 void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
 
-/// Makes the directory and says whose it is. Throws InputError as check_study_directory() does;
-/// with `force` results that are not this study's are removed.
-void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force);
+/// Makes the directory and stores the plan in it. The lock is shared by all processes of this study
+/// and keeps out other jobs, `force` included. Throws InputError as check_study_directory() does,
+/// and if another job is at work there; with `force` results that are not this study's are removed.
+void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force,
+                          DirectoryLock& lock);
 
 /// Writes rows as they come, from any thread.
 class RowWriter {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "cli/process.hpp"
 #include "cli/program.hpp"
@@ -245,6 +246,46 @@ TEST_F(StudyVerbTest, DivergedWorldsAreRowsAndTheExitCodeSaysSo) {
   EXPECT_EQ(again.code, 1);
   EXPECT_EQ(again.out, first.out);
   EXPECT_EQ(rows("a"), 24u);
+}
+
+// LILYTANK_MANY_STARTS=200 for a long test.
+TEST_F(StudyVerbTest, AnyNumberOfProcessesDoOneStudy) {
+  const std::string whole = undisturbed("study.toml");
+  const char* many = std::getenv("LILYTANK_MANY_STARTS");
+  std::vector<std::unique_ptr<Process>> processes;
+  for (int k = 0; k < (many == nullptr ? 12 : std::atoi(many)); ++k) {
+    processes.push_back(std::make_unique<Process>(
+        lilytank_.here.path(),
+        std::vector<std::string>{"study", "study.toml", "--out", "a", "--quiet", "--threads", "1"},
+        lilytank_.here.path("says-" + std::to_string(k))));
+  }
+  for (std::size_t k = 0; k < processes.size(); ++k) {
+    processes[k]->await([] { return false; });
+    EXPECT_EQ(processes[k]->end(0), 0) << lilytank_.here.read("says-" + std::to_string(k));
+  }
+  EXPECT_EQ(table("a"), whole);
+  for (const std::string& name : lilytank_.names("a")) EXPECT_FALSE(name.starts_with(".")) << name;
+}
+
+TEST_F(StudyVerbTest, OfDifferentStudiesBegunTogetherOneOwnsTheDirectory) {
+  lilytank_.here.write("other.toml", head("other") + "replicates = 2\n");
+  for (int k = 0; k < 6; ++k) {
+    const std::string out = "d" + std::to_string(k), force = k % 2 == 0 ? "--quiet" : "--force";
+    const auto words = [&](const std::string& study) {
+      return std::vector<std::string>{"study", study, "--out", out, "--threads", "1", force};
+    };
+    Process first(lilytank_.here.path(), words("study.toml"), lilytank_.here.path(out + "-1"));
+    Process second(lilytank_.here.path(), words("other.toml"), lilytank_.here.path(out + "-2"));
+    first.await([] { return false; }), second.await([] { return false; });
+    const int codes[] = {first.end(0), second.end(0)};
+    const std::string says = lilytank_.here.read(out + "-1") + lilytank_.here.read(out + "-2");
+    // With --force the later one may come when the earlier one is done.
+    if (k % 2 == 0) {
+      EXPECT_EQ(codes[0] + codes[1], 2) << says;
+    }
+    EXPECT_TRUE(codes[0] == 0 || codes[1] == 0) << says;
+    EXPECT_EQ(lilytank_("study status " + out).code, 0) << says;
+  }
 }
 
 TEST_F(StudyVerbTest, SlurmScriptsAreReady) {
