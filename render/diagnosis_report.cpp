@@ -162,7 +162,7 @@ std::string fit_caption(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<std::string> draw_diagnosis(const Diagnosis& d, const std::string& text,
+std::vector<std::string> draw_diagnosis(const Diagnosis& d, const Report& report,
                                         const std::string& dir) {
   std::vector<ReportFigure> figures;
   if (const PlotPage page = laws_page(d); !page.plots.empty()) {
@@ -180,7 +180,7 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& d, const std::string& t
                        "hardly tell are left out.",
                        maps_page(d)});
   }
-  return write_html_report("Diagnosis of " + d.name, figures, text, dir);
+  return write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

@@ -4,19 +4,22 @@
 #include <vector>
 
 #include "lilytank/render.hpp"
+#include "lilytank/report.hpp"
 
 namespace lilytank {
 
+/// A plot of a report.
 struct ReportFigure {
   std::string name;     ///< of its files, without ending
   std::string caption;  ///< what a reader sees in it
   PlotPage page;
 };
 
-/// Draws the figures in a directory, each as .png and .svg, and report.html, one file with all of
-/// them and `text`. Returns the files' names. Throws InputError if they cannot be written.
-std::vector<std::string> write_html_report(const std::string& title,
+/// Draws the figures in a directory, each as .png and .svg, and writes report.html, one file with
+/// the report and all of them. Returns the files' names. Throws InputError if they cannot be
+/// written.
+std::vector<std::string> write_html_report(const Report& report,
                                            const std::vector<ReportFigure>& figures,
-                                           const std::string& text, const std::string& dir);
+                                           const std::string& dir);
 
 }  // namespace lilytank

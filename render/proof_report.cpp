@@ -160,7 +160,7 @@ std::string outcomes_caption(const ProofFigures& of) {
 
 }  // namespace
 
-std::vector<std::string> draw_proof(const ProofFigures& of, const std::string& text,
+std::vector<std::string> draw_proof(const ProofFigures& of, const Report& report,
                                     const std::string& dir) {
   std::vector<ReportFigure> figures;
   if (!of.points.empty()) {
@@ -173,7 +173,7 @@ std::vector<std::string> draw_proof(const ProofFigures& of, const std::string& t
                        "interval, as a normal law with it has.",
                        {{errors_plot(of)}, 1, ""}});
   }
-  return write_html_report("Proof on sealed experiments", figures, text, dir);
+  return write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

@@ -47,6 +47,7 @@ struct BodyExperiment {
   std::vector<BaselineLaw> baseline;
   std::vector<std::string> drivers;
   std::vector<BodyRun> runs;
+  std::vector<std::string> files;     ///< of the tables
   std::vector<std::string> left_out;  ///< what of the tables is too short to be a run, a line each
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lilytank/experiment.hpp"
+#include "lilytank/report.hpp"
 
 namespace lilytank {
 
@@ -126,11 +127,15 @@ struct Diagnosis {
 /// it was stopped. Throws InputError.
 std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisOptions& options);
 
-/// The report as text; diagnosis.json (schema diagnosis/1); the files of a directory: the two,
-/// missing.toml, flow.csv, report.html, maps.csv, ranking.csv. Returns the files' names.
+/// The report, without its provenance.
+Report diagnosis_report(const Diagnosis& diagnosis);
 std::string diagnosis_text(const Diagnosis& diagnosis);
+/// diagnosis.json (schema diagnosis/1).
 std::string diagnosis_json(const Diagnosis& diagnosis);
-std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const std::string& dir);
+/// Writes diagnosis.txt (the report), diagnosis.json, and where they are known missing.toml,
+/// flow.csv, maps.csv, ranking.csv and fit.csv. Returns the files' names. Throws InputError.
+std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const Report& report,
+                                         const std::string& dir);
 /// Names of all files that write_diagnosis and draw_diagnosis may leave in a directory.
 std::vector<std::string> diagnosis_files();
 

@@ -333,6 +333,7 @@ BodyExperiment load_body_experiment(const std::string& file) {
       throw InputError(t.place, "this recording's drivers are not those of the first one");
     }
     e.masses = e.masses || t.mass.given();
+    e.files.push_back(t.file);
     for (BodyRun& run :
          with_enough_memory(t.file, [&] { return TableReader(t, e).read(e.left_out); })) {
       e.runs.push_back(std::move(run));

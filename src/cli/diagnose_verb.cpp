@@ -5,6 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
+#include "cli/provenance.hpp"
 #include "cli/stop_signal.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/diagnosis.hpp"
@@ -15,19 +16,22 @@
 namespace lilytank::cli {
 namespace {
 
-int show(const std::optional<Diagnosis>& found, const std::string& dir) {
+int show(const std::optional<Diagnosis>& found, const ReportProvenance& provenance,
+         const std::string& dir) {
   if (!found) {
     std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
-  write_diagnosis(*found, dir);
+  Report report = diagnosis_report(*found);
+  report.provenance = provenance;
+  write_diagnosis(*found, report, dir);
 #ifdef LILYTANK_HAS_RENDER
-  draw_diagnosis(*found, diagnosis_text(*found), dir);
+  draw_diagnosis(*found, report, dir);
 #else
   std::cerr
       << "no report.html: this program was built without the renderer (Cairo was not found)\n";
 #endif
-  std::cout << diagnosis_text(*found) << std::flush;
+  std::cout << report_text(report) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }
@@ -72,10 +76,12 @@ int diagnose_verb(const Arguments& arguments) {
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   std::optional<Diagnosis> found;
+  std::vector<std::string> inputs = options.positional();
   if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
     options.refuse_given({"set", "hold-out"}, "has no effect on an experiment of point bodies");
     const BodyExperiment experiment = load_body_experiment(options.positional()[0]);
     job.out = directory_of(options, experiment.name);
+    for (const std::string& file : experiment.files) inputs.push_back(file);
     found = diagnose_bodies(experiment, job);
   } else {
     refuse_point_bodies(options.positional());
@@ -84,10 +90,11 @@ int diagnose_verb(const Arguments& arguments) {
     for (const std::string& one : options.list("set")) sets.push_back(one);
     const Experiment experiment = load_experiment(options.positional(), sets);
     job.out = directory_of(options, experiment.name);
+    for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
     found = diagnose(experiment, job);
   }
   progress.clear();
-  return show(found, job.out);
+  return show(found, provenance("diagnose", arguments, job.seed, inputs), job.out);
 }
 
 }  // namespace lilytank::cli

@@ -18,10 +18,11 @@ namespace lilytank::cli {
 namespace {
 
 void report_proofs(std::span<const Proof> proofs, const std::string& dir) {
-  const std::string text = proof_text(proofs);
+  const Report report = proof_report(proofs);
+  const std::string text = report_text(report);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), text);
 #ifdef LILYTANK_HAS_RENDER
-  draw_proof(proof_figures(proofs), text, dir);
+  draw_proof(proof_figures(proofs), report, dir);
 #else
   std::cerr
       << "no report.html: this program was built without the renderer (Cairo was not found)\n";

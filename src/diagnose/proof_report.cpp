@@ -1,4 +1,4 @@
-// What sealed experiments say of a diagnosis, as text.
+// What blinded experiments say of a diagnosis, as a document.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -79,29 +79,31 @@ struct Coverage {
       if (i.holds()) in += 1, held += 1;
     }
   }
-  std::string text() const {
-    std::string out = "  95 % intervals that hold the truth: " + held_text(held, all) + "\n";
-    for (const auto& [path, n] : by) {
-      out += "    " + path + ": " + held_text(n.first, n.second) + "\n";
-    }
+  /// "95 % intervals that hold the truth: ..." and a line a parameter.
+  std::vector<std::string> lines() const {
+    std::vector<std::string> out{"95 % intervals that hold the truth: " + held_text(held, all)};
+    for (const auto& [path, n] : by) out.push_back(path + ": " + held_text(n.first, n.second));
     return out;
   }
 };
 
-// Of those in which nothing is missing, and which were told so.
-std::string baselines_text(const Proof& proof) {
+// Of null experiments with the verdict `complete`.
+void add_baselines(const Proof& proof, Report& report) {
   Coverage coverage;
   for (const ProofWorld& w : proof.worlds) {
     if (w.kind == "null" && !w.intervals.empty()) coverage.add(w);
   }
-  if (coverage.worlds == 0) return "";
-  return "\nthe baseline's parameters in " + std::to_string(coverage.worlds) +
-         (coverage.worlds == 1 ? " world" : " worlds") + " with nothing missing\n" +
-         coverage.text();
+  if (coverage.worlds == 0) return;
+  report.sections.push_back(
+      {"Baseline parameters of null experiments (" + std::to_string(coverage.worlds) + ")",
+       coverage.lines(),
+       {},
+       {},
+       false});
 }
 
-// Intervals, share removed and gain of the worlds whose model was fitted.
-std::string models_text(const Proof& proof) {
+// Intervals, fraction removed and gain of the experiments whose model was fitted.
+void add_models(const Proof& proof, Report& report) {
   Coverage coverage;
   int gained = 0;
   std::vector<double> removed;
@@ -110,19 +112,25 @@ std::string models_text(const Proof& proof) {
     coverage.add(w), gained += w.gain_low > 0 ? 1 : 0;
     if (!std::isnan(w.removed)) removed.push_back(w.removed);
   }
-  if (coverage.worlds == 0) return "";
+  if (coverage.worlds == 0) return;
   std::sort(removed.begin(), removed.end());
-  std::string out =
-      "\nmodels of " + std::to_string(coverage.worlds) + " rightly told worlds\n" + coverage.text();
+  std::vector<std::string> lines = coverage.lines();
   if (!removed.empty()) {
     const auto most =
         std::count_if(removed.begin(), removed.end(), [](double r) { return r >= 0.7; });
-    out += "  share of the mismatch removed on further recordings, where it is clear: median " +
-           fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
-           fixed(100 * removed.front(), 0) + " %, 70 % and more in " + std::to_string(most) +
-           " of " + std::to_string(removed.size()) + "\n";
+    lines.push_back("Fraction of a clear mismatch removed on further recordings: median " +
+                    fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
+                    fixed(100 * removed.front(), 0) + " %, 70 % and more in " +
+                    std::to_string(most) + " of " + std::to_string(removed.size()));
   }
-  return out + "  one step ahead " + std::to_string(gained) + " of them are surely better\n";
+  lines.push_back("Log-likelihood gain one step ahead above 0 in " + std::to_string(gained) +
+                  " of " + std::to_string(coverage.worlds));
+  report.sections.push_back(
+      {"Fitted models of correctly diagnosed experiments (" + std::to_string(coverage.worlds) + ")",
+       std::move(lines),
+       {},
+       {},
+       false});
 }
 
 // Proofs of the same tank have the same nulls.
@@ -143,10 +151,10 @@ std::map<std::string, double> largest_displacements(std::span<const Proof> proof
   return out;
 }
 
-// The same worlds by simpler methods. The MSD's threshold is the largest of its tank's nulls
-// themselves, in its favour; where a tank has none, it is not asked.
-std::string simpler_text(std::span<const Proof> proofs) {
-  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, asked = 0, seen = 0, ours = 0;
+// The same experiments by simpler methods. The MSD's threshold is the largest of its tank's nulls
+// themselves, in its favour; without nulls of its tank an experiment does not count.
+void add_simpler(std::span<const Proof> proofs, Report& report) {
+  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, compared = 0, seen = 0, ours = 0;
   const auto largest = largest_displacements(proofs);
   for (const Proof& proof : proofs) {
     const auto of_tank = largest.find(tank_of(proof));
@@ -157,21 +165,23 @@ std::string simpler_text(std::span<const Proof> proofs) {
       right += w.regression == w.effects[0] ? 1 : 0;
       wrong += !w.regression.empty() && w.regression != w.effects[0] ? 1 : 0;
       if (of_tank == largest.end()) continue;
-      asked += 1, seen += w.displacement > of_tank->second ? 1 : 0;
+      compared += 1, seen += w.displacement > of_tank->second ? 1 : 0;
     }
   }
-  if (nulls == 0 || strong == 0) return "";
+  if (nulls == 0 || strong == 0) return;
   const auto of = [](int n, int all) { return std::to_string(n) + " of " + std::to_string(all); };
-  return "\nsimpler methods on the same worlds (named ones of z >= 10; this one: " +
-         of(ours, strong) +
-         " right)\n  finite differences with sparse regression: " + of(right, strong) + " right, " +
-         of(wrong, strong) + " a wrong name, " + of(alarms, nulls) +
-         " of nothing missing called something\n  MSD alone: " + of(seen, asked) +
-         " noticed, none named\n";
+  ReportSection section;
+  section.title = "Simpler methods on the same experiments (one effect, expected z >= 10)";
+  section.table.head = {"method", "right", "wrong name", "false positives"};
+  section.table.rows = {{"this diagnosis", of(ours, strong), "", ""},
+                        {"finite differences with sparse regression", of(right, strong),
+                         of(wrong, strong), of(alarms, nulls)},
+                        {"MSD alone (notices, does not name)", of(seen, compared), "", ""}};
+  report.sections.push_back(std::move(section));
 }
 
-/// The tables of all worlds together.
-std::string worlds_text(const Proof& proof, std::span<const Proof> proofs) {
+/// The tables of all experiments together.
+void add_worlds(const Proof& proof, Report& report) {
   struct Rate {
     int right = 0, wrong_name = 0, silent = 0, all = 0;
   };
@@ -192,39 +202,80 @@ std::string worlds_text(const Proof& proof, std::span<const Proof> proofs) {
     }
     taken[{key_of(w), said_of(w)}] += 1;
   }
-  TextTable table({"experiments", "n", "right", "95 % from", "to", "wrong name", "said complete"});
+  ReportSection table;
+  table.title = "Diagnoses by kind of experiment";
+  table.table.head = {"experiments", "n",          "right",         "95 % from",
+                      "to",          "wrong name", "no discrepancy"};
   for (const auto& [name, r] : rates) {
     const Estimate e = wilson(r.right, r.all);
-    table.add({name, std::to_string(r.all), std::to_string(r.right), fixed(100 * e.low, 1) + " %",
-               fixed(100 * e.high, 1) + " %", std::to_string(r.wrong_name),
-               std::to_string(r.silent)});
+    table.table.rows.push_back({name, std::to_string(r.all), std::to_string(r.right),
+                                fixed(100 * e.low, 1) + " %", fixed(100 * e.high, 1) + " %",
+                                std::to_string(r.wrong_name), std::to_string(r.silent)});
   }
-  std::string out = table.text() + "\nwhat was taken for what\n";
-  TextTable confusion({"key", "said", "times"});
-  for (const auto& [pair, n] : taken) confusion.add({pair.first, pair.second, std::to_string(n)});
-  return out + confusion.text() + baselines_text(proof) + models_text(proof) + simpler_text(proofs);
+  report.sections.push_back(std::move(table));
+  ReportSection confusion;
+  confusion.title = "Ground truth and diagnosis";
+  confusion.detail = true;
+  confusion.table.head = {"ground truth", "diagnosis", "times"};
+  for (const auto& [pair, n] : taken) {
+    confusion.table.rows.push_back({pair.first, pair.second, std::to_string(n)});
+  }
+  report.sections.push_back(std::move(confusion));
+}
+
+std::string rate_text(int n, int all) {
+  const Estimate e = wilson(n, all);
+  return std::to_string(n) + " of " + std::to_string(all) + " (95 %: " + fixed(100 * e.low, 1) +
+         " to " + fixed(100 * e.high, 1) + " %)";
+}
+
+ReportCard card_of(const Proof& proof, std::size_t tanks) {
+  ReportCard card;
+  int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0;
+  for (const ProofWorld& w : proof.worlds) {
+    if (w.kind == "null") nulls += 1, alarms += w.right() ? 0 : 1;
+    if (w.kind == "named" && w.expected_z >= 10) strong += 1, right += w.right() ? 1 : 0;
+    wrong += w.wrong_name() ? 1 : 0;
+  }
+  card.verdict = std::to_string(proof.worlds.size()) + " of " + std::to_string(proof.sealed) +
+                 " experiments diagnosed" +
+                 (tanks > 1 ? ", in " + std::to_string(tanks) + " tanks or sets of balls" : "") +
+                 (tanks == 1 && !proof.tank.empty() ? ", in " + proof.tank : "");
+  if (nulls > 0) card.facts.emplace_back("false positives", rate_text(alarms, nulls));
+  if (strong > 0) {
+    card.facts.emplace_back("one effect of expected z >= 10 named", rate_text(right, strong));
+  }
+  card.facts.emplace_back("wrong names", rate_text(wrong, static_cast<int>(proof.worlds.size())));
+  return card;
 }
 
 }  // namespace
 
-std::string proof_text(std::span<const Proof> proofs) {
+Report proof_report(std::span<const Proof> proofs) {
   Proof all;
-  std::string hashes;
+  ReportSection keys{"Commitment", {}, {}, {}, true};
   std::set<std::string> tanks;
   for (const Proof& p : proofs) {
     tanks.insert(tank_of(p));
     all.worlds.insert(all.worlds.end(), p.worlds.begin(), p.worlds.end());
-    all.sealed += p.sealed;
-    hashes += "SHA-256 of the key (key.txt)" +
-              (proofs.size() > 1 && !p.dir.empty() ? " of " + p.dir : "") + ": " + p.hash + "\n";
+    all.sealed += p.sealed, all.tank = proofs.size() == 1 ? p.tank : "";
+    keys.above.push_back("SHA-256 of the ground truth (key.txt)" +
+                         (proofs.size() > 1 && !p.dir.empty() ? " of " + p.dir : "") + ": " +
+                         p.hash);
   }
-  return "proof on " + std::string(all.worlds.size() < all.sealed ? "the first " : "") +
-         std::to_string(all.worlds.size()) + " of " + std::to_string(all.sealed) +
-         " sealed experiments" +
-         (tanks.size() > 1 ? " in " + std::to_string(tanks.size()) + " tanks or sets of balls"
-                           : "") +
-         (proofs.size() == 1 && !proofs[0].tank.empty() ? " in " + proofs[0].tank : "") + "\n" +
-         hashes + "\n" + worlds_text(all, proofs);
+  Report report;
+  report.title = "Blinded synthetic benchmark";
+  report.card = card_of(all, tanks.size());
+  report.sections.push_back(std::move(keys));
+  add_worlds(all, report);
+  add_baselines(all, report);
+  add_models(all, report);
+  add_simpler(proofs, report);
+  return report;
+}
+
+std::string proof_text(std::span<const Proof> proofs) {
+  return report_text(proof_report(proofs));
 }
 
 }  // namespace lilytank

@@ -99,9 +99,10 @@ std::vector<std::string> diagnosis_files() {
                       {"laws", "fit", "maps"});
 }
 
-std::vector<std::string> write_diagnosis(const Diagnosis& d, const std::string& dir) {
+std::vector<std::string> write_diagnosis(const Diagnosis& d, const Report& report,
+                                         const std::string& dir) {
   std::vector<std::pair<std::string, std::string>> files{{"diagnosis.json", diagnosis_json(d)},
-                                                         {"diagnosis.txt", diagnosis_text(d)}};
+                                                         {"diagnosis.txt", report_text(report)}};
   if (!d.overlay.empty()) files.emplace_back("missing.toml", d.overlay);
   if (!d.flow_csv.empty()) files.emplace_back("flow.csv", d.flow_csv);
   if (!d.maps.empty()) files.emplace_back("maps.csv", maps_csv(d));

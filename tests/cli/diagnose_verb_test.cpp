@@ -48,7 +48,8 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Answer said = lilytank("prove " + seed16);
   EXPECT_EQ(said.code, 0) << said.err;
   EXPECT_TRUE(
-      said.out.starts_with("proof on 80 of 80 sealed experiments in the built-in tank of seed 16"))
+      said.out.starts_with("Blinded synthetic benchmark: 80 of 80 experiments diagnosed, in the "
+                           "built-in tank of seed 16"))
       << said.out;
   const Answer report = lilytank("prove " + seed16 + " --out r");
   EXPECT_EQ(report.code, 0) << report.err;
@@ -61,7 +62,8 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Answer nulls = lilytank("prove " + seed16 + " " + nulls15);
   EXPECT_EQ(nulls.code, 0) << nulls.err;
   EXPECT_TRUE(
-      nulls.out.starts_with("proof on 160 of 160 sealed experiments in 2 tanks or sets of balls\n"))
+      nulls.out.starts_with("Blinded synthetic benchmark: 160 of 160 experiments diagnosed, in 2 "
+                            "tanks or sets of balls\n"))
       << nulls.out;
 #ifdef LILYTANK_HAS_RENDER
   const std::string page = lilytank.here.read("r/report.html");

@@ -26,7 +26,7 @@ Diagnosis found(bool tank) {
 // The bytes of one of its files.
 std::string drawn(const Diagnosis& d, const std::string& name) {
   const Folder folder;
-  draw_diagnosis(d, "text", folder.path());
+  draw_diagnosis(d, diagnosis_report(d), folder.path());
   return sample::bytes_of(folder.file(name));
 }
 
@@ -65,7 +65,7 @@ TEST(DiagnosisFigures, TellTheFindingsOwnZ) {
 
 TEST(DiagnosisFigures, OfOneGroupHaveRoomForTheirLegend) {
   const Folder folder;
-  draw_diagnosis(found(false), "", folder.path());
+  draw_diagnosis(found(false), diagnosis_report(found(false)), folder.path());
   EXPECT_GE(sample::png_size(folder.file("fit.png")).height, 400);
 }
 
@@ -82,7 +82,7 @@ std::string proof_page(const std::vector<ProofWorld>& worlds) {
   Proof p;
   p.worlds = worlds;
   const Folder folder;
-  draw_proof(proof_figures({&p, 1}), "", folder.path());
+  draw_proof(proof_figures({&p, 1}), proof_report({&p, 1}), folder.path());
   return sample::bytes_of(folder.file("report.html"));
 }
 
@@ -118,11 +118,11 @@ TEST(ProofFigures, FailuresLieAboveWhatIsRight) {
   const Folder folder;
   ProofFigures f;
   f.points.assign(1, {"coriolis", 12, ProofPoint::Outcome::wrong_name});
-  draw_proof(f, "", folder.path());
+  draw_proof(f, Report{}, folder.path());
   const int alone = red_pixels(folder.file("outcomes.png"));
   EXPECT_GT(alone, 50);
   f.points.insert(f.points.begin(), 40, {"coriolis", 12, ProofPoint::Outcome::right});
-  draw_proof(f, "", folder.path());
+  draw_proof(f, Report{}, folder.path());
   EXPECT_GE(red_pixels(folder.file("outcomes.png")), alone - 4);
 }
 

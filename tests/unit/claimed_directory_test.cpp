@@ -91,7 +91,7 @@ TEST(ClaimedDirectory, everyFileThatIsWrittenIsKnown) {
   Diagnosis d;
   d.overlay = d.flow_csv = "x";
   d.maps.emplace_back(), d.ranking.emplace_back(), d.held_out.emplace_back();
-  all_in(write_diagnosis(d, here.path("d")), diagnosis_files());
+  all_in(write_diagnosis(d, diagnosis_report(d), here.path("d")), diagnosis_files());
   CalibrationResult c;
   c.flow_csv = "x", c.msd.emplace_back();
   all_in(write_calibration(c, here.path("c")), calibration_files());

@@ -70,10 +70,13 @@ TEST_F(ProofFiles, AreToldTogether) {
   Proof both[] = {three_worlds(), three_worlds()};
   both[0].tank = "a tank", both[1].tank = "another";
   const std::string text = proof_text(both);
-  EXPECT_TRUE(text.starts_with("proof on 6 of 6 sealed experiments in 2 tanks or sets of balls\n"))
+  EXPECT_TRUE(text.starts_with(
+      "Blinded synthetic benchmark: 6 of 6 experiments diagnosed, in 2 tanks or sets "
+      "of balls\n"))
       << text;
   both[1].tank = "a tank";
-  EXPECT_TRUE(proof_text(both).starts_with("proof on 6 of 6 sealed experiments\n"));
+  EXPECT_TRUE(
+      proof_text(both).starts_with("Blinded synthetic benchmark: 6 of 6 experiments diagnosed\n"));
   EXPECT_NE(text.find("2 of 4 ("), std::string::npos) << text;  // intervals that hold the truth
 }
 
@@ -82,12 +85,13 @@ TEST_F(ProofFiles, IntervalsOfCompleteExperimentsAreNoModels) {
   Proof p = three_worlds();
   p.worlds[0].intervals = {{"flow.K_v", 1, 1.1, 0.9, 1.3}, {"flow.K_v", 1, 1.2, 1.1, 1.3}};
   const std::string text = proof_text({&p, 1});
-  const auto baselines = text.find(
-                 "in 1 world with nothing missing\n  95 % intervals that hold the "
-                 "truth: 1 of 2 ("),
-             models = text.find(
-                 "models of 1 rightly told worlds\n  95 % intervals that hold the "
-                 "truth: 1 of 2 (");
+  const auto
+      baselines = text.find(
+          "Baseline parameters of null experiments (1)\n  95 % intervals that hold the "
+          "truth: 1 of 2 ("),
+      models = text.find(
+          "Fitted models of correctly diagnosed experiments (1)\n  95 % intervals that hold the "
+          "truth: 1 of 2 (");
   EXPECT_NE(baselines, std::string::npos) << text;
   EXPECT_NE(models, std::string::npos) << text;
 }
@@ -103,12 +107,14 @@ TEST_F(ProofFiles, DisplacementsAreJudgedByTheirOwnTanksNulls) {
   wild.tank = "wild", wild.worlds = {null, named};
   wild.worlds[0].displacement = 9;
   const Proof both[] = {calm, wild};
-  EXPECT_NE(proof_text(both).find("MSD alone: 1 of 2 noticed"), std::string::npos)
+  EXPECT_NE(proof_text(both).find("MSD alone (notices, does not name)         1 of 2"),
+            std::string::npos)
       << proof_text(both);
   Proof without = wild;
   without.tank = "unknown", without.worlds.erase(without.worlds.begin());
   const Proof three[] = {calm, without};
-  EXPECT_NE(proof_text(three).find("MSD alone: 1 of 1 noticed"), std::string::npos)
+  EXPECT_NE(proof_text(three).find("MSD alone (notices, does not name)         1 of 1"),
+            std::string::npos)
       << proof_text(three);
 }
 

@@ -1,0 +1,57 @@
+#include "cli/provenance.hpp"
+
+#include "io/atomic_file.hpp"
+#include "io/sha256.hpp"
+#include "lilytank/error.hpp"
+#include "recording/files.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+/// A word as a shell would need it.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:=,%@";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+/// Words of a command without the options that change no number.
+std::vector<std::string> essential(const Arguments& arguments) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    const std::string name = word.substr(0, word.find('='));
+    if (name == "--force" || name == "--quiet") continue;
+    if (name == "--out" || name == "--threads") {
+      i += word == name ? 1 : 0;
+      continue;
+    }
+    out.push_back(word);
+  }
+  return out;
+}
+
+}  // namespace
+
+ReportProvenance provenance(const std::string& verb, const Arguments& arguments, std::uint64_t seed,
+                            const std::vector<std::string>& inputs) {
+  ReportProvenance out;
+  out.command = "lilytank " + verb;
+  for (const std::string& word : essential(arguments)) out.command += " " + quoted(word);
+  out.version = LILYTANK_VERSION, out.seed = std::to_string(seed);
+  for (const std::string& input : inputs) {
+    try {
+      for (const std::string& file : files_of(input)) {
+        out.inputs.emplace_back(file, sha256(read_whole(file)));
+      }
+    } catch (const InputError&) {
+      // It was read a moment ago; the report is worth more than this line.
+    }
+  }
+  return out;
+}
+
+}  // namespace lilytank::cli

@@ -1,0 +1,246 @@
+// The report of a diagnosis as a document.
+#include <cmath>
+
+#include "lilytank/diagnosis.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
+
+namespace lilytank {
+namespace {
+
+std::string digits(double value) {
+  return significant(value, 3);
+}
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return text + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+std::string percent(double fraction) {
+  return digits(100 * fraction) + " %";
+}
+
+/// The effects as a reader names them, alternatives included.
+std::string names_of(const DiagnosisFinding& f) {
+  std::string out = f.effect == "unnamed" ? "an unnamed law over " + f.variable : f.effect;
+  for (const std::string& name : f.alternatives) out += " or " + name;
+  return out;
+}
+
+std::string verdict_of(const Diagnosis& d) {
+  const auto effects = [&] { return joined(d.findings, ", ", names_of); };
+  switch (d.verdict) {
+    case Verdict::complete:
+      return "no discrepancy detected";
+    case Verdict::measurement:
+      return "the recordings are faulty: " + effects() + "; forces were not tested";
+    case Verdict::undecided:
+      return "a discrepancy that these data cannot attribute";
+    default:
+      return (d.findings.size() == 1 ? "omitted effect: " : "omitted effects: ") + effects();
+  }
+}
+
+ReportTone tone_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::complete:
+      return ReportTone::good;
+    case Verdict::missing:
+      return ReportTone::finding;
+    case Verdict::measurement:
+      return ReportTone::fault;
+    default:
+      return ReportTone::neutral;
+  }
+}
+
+std::string size_of(const FoundParameter& p) {
+  std::string value = digits(p.value);
+  if (p.low < p.high) value += " [" + digits(p.low) + ", " + digits(p.high) + "]";
+  return with_unit(value, p.unit);
+}
+
+std::string next_step(const Diagnosis& d) {
+  switch (d.verdict) {
+    case Verdict::complete:
+      return "longer recordings detect smaller effects; the table below lists what these detect";
+    case Verdict::measurement:
+      return "correct the recordings, then diagnose again";
+    case Verdict::undecided:
+      return "record longer, then diagnose again";
+    default:
+      break;
+  }
+  const DiagnosisFinding& first = d.findings.front();
+  if (!first.alternatives.empty()) {
+    return "to distinguish " + names_of(first) + ": " +
+           (first.split.empty() ? "a longer recording" : first.split);
+  }
+  return d.overlay.empty() ? "" : "simulate with the overlay missing.toml";
+}
+
+ReportCard card_of(const Diagnosis& d) {
+  ReportCard card;
+  card.tone = tone_of(d.verdict), card.verdict = verdict_of(d);
+  for (const DiagnosisFinding& f : d.findings) {
+    const std::string of = d.findings.size() > 1 ? " of " + f.effect : "";
+    if (!f.text.empty()) card.facts.emplace_back("where" + of, f.text);
+    if (!f.parameters.empty()) {
+      card.facts.emplace_back("size" + of, joined(f.parameters, "; ", [](const FoundParameter& p) {
+                                return p.name + " = " + size_of(p);
+                              }));
+    }
+  }
+  const double removed = d.removed();
+  if (d.verdict == Verdict::missing && !std::isnan(removed)) {
+    card.facts.emplace_back("mismatch removed",
+                            percent(removed) + (!d.tank              ? ", a quarter of a run ahead"
+                                                : d.nothing_held_out ? ", on the fitted recordings"
+                                                                     : ", on held-out recordings"));
+  }
+  if (const std::string next = next_step(d); !next.empty()) card.facts.emplace_back("next", next);
+  return card;
+}
+
+ReportSection section_of(const DiagnosisFinding& f) {
+  ReportSection section;
+  // Faults that checks find have no z.
+  section.title = f.effect + "  (" + (f.z > 0 ? "z " + digits(f.z) + ", " : "") + "depends on " +
+                  f.variable + ")";
+  if (!f.equation.empty()) section.above.push_back(f.equation);
+  if (!f.text.empty()) section.above.push_back(f.text);
+  if (!f.parameters.empty()) section.table.head = {"parameter", "value", "95 % from", "to", "unit"};
+  for (const FoundParameter& p : f.parameters) {
+    const bool bounded = p.low < p.high;
+    section.table.rows.push_back({p.name, digits(p.value), bounded ? digits(p.low) : "-",
+                                  bounded ? digits(p.high) : "-", p.unit == "1" ? "" : p.unit});
+  }
+  if (!f.alternatives.empty()) {
+    section.below.push_back(
+        "These data do not distinguish it from " + joined(f.alternatives, ", ") +
+        ". What would: " + (f.split.empty() ? "a longer recording" : f.split) + ".");
+  }
+  return section;
+}
+
+/// Recordings of a tank against simulations; bodies by how far a quarter of a run ahead they are
+/// from where they should be, by coefficients of all runs.
+ReportSection fit_section(const Diagnosis& d) {
+  ReportSection section;
+  if (d.tank) {
+    section.title = d.nothing_held_out ? "Fit to the recordings (none was held out)"
+                                       : "Fit to the held-out recordings";
+    section.above = {
+        "Mean square deviation of groups of statistics from simulations, before and "
+        "after; 1 is chance."};
+  } else {
+    section.title = "Prediction a quarter of a run ahead";
+    section.above = {
+        "Mean square error over that of the noise, before and after; coefficients of "
+        "all runs."};
+  }
+  section.table.head = {d.tank ? "statistics" : "bodies", "before", "after", "fraction removed"};
+  for (const GroupFit& g : d.held_out) {
+    section.table.rows.push_back(
+        {g.group, digits(g.before), digits(g.after), g.clear() ? percent(g.removed()) : "-"});
+  }
+  if (d.tank) {
+    section.below.push_back("Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) +
+                            " after, floor " + digits(d.msd_floor) + " m^2; fraction removed " +
+                            percent(d.msd_removed) + " [" + digits(100 * d.msd_low) + ", " +
+                            digits(100 * d.msd_high) + "]");
+  }
+  const DiagnosisFinding& f = d.findings.front();
+  section.below.push_back(std::string(d.tank ? "One step ahead" : "Held-out runs") +
+                          ": log-likelihood gain " + digits(f.gain) + " nat [" +
+                          digits(f.gain_low) + ", " + digits(f.gain_high) + "]");
+  return section;
+}
+
+ReportSection parameters_section(const Diagnosis& d) {
+  ReportSection section;
+  const bool alone = d.findings.empty();
+  section.title =
+      alone ? "Baseline parameters" : "Baseline parameters, alone and with the findings";
+  section.table.head = {"parameter", "unit", "value", "95 % from", "to"};
+  if (!alone) {
+    section.table.head = {"parameter", "unit", "alone", "with findings", "95 % from", "to"};
+  }
+  for (const MovedParameter& p : d.parameters) {
+    std::vector<std::string> row{p.path, p.unit == "1" ? "" : p.unit, digits(p.with_effects),
+                                 std::isnan(p.low) ? "-" : digits(p.low),
+                                 std::isnan(p.high) ? "-" : digits(p.high)};
+    if (!alone) row.insert(row.begin() + 2, digits(p.baseline));
+    section.table.rows.push_back(std::move(row));
+  }
+  return section;
+}
+
+/// In a tank, false positives are shared by effects, force laws and all statistics together.
+ReportSection ranking_section(const Diagnosis& d) {
+  ReportSection section;
+  section.title = "Strongest effects, each tested alone";
+  section.detail = true;
+  const std::string share = percent(d.false_alarms) + " of null experiments ";
+  if (d.tank) {
+    section.above.push_back(share + "have an effect beyond z " + digits(d.effect_threshold) +
+                            ", a force law beyond z " + digits(d.shape_threshold) +
+                            ", or too large a residual; residual after the findings: z " +
+                            digits(d.strongest_left));
+  } else {
+    section.above.push_back(share + "exceed z " + digits(d.effect_threshold));
+  }
+  section.table.head = {"effect", "z", "with"};
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < d.ranking.size() && i < kShown; ++i) {
+    section.table.rows.push_back(
+        {d.ranking[i].effect, digits(d.ranking[i].z), d.ranking[i].variant});
+  }
+  return section;
+}
+
+ReportSection detectable_section(const Diagnosis& d) {
+  ReportSection section;
+  section.title = "Smallest detectable effects";
+  section.detail = d.verdict != Verdict::complete;
+  section.above = {
+      "Detected in half of all cases, along the axis and at the range that show least."};
+  section.table.head = {"effect", "parameter", "smallest", "unit"};
+  for (const Detectable& one : d.detectable) {
+    const bool seen = std::isfinite(one.smallest);
+    section.table.rows.push_back({one.effect, one.parameter(),
+                                  (seen ? "" : "> ") + digits(seen ? one.smallest : one.tried),
+                                  one.unit});
+  }
+  return section;
+}
+
+}  // namespace
+
+Report diagnosis_report(const Diagnosis& d) {
+  Report report;
+  report.title = "Diagnosis of " + d.name;
+  report.subtitle = std::to_string(d.recordings) +
+                    (d.recordings == 1 ? " recording" : " recordings") + " of up to " +
+                    std::to_string(d.modules) + (d.tank ? " Lilies, " : " bodies, ") +
+                    digits(d.seconds) + " s in all; verdict \"" + name_of(d.verdict) + "\"";
+  report.card = card_of(d);
+  report.warnings = d.warnings;
+  if (!d.checks.empty()) {
+    report.sections.push_back({"Checks of the recordings", d.checks, {}, {}, false});
+  }
+  for (const DiagnosisFinding& f : d.findings) report.sections.push_back(section_of(f));
+  if (!d.held_out.empty() && !d.findings.empty()) report.sections.push_back(fit_section(d));
+  if (!d.parameters.empty()) report.sections.push_back(parameters_section(d));
+  if (!d.ranking.empty()) {
+    report.sections.push_back(ranking_section(d));
+    report.sections.push_back(detectable_section(d));
+  }
+  return report;
+}
+
+std::string diagnosis_text(const Diagnosis& d) {
+  return report_text(diagnosis_report(d));
+}
+
+}  // namespace lilytank
