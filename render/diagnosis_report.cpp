@@ -162,7 +162,7 @@ std::string fit_caption(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<std::string> draw_diagnosis(const Diagnosis& d, const Report& report,
+std::vector<std::string> draw_diagnosis(const Diagnosis& d, const ReportDocument& report,
                                         const std::string& dir) {
   std::vector<ReportFigure> figures;
   if (const PlotPage page = laws_page(d); !page.plots.empty()) {

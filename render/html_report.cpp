@@ -6,7 +6,7 @@
 
 namespace lilytank {
 
-std::vector<std::string> write_html_report(const Report& report,
+std::vector<std::string> write_html_report(const ReportDocument& report,
                                            const std::vector<ReportFigure>& figures,
                                            const std::string& dir) {
   namespace fs = std::filesystem;

@@ -18,7 +18,7 @@ struct ReportFigure {
 /// Draws the figures in a directory, each as .png and .svg, and writes report.html, one file with
 /// the report and all of them. Returns the files' names. Throws InputError if they cannot be
 /// written.
-std::vector<std::string> write_html_report(const Report& report,
+std::vector<std::string> write_html_report(const ReportDocument& report,
                                            const std::vector<ReportFigure>& figures,
                                            const std::string& dir);
 

@@ -160,7 +160,7 @@ std::string outcomes_caption(const ProofFigures& of) {
 
 }  // namespace
 
-std::vector<std::string> draw_proof(const ProofFigures& of, const Report& report,
+std::vector<std::string> draw_proof(const ProofFigures& of, const ReportDocument& report,
                                     const std::string& dir) {
   std::vector<ReportFigure> figures;
   if (!of.points.empty()) {

@@ -128,13 +128,13 @@ struct Diagnosis {
 std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisOptions& options);
 
 /// The report, without its provenance.
-Report diagnosis_report(const Diagnosis& diagnosis);
+ReportDocument diagnosis_report(const Diagnosis& diagnosis);
 std::string diagnosis_text(const Diagnosis& diagnosis);
 /// diagnosis.json (schema diagnosis/1).
 std::string diagnosis_json(const Diagnosis& diagnosis);
 /// Writes diagnosis.txt (the report), diagnosis.json, and where they are known missing.toml,
 /// flow.csv, maps.csv, ranking.csv and fit.csv. Returns the files' names. Throws InputError.
-std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const Report& report,
+std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
                                          const std::string& dir);
 /// Names of all files that write_diagnosis and draw_diagnosis may leave in a directory.
 std::vector<std::string> diagnosis_files();

@@ -88,7 +88,7 @@ std::optional<Proof> prove(const ProofOptions& options);
 
 /// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by
 /// kind and by expected z; what was taken for what.
-Report proof_report(std::span<const Proof> proofs);
+ReportDocument proof_report(std::span<const Proof> proofs);
 std::string proof_text(std::span<const Proof> proofs);
 /// One row a world.
 std::string proof_csv(const Proof& proof);

@@ -192,13 +192,13 @@ std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
 /// Plots of a diagnosis in a directory, each as .png and .svg: "maps" of what the baseline leaves,
 /// "laws" of the findings, "fit" before and after; and report.html, the
 /// report with all of them. Returns the files' names. Throws InputError if they cannot be written.
-std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const Report& report,
+std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
                                         const std::string& dir);
 
 /// Figures of sealed experiments in a directory, each as .png and .svg: "power" against expected z,
 /// "outcomes" of every experiment, "errors" of what was fitted; and report.html, the
 /// report with all of them. Returns the files' names. Throws InputError if they cannot be written.
-std::vector<std::string> draw_proof(const ProofFigures& proof, const Report& report,
+std::vector<std::string> draw_proof(const ProofFigures& proof, const ReportDocument& report,
                                     const std::string& dir);
 
 /// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and

@@ -37,7 +37,7 @@ struct ReportProvenance {
   std::vector<std::pair<std::string, std::string>> inputs;  ///< file, SHA-256 of its content
 };
 
-struct Report {
+struct ReportDocument {
   std::string title;     ///< "Diagnosis of tank"
   std::string subtitle;  ///< the data, in one line
   ReportCard card;
@@ -47,7 +47,7 @@ struct Report {
 };
 
 /// The report for a terminal or a text file.
-std::string report_text(const Report& report);
+std::string report_text(const ReportDocument& report);
 
 /// A figure of a page.
 struct ReportPicture {
@@ -58,6 +58,6 @@ struct ReportPicture {
 
 /// The report as one page of HTML without outside references. The first picture follows the
 /// verdict, the others follow the sections. All texts are escaped.
-std::string report_html(const Report& report, const std::vector<ReportPicture>& pictures);
+std::string report_html(const ReportDocument& report, const std::vector<ReportPicture>& pictures);
 
 }  // namespace lilytank

@@ -22,7 +22,7 @@ int show(const std::optional<Diagnosis>& found, const ReportProvenance& provenan
     std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
-  Report report = diagnosis_report(*found);
+  ReportDocument report = diagnosis_report(*found);
   report.provenance = provenance;
   write_diagnosis(*found, report, dir);
 #ifdef LILYTANK_HAS_RENDER

@@ -18,7 +18,7 @@ namespace lilytank::cli {
 namespace {
 
 void report_proofs(std::span<const Proof> proofs, const std::string& dir) {
-  const Report report = proof_report(proofs);
+  const ReportDocument report = proof_report(proofs);
   const std::string text = report_text(report);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), text);
 #ifdef LILYTANK_HAS_RENDER

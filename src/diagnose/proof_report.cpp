@@ -88,7 +88,7 @@ struct Coverage {
 };
 
 // Of null experiments with the verdict `complete`.
-void add_baselines(const Proof& proof, Report& report) {
+void add_baselines(const Proof& proof, ReportDocument& report) {
   Coverage coverage;
   for (const ProofWorld& w : proof.worlds) {
     if (w.kind == "null" && !w.intervals.empty()) coverage.add(w);
@@ -103,7 +103,7 @@ void add_baselines(const Proof& proof, Report& report) {
 }
 
 // Intervals, fraction removed and gain of the experiments whose model was fitted.
-void add_models(const Proof& proof, Report& report) {
+void add_models(const Proof& proof, ReportDocument& report) {
   Coverage coverage;
   int gained = 0;
   std::vector<double> removed;
@@ -153,7 +153,7 @@ std::map<std::string, double> largest_displacements(std::span<const Proof> proof
 
 // The same experiments by simpler methods. The MSD's threshold is the largest of its tank's nulls
 // themselves, in its favour; without nulls of its tank an experiment does not count.
-void add_simpler(std::span<const Proof> proofs, Report& report) {
+void add_simpler(std::span<const Proof> proofs, ReportDocument& report) {
   int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0, compared = 0, seen = 0, ours = 0;
   const auto largest = largest_displacements(proofs);
   for (const Proof& proof : proofs) {
@@ -181,7 +181,7 @@ void add_simpler(std::span<const Proof> proofs, Report& report) {
 }
 
 /// The tables of all experiments together.
-void add_worlds(const Proof& proof, Report& report) {
+void add_worlds(const Proof& proof, ReportDocument& report) {
   struct Rate {
     int right = 0, wrong_name = 0, silent = 0, all = 0;
   };
@@ -251,7 +251,7 @@ ReportCard card_of(const Proof& proof, std::size_t tanks) {
 
 }  // namespace
 
-Report proof_report(std::span<const Proof> proofs) {
+ReportDocument proof_report(std::span<const Proof> proofs) {
   Proof all;
   ReportSection keys{"Commitment", {}, {}, {}, true};
   std::set<std::string> tanks;
@@ -263,7 +263,7 @@ Report proof_report(std::span<const Proof> proofs) {
                          (proofs.size() > 1 && !p.dir.empty() ? " of " + p.dir : "") + ": " +
                          p.hash);
   }
-  Report report;
+  ReportDocument report;
   report.title = "Blinded synthetic benchmark";
   report.card = card_of(all, tanks.size());
   report.sections.push_back(std::move(keys));

@@ -217,8 +217,8 @@ ReportSection detectable_section(const Diagnosis& d) {
 
 }  // namespace
 
-Report diagnosis_report(const Diagnosis& d) {
-  Report report;
+ReportDocument diagnosis_report(const Diagnosis& d) {
+  ReportDocument report;
   report.title = "Diagnosis of " + d.name;
   report.subtitle = std::to_string(d.recordings) +
                     (d.recordings == 1 ? " recording" : " recordings") + " of up to " +

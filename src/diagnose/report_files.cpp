@@ -99,7 +99,7 @@ std::vector<std::string> diagnosis_files() {
                       {"laws", "fit", "maps"});
 }
 
-std::vector<std::string> write_diagnosis(const Diagnosis& d, const Report& report,
+std::vector<std::string> write_diagnosis(const Diagnosis& d, const ReportDocument& report,
                                          const std::string& dir) {
   std::vector<std::pair<std::string, std::string>> files{{"diagnosis.json", diagnosis_json(d)},
                                                          {"diagnosis.txt", report_text(report)}};

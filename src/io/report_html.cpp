@@ -148,7 +148,7 @@ std::string provenance_html(const ReportProvenance& p) {
 
 }  // namespace
 
-std::string report_html(const Report& report, const std::vector<ReportPicture>& pictures) {
+std::string report_html(const ReportDocument& report, const std::vector<ReportPicture>& pictures) {
   std::string out =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">"

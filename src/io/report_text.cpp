@@ -24,7 +24,7 @@ void add_provenance(const ReportProvenance& p, std::string& out) {
 
 }  // namespace
 
-std::string report_text(const Report& report) {
+std::string report_text(const ReportDocument& report) {
   std::string out = report.title + ": " + report.card.verdict + "\n";
   if (!report.subtitle.empty()) out += report.subtitle + "\n";
   std::size_t width = 0;

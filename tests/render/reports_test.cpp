@@ -118,11 +118,11 @@ TEST(ProofFigures, FailuresLieAboveWhatIsRight) {
   const Folder folder;
   ProofFigures f;
   f.points.assign(1, {"coriolis", 12, ProofPoint::Outcome::wrong_name});
-  draw_proof(f, Report{}, folder.path());
+  draw_proof(f, ReportDocument{}, folder.path());
   const int alone = red_pixels(folder.file("outcomes.png"));
   EXPECT_GT(alone, 50);
   f.points.insert(f.points.begin(), 40, {"coriolis", 12, ProofPoint::Outcome::right});
-  draw_proof(f, Report{}, folder.path());
+  draw_proof(f, ReportDocument{}, folder.path());
   EXPECT_GE(red_pixels(folder.file("outcomes.png")), alone - 4);
 }
 

@@ -7,8 +7,8 @@
 namespace lilytank {
 namespace {
 
-Report sample() {
-  Report r;
+ReportDocument sample() {
+  ReportDocument r;
   r.title = "Diagnosis of <script>alert(1)</script> & \"quotes\"";
   r.subtitle = "2 recordings";
   r.card = {
