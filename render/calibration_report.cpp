@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "analysis/undefined.hpp"
+#include "html_report.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
@@ -153,22 +154,38 @@ PlotPage pair_page(const CalibrationResult& c) {
 
 }  // namespace
 
-std::vector<std::string> draw_calibration(const CalibrationResult& c, const std::string& dir) {
+std::vector<std::string> draw_calibration(const CalibrationResult& c, const ReportDocument& report,
+                                          const std::string& dir) {
   std::vector<std::string> names;
-  const auto draw = [&](const std::string& name, const auto& what, const auto& how) {
+  std::vector<std::pair<std::string, std::string>> figures;
+  const auto draw = [&](const std::string& name, const std::string& caption, const auto& what,
+                        const auto& how) {
+    figures.emplace_back(name, caption);
     for (const char* ending : {".png", ".svg"}) {
       how(what, (std::filesystem::path(dir) / (name + ending)).string());
       names.push_back(name + ending);
     }
   };
-  if (!c.history.empty()) draw("convergence", convergence_plot(c), draw_plot);
-  if (!c.msd.empty()) draw("msd", msd_page(c), draw_plots);
+  if (!c.msd.empty()) {
+    draw("msd", "Mean squared displacement, recorded and simulated.", msd_page(c), draw_plots);
+  }
   if (!c.real_velocity.vx.empty() && !c.simulated_velocity.vx.empty()) {
-    draw("velocity", velocity_map_of(c), draw_map);
+    draw("velocity", "Mean velocity, recorded and simulated.", velocity_map_of(c), draw_map);
   }
   const PlotPage profiles = profile_page(c), pairs = pair_page(c);
-  if (!profiles.plots.empty()) draw("profiles", profiles, draw_plots);
-  if (!pairs.plots.empty()) draw("estimates", pairs, draw_plots);
+  if (!profiles.plots.empty()) {
+    draw("profiles", "Profile of the misfit over each parameter, with its 95 % interval.", profiles,
+         draw_plots);
+  }
+  if (!pairs.plots.empty()) {
+    draw("estimates", "Estimates from simulated experiments, two parameters a plot.", pairs,
+         draw_plots);
+  }
+  if (!c.history.empty()) {
+    draw("convergence", "Convergence of the search.", convergence_plot(c), draw_plot);
+  }
+  write_html_report(report, figures, dir);
+  names.push_back("report.html");
   return names;
 }
 

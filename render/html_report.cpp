@@ -6,21 +6,30 @@
 
 namespace lilytank {
 
+void write_html_report(const ReportDocument& report,
+                       const std::vector<std::pair<std::string, std::string>>& figures,
+                       const std::string& dir) {
+  const std::filesystem::path path(dir);
+  std::vector<ReportPicture> pictures;
+  for (const auto& [name, caption] : figures) {
+    pictures.push_back({read_whole((path / (name + ".svg")).string()), name, caption});
+  }
+  write_atomically((path / "report.html").string(), report_html(report, pictures));
+}
+
 std::vector<std::string> write_html_report(const ReportDocument& report,
                                            const std::vector<ReportFigure>& figures,
                                            const std::string& dir) {
-  namespace fs = std::filesystem;
   std::vector<std::string> names;
-  std::vector<ReportPicture> pictures;
+  std::vector<std::pair<std::string, std::string>> drawn;
   for (const ReportFigure& f : figures) {
     for (const char* ending : {".png", ".svg"}) {
-      draw_plots(f.page, (fs::path(dir) / (f.name + ending)).string());
       names.push_back(f.name + ending);
+      draw_plots(f.page, (std::filesystem::path(dir) / names.back()).string());
     }
-    const std::string svg = read_whole((fs::path(dir) / (f.name + ".svg")).string());
-    pictures.push_back({svg, f.name, f.caption});
+    drawn.emplace_back(f.name, f.caption);
   }
-  write_atomically((fs::path(dir) / "report.html").string(), report_html(report, pictures));
+  write_html_report(report, drawn, dir);
   names.push_back("report.html");
   return names;
 }

@@ -22,4 +22,9 @@ std::vector<std::string> write_html_report(const ReportDocument& report,
                                            const std::vector<ReportFigure>& figures,
                                            const std::string& dir);
 
+/// The same with figures that lie in the directory already, pairs of name and caption.
+void write_html_report(const ReportDocument& report,
+                       const std::vector<std::pair<std::string, std::string>>& figures,
+                       const std::string& dir);
+
 }  // namespace lilytank

@@ -19,6 +19,7 @@
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_maps.hpp"
 #include "lilytank/motion_summary.hpp"
+#include "lilytank/report.hpp"
 #include "lilytank/search.hpp"
 
 namespace lilytank {
@@ -173,12 +174,15 @@ class CalibrationSearch {
   std::unique_ptr<const Parts> parts_;
 };
 
-/// The report as text, and its files in a directory: calibrated.toml (an overlay that `run` takes),
-/// flow.csv, history.csv, msd.csv, intervals.csv, correlation.csv, profiles.csv, numbers.csv,
-/// velocity.csv, calibration.json, calibration.txt. Returns the files' names. Throws InputError.
+/// The report, without its provenance.
+ReportDocument calibration_report(const CalibrationResult& calibration);
 std::string calibration_text(const CalibrationResult& calibration);
+/// Writes calibration.txt (the report), calibration.json, calibrated.toml (an overlay that `run`
+/// takes), history.csv, rounds.csv, intervals.csv, correlation.csv, profiles.csv, numbers.csv, and
+/// where they are known flow.csv, msd.csv and velocity.csv. Returns the files' names. Throws
+/// InputError.
 std::vector<std::string> write_calibration(const CalibrationResult& calibration,
-                                           const std::string& dir);
+                                           const ReportDocument& report, const std::string& dir);
 /// Names of all files that write_calibration and draw_calibration may leave in a directory.
 std::vector<std::string> calibration_files();
 

@@ -184,10 +184,11 @@ Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
 
 /// Plots of a calibration in a directory, each as .png and .svg: "convergence" of the search
 /// [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity" maps [Fig. 7], "profiles"
-/// of the parameters, and "estimates" of simulated experiments, two parameters a plot. Returns the
-/// files' names. Throws InputError if they cannot be written.
+/// of the parameters, and "estimates" of simulated experiments, two parameters a plot; and
+/// report.html, the report with all of them. Returns the files' names. Throws InputError if they
+/// cannot be written.
 std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
-                                          const std::string& dir);
+                                          const ReportDocument& report, const std::string& dir);
 
 /// Plots of a diagnosis in a directory, each as .png and .svg: "maps" of what the baseline leaves,
 /// "laws" of the findings, "fit" before and after; and report.html, the

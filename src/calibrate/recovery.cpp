@@ -106,7 +106,7 @@ std::optional<std::vector<RecoveryRow>> recover(const Scenario& scenario,
       };
       const auto found = calibrate(made->experiment, one);
       if (!found) return std::nullopt;
-      if (!one.out.empty()) write_calibration(*found, one.out);
+      if (!one.out.empty()) write_calibration(*found, calibration_report(*found), one.out);
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const CalibratedParameter& p = found->parameters[i];
         rows.push_back({k + 1, name_of(objective), p.parameter.path, made->truth[i], p.estimate,

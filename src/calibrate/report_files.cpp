@@ -174,17 +174,18 @@ std::string json(const CalibrationResult& c) {
 std::vector<std::string> calibration_files() {
   return with_figures({"calibrated.toml", "intervals.csv", "correlation.csv", "profiles.csv",
                        "numbers.csv", "history.csv", "rounds.csv", "calibration.json",
-                       "calibration.txt", "msd.csv", "velocity.csv", "flow.csv"},
+                       "calibration.txt", "msd.csv", "velocity.csv", "flow.csv", "report.html"},
                       {"convergence", "msd", "velocity", "profiles", "estimates"});
 }
 
-std::vector<std::string> write_calibration(const CalibrationResult& c, const std::string& dir) {
+std::vector<std::string> write_calibration(const CalibrationResult& c, const ReportDocument& report,
+                                           const std::string& dir) {
   std::vector<std::pair<std::string, std::string>> files{
       {"calibrated.toml", overlay(c)},         {"intervals.csv", intervals_csv(c)},
       {"correlation.csv", correlation_csv(c)}, {"profiles.csv", profiles_csv(c)},
       {"numbers.csv", numbers_csv(c)},         {"history.csv", history_csv(c)},
       {"rounds.csv", rounds_csv(c)},           {"calibration.json", json(c)},
-      {"calibration.txt", calibration_text(c)}};
+      {"calibration.txt", report_text(report)}};
   if (!c.msd.empty()) {
     files.emplace_back("msd.csv", msd_csv(c));
     files.emplace_back("velocity.csv", velocity_csv(c));

@@ -5,6 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
+#include "cli/provenance.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/calibration.hpp"
@@ -177,13 +178,16 @@ int calibrate_verb(const Arguments& arguments) {
     std::cerr << "stopped; what is done is kept, and the same command goes on\n";
     return Exit::stopped;
   }
-  write_calibration(*found, job.out);
+  ReportDocument report = calibration_report(*found);
+  for (const RecordingSource& source : experiment.sources) files.push_back(source.file);
+  report.provenance = provenance("calibrate", arguments, job.seed, files);
+  write_calibration(*found, report, job.out);
 #ifdef LILYTANK_HAS_RENDER
-  draw_calibration(*found, job.out);
+  draw_calibration(*found, report, job.out);
 #else
   std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
 #endif
-  std::cout << calibration_text(*found) << std::flush;
+  std::cout << report_text(report) << std::flush;
   std::cerr << "results in " << job.out << "\n";
   return Exit::done;
 }

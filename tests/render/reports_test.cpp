@@ -205,7 +205,7 @@ TEST(CalibrationFigures, ReplicatesAreMarkers) {
   }
   for (int k = 0; k < 5; ++k) c.replicate_estimates.push_back({0.25 * k, 0.25 * (4 - k)});
   const Folder folder;
-  draw_calibration(c, folder.path());
+  draw_calibration(c, calibration_report(c), folder.path());
   // Red, of the second curve: five squares and one in the legend, of 40 pixels and more each. Those
   // outermost stand within the frame.
   EXPECT_GT(red_pixels(folder.file("estimates.png")), 240);

@@ -94,7 +94,7 @@ TEST(ClaimedDirectory, everyFileThatIsWrittenIsKnown) {
   all_in(write_diagnosis(d, diagnosis_report(d), here.path("d")), diagnosis_files());
   CalibrationResult c;
   c.flow_csv = "x", c.msd.emplace_back();
-  all_in(write_calibration(c, here.path("c")), calibration_files());
+  all_in(write_calibration(c, calibration_report(c), here.path("c")), calibration_files());
 }
 
 }  // namespace
