@@ -23,8 +23,8 @@ TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
   const Program lilytank;
   Answer a = lilytank(words(kQuick) + "--out c");
   ASSERT_EQ(a.code, 0) << a.err;
-  for (const char* text : {"calibration of tank", "flow.K_v", "forces.damping.D_angular",
-                           "training", "held out", "noise floor", "misfit"}) {
+  for (const char* text : {"Calibration of tank", "flow.K_v", "forces.damping.D_angular",
+                           "training", "held out", "noise floor", "Misfit"}) {
     EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
   }
   EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);

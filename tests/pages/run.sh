@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Opens a report of each kind in headless Chromium at two widths, and fails where something is wider than the
+# page, a picture has no alternative text, or a script stands in it.
+#   run.sh LILYTANK SOURCES        ends with 77 (skipped) where Chromium is not installed
+set -euo pipefail
+lilytank=$1 sources=$2
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+if [[ -z $chromium ]]; then
+  echo "Chromium is not installed: pages not opened"
+  exit 77
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+faults=0
+
+# measure <report> <width>: one line of what a frame of that width shows.
+measure() {
+  {
+    echo '<!doctype html><meta charset="utf-8"><body><script>'
+    echo "addEventListener('error',e=>document.title+=' error '+e.message);"
+    printf 'const page=atob("%s");\n' "$(base64 -w0 "$1")"
+    cat << JS
+const bytes=Uint8Array.from(page,c=>c.charCodeAt(0));
+const f=document.createElement('iframe');
+f.style='width:$2px;height:900px;border:0';
+f.onload=()=>{
+  const d=f.contentDocument,over=d.documentElement.scrollWidth-$2;
+  d.querySelectorAll('details').forEach(e=>e.open=true);
+  const open=d.documentElement.scrollWidth-$2;
+  const bare=[...d.querySelectorAll('figure>svg,img')].filter(e=>!(e.getAttribute('aria-label')||e.alt)).length;
+  document.title='over '+Math.max(0,over,open)+' bare '+bare+' scripts '+d.scripts.length+
+    ' cards '+d.querySelectorAll('.card p').length+' pictures '+d.querySelectorAll('figure>svg').length;
+};
+f.srcdoc=new TextDecoder().decode(bytes);
+document.body.append(f);
+JS
+    echo '</script>'
+  } > "$work/frame.html"
+  "$chromium" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
+    --disable-background-networking --disable-component-update --disable-sync \
+    --user-data-dir="$work/profile" --virtual-time-budget=5000 --dump-dom "file://$work/frame.html" 2> /dev/null |
+    grep -o '<title>[^<]*</title>' | sed 's/<[^>]*>//g'
+}
+
+# look <name> <report>
+look() {
+  local width seen
+  for width in 390 1280; do
+    seen=$(measure "$2" "$width")
+    printf '%-12s %5s px  %s\n' "$1" "$width" "$seen"
+    [[ $seen == 'over 0 bare 0 scripts 0 cards 1 pictures '[1-9]* ]] || faults=$((faults + 1))
+  done
+}
+
+cd "$work"
+"$lilytank" prove "$sources/tests/data/proofs/seed16" --out benchmark > /dev/null 2>&1
+look benchmark benchmark/report.html
+
+cp "$sources"/scenarios/experiments/real/{gliders.toml,airtrack_*.csv} .
+"$lilytank" diagnose gliders.toml --budget 1 --quiet --out diagnosis > /dev/null 2>&1
+look diagnosis diagnosis/report.html
+
+"$lilytank" calibrate "$sources/scenarios/experiments/tank.toml" --simulations 40 --replicates 20 --comparisons 2 \
+  --flow-draws 0 --flow scenario --quiet --out calibration > /dev/null 2>&1
+look calibration calibration/report.html
+
+((faults == 0)) || echo "$faults pages are not as they should be"
+exit $((faults > 0))
