@@ -5,6 +5,7 @@
 #include <map>
 
 #include "analysis/undefined.hpp"
+#include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "study_names.hpp"
 #include "yield.hpp"
@@ -200,6 +201,18 @@ Plot copies_plot(const StudySummary& summary, std::size_t along,
   return plot;
 }
 
+std::string caption_of(const std::string& plot) {
+  const std::string survival = "survival_", copies = "copies_over_";
+  if (plot == "yield") return "Mean number of completed copies over time, with its 95 % band.";
+  if (plot == "mean_time") return "Mean time to each copy, with its 95 % interval.";
+  if (plot.starts_with(survival)) {
+    return "Fraction of runs without copy " + plot.substr(survival.size()) +
+           " over time (Kaplan and Meier), with its 95 % band.";
+  }
+  return "Completed copies at the end over " + plot.substr(copies.size()) +
+         ", with their 95 % intervals.";
+}
+
 }  // namespace
 
 std::vector<StudyPlot> study_plots(const StudySummary& summary) {
@@ -223,14 +236,15 @@ std::vector<StudyPlot> study_plots(const StudySummary& summary) {
   return plots;
 }
 
-void report_study(const StudyTable& table, const std::string& dir) {
-  const StudySummary summary = summarise(table);
-  write_study_summary(summary, dir);
+void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir) {
+  std::vector<std::pair<std::string, std::string>> figures;
   for (const StudyPlot& made : study_plots(summary)) {
     const std::string file = (std::filesystem::path(dir) / made.name).string();
     draw_plot(made.plot, file + ".png");
     draw_plot(made.plot, file + ".svg");
+    figures.emplace_back(made.name, caption_of(made.name));
   }
+  write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

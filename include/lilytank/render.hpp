@@ -202,8 +202,8 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const Report
 std::vector<std::string> draw_proof(const ProofFigures& proof, const ReportDocument& report,
                                     const std::string& dir);
 
-/// The whole report of a study in a directory, made if absent: write_study_summary()'s files, and
-/// each plot as .png and .svg. Throws InputError if it cannot be written.
-void report_study(const StudyTable& table, const std::string& dir);
+/// Plots of a study in a directory, each as .png and .svg, and report.html, the report with all of
+/// them. Throws InputError if they cannot be written.
+void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir);
 
 }  // namespace lilytank

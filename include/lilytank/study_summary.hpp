@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/report.hpp"
 #include "lilytank/statistics.hpp"
 #include "lilytank/study_table.hpp"
 
@@ -67,7 +68,8 @@ struct StudySummary {
 /// Computes everything. The table may be of any part of a study, in any order of rows.
 StudySummary summarise(const StudyTable& table);
 
-/// All of it, readable, in lines of text.
+/// The report, without its provenance.
+ReportDocument study_report(const StudySummary& summary);
 std::string study_text(const StudySummary& summary);
 
 /// Tidy tables, one observation a row, SI units except copies per hour (a column says so); unknown
@@ -78,8 +80,9 @@ std::string yield_curve_csv(const StudySummary& summary);  ///< a row a time
 std::string survival_csv(const StudySummary& summary);     ///< a row a step, from (0 s, 1) on
 std::string comparisons_csv(const StudySummary& summary);  ///< a row a test
 
-/// Writes summary.txt, summary.csv, yield_curve.csv, survival.csv and comparisons.csv to a
-/// directory, made if absent. Throws InputError if it cannot.
-void write_study_summary(const StudySummary& summary, const std::string& dir);
+/// Writes summary.txt (the report), summary.csv, yield_curve.csv, survival.csv and comparisons.csv
+/// to a directory, made if absent. Throws InputError if it cannot.
+void write_study_summary(const StudySummary& summary, const ReportDocument& report,
+                         const std::string& dir);
 
 }  // namespace lilytank

@@ -5,6 +5,7 @@
 
 #include "cli/study_verb.hpp"
 #include "lilytank/study_summary.hpp"
+#include "study/study_directory.hpp"
 #include "text/words.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
@@ -78,13 +79,24 @@ std::string counts_text(const StoredStudy& study) {
 }
 
 std::string report(const StoredStudy& study, const std::string& dir) {
+  const StudySummary summary = summarise(study.table);
+  ReportDocument document = study_report(summary);
+  const StudyPlan& plan = study.plan;
+  // The study file may be gone: what it came to is in the directory, and is the same for every
+  // shard.
+  document.provenance = {"study " + plan.name + " of " + joined(plan.scenarios, ", ") +
+                             (plan.sets.empty() ? "" : " with " + joined(plan.sets, ", ")) +
+                             "; every setting in " + study_file::plan,
+                         LILYTANK_VERSION,
+                         std::to_string(plan.seed),
+                         {}};
+  write_study_summary(summary, document, dir);
 #ifdef LILYTANK_HAS_RENDER
-  report_study(study.table, dir);
+  draw_study(summary, document, dir);
 #else
-  write_study_summary(summarise(study.table), dir);
   std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
 #endif
-  return study_text(summarise(study.table));
+  return report_text(document);
 }
 
 int study_merge(const Arguments& arguments) {

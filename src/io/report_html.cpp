@@ -13,10 +13,10 @@ constexpr std::string_view kStyle = R"(
 .good{--tone:#1d7f4e}.finding{--tone:#0b5c9e}.fault{--tone:#b4540a}
 @media (prefers-color-scheme:dark){.good{--tone:#5cc48d}.finding{--tone:#69b2f0}.fault{--tone:#f0a35e}}
 *{box-sizing:border-box}
-body{font:16px/1.5 system-ui,sans-serif;max-width:60em;margin:0 auto;padding:1.5em 1em 4em;color:var(--ink);
+body{font:16px/1.5 system-ui,sans-serif;max-width:66em;margin:0 auto;padding:1.5em 1em 4em;color:var(--ink);
 background:var(--paper);overflow-wrap:anywhere}
-h1{font-size:1.5em;margin:0}h2{font-size:1.15em;margin:2em 0 .5em}
-.sub{color:var(--dim);margin:.2em 0 1.2em}
+h1{font-size:1.5em;margin:0 0 .6em}h2{font-size:1.15em;margin:2em 0 .5em}
+.sub{color:var(--dim);margin:-.6em 0 1.2em}
 .card{background:var(--panel);border-left:6px solid var(--tone);border-radius:6px;padding:1em 1.2em}
 .card p{font-size:1.25em;font-weight:600;margin:0;color:var(--tone)}
 .card p::first-letter{text-transform:uppercase}

@@ -1,19 +1,19 @@
-#include <filesystem>
-#include <system_error>
-
 #include "io/atomic_file.hpp"
 #include "lilytank/study_summary.hpp"
 
 namespace lilytank {
 
-void write_study_summary(const StudySummary& summary, const std::string& dir) {
-  const std::filesystem::path path(dir);
-  make_directory(dir);
-  write_atomically((path / "summary.csv").string(), summary_csv(summary));
-  write_atomically((path / "yield_curve.csv").string(), yield_curve_csv(summary));
-  write_atomically((path / "survival.csv").string(), survival_csv(summary));
-  write_atomically((path / "comparisons.csv").string(), comparisons_csv(summary));
-  write_atomically((path / "summary.txt").string(), study_text(summary));
+std::string study_text(const StudySummary& summary) {
+  return report_text(study_report(summary));
+}
+
+void write_study_summary(const StudySummary& summary, const ReportDocument& report,
+                         const std::string& dir) {
+  write_files(dir, {{"summary.csv", summary_csv(summary)},
+                    {"yield_curve.csv", yield_curve_csv(summary)},
+                    {"survival.csv", survival_csv(summary)},
+                    {"comparisons.csv", comparisons_csv(summary)},
+                    {"summary.txt", report_text(report)}});
 }
 
 }  // namespace lilytank

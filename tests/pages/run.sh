@@ -64,5 +64,9 @@ look diagnosis diagnosis/report.html
   --flow-draws 0 --flow scenario --quiet --out calibration > /dev/null 2>&1
 look calibration calibration/report.html
 
+printf '[study]\nname = "chains"\nscenario = "%s"\nreplicates = 2\n' "$sources/scenarios/chain5.toml" > study.toml
+"$lilytank" study study.toml --set run.duration='10 min' --quiet --out study > /dev/null 2>&1
+look study study/report.html
+
 ((faults == 0)) || echo "$faults pages are not as they should be"
 exit $((faults > 0))

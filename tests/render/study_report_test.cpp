@@ -15,6 +15,14 @@ namespace {
 using sample::exponential_study;
 using sample::Folder;
 
+/// All files of a study's report.
+void draw(const StudyTable& table, const std::string& dir) {
+  const StudySummary summary = summarise(table);
+  const ReportDocument report = study_report(summary);
+  write_study_summary(summary, report, dir);
+  draw_study(summary, report, dir);
+}
+
 const Plot* find(const std::vector<StudyPlot>& plots, const std::string& name) {
   for (const StudyPlot& p : plots) {
     if (p.name == name) return &p.plot;
@@ -25,16 +33,16 @@ const Plot* find(const std::vector<StudyPlot>& plots, const std::string& name) {
 TEST(StudyReport, WritesTablesAndEveryPlotTwice) {
   const Folder folder;
   StudyTable table = sample::with_diverged(exponential_study({0.01, 0.03}, 8, 100));
-  report_study(table, folder.file("report"));
+  draw(table, folder.file("report"));
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.file("report"))) {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names, (std::set<std::string>{"summary.txt", "summary.csv", "yield_curve.csv",
-                                          "survival.csv", "comparisons.csv", "yield.png",
-                                          "yield.svg", "survival_1.png", "survival_1.svg",
-                                          "survival_2.png", "survival_2.svg", "survival_3.png",
-                                          "survival_3.svg", "mean_time.png", "mean_time.svg"}));
+  EXPECT_EQ(names, (std::set<std::string>{
+                       "summary.txt", "summary.csv", "yield_curve.csv", "survival.csv",
+                       "comparisons.csv", "yield.png", "yield.svg", "survival_1.png",
+                       "survival_1.svg", "survival_2.png", "survival_2.svg", "survival_3.png",
+                       "survival_3.svg", "mean_time.png", "mean_time.svg", "report.html"}));
   EXPECT_EQ(sample::png_size(folder.file("report/yield.png")), (sample::Size{1800, 1200}));
   EXPECT_NE(sample::bytes_of(folder.file("report/yield.svg")).find("<svg"), std::string::npos);
 }
@@ -42,9 +50,9 @@ TEST(StudyReport, WritesTablesAndEveryPlotTwice) {
 TEST(StudyReport, IsTheSameEachTime) {
   const Folder folder;
   StudyTable table = exponential_study({0.01, 0.03}, 8, 100);
-  report_study(table, folder.file("a"));
+  draw(table, folder.file("a"));
   std::reverse(table.rows.begin(), table.rows.end());
-  report_study(table, folder.file("b"));
+  draw(table, folder.file("b"));
   for (const char* name : {"summary.txt", "summary.csv", "yield_curve.csv", "yield.png"}) {
     EXPECT_EQ(sample::bytes_of(folder.file("a/" + std::string(name))),
               sample::bytes_of(folder.file("b/" + std::string(name))))
@@ -219,14 +227,14 @@ TEST(StudyReport, OfManySettingsLeavesOutBands) {
 TEST(StudyReport, TakesLittle) {
   const Folder folder;
   EXPECT_TRUE(study_plots(summarise({})).empty());
-  EXPECT_NO_THROW(report_study({}, folder.file("empty")));
+  EXPECT_NO_THROW(draw({}, folder.file("empty")));
   StudyTable one = exponential_study({0.05}, 1, 100);
-  EXPECT_NO_THROW(report_study(one, folder.file("one")));
+  EXPECT_NO_THROW(draw(one, folder.file("one")));
   one.labels = {"a", "not run yet"};
   EXPECT_EQ(find(study_plots(summarise(one)), "yield")->curves.size(), 1u);
   for (RunRow& row : one.rows) row.possible = 0;
   EXPECT_TRUE(study_plots(summarise(one)).empty()) << "no target, nothing to count";
-  EXPECT_THROW(report_study(one, "/dev/null/x"), InputError);
+  EXPECT_THROW(draw(one, "/dev/null/x"), InputError);
 }
 
 TEST(Plot, DrawsBarsMarksAndGivenRanges) {
