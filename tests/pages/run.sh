@@ -3,7 +3,7 @@
 # page, a picture has no alternative text, or a script stands in it.
 #   run.sh LILYTANK SOURCES        ends with 77 (skipped) where Chromium is not installed
 set -euo pipefail
-lilytank=$1 sources=$2
+lilytank=$(realpath "$1") sources=$(realpath "$2")
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
 if [[ -z $chromium ]]; then
   echo "Chromium is not installed: pages not opened"
