@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "analysis/undefined.hpp"
+#include "html_report.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
@@ -295,6 +297,30 @@ void add_row(Map& map, const VelocityMap& v, const std::string& name, const std:
   map.panels.push_back(std::move(speed));
 }
 
+std::string caption_of(const std::string& plot) {
+  static const std::map<std::string, std::string> kCaptions = {
+      {"msd_first", "Mean squared displacement from the first frame of each track (Eq. 8)."},
+      {"msd_all", "Mean squared displacement, all origins."},
+      {"msd_all_log", "Mean squared displacement, all origins, logarithmic axes."},
+      {"turn_msd", "Mean squared change of heading."},
+      {"velocity_acf", "Autocorrelation of the velocity."},
+      {"spin_acf", "Autocorrelation of the spin."},
+      {"speed", "Probability density of the speed."},
+      {"velocity_x", "Probability density of the velocity along x."},
+      {"velocity_y", "Probability density of the velocity along y."},
+      {"velocity_out", "Probability density of the velocity away from the centre."},
+      {"velocity_around", "Probability density of the velocity about the centre."},
+      {"spin", "Probability density of the spin."},
+      {"density", "Density of centres over the distance from the centre; 1: uniform."},
+      {"pair_correlation", "Pair correlation; 1: independent."},
+      {"nearest", "Probability density of the distance to the nearest body."},
+      {"contact_times", "Fraction of contacts that last longer (Kaplan and Meier)."},
+      {"transfer", "Transfer functions of the smoother."},
+  };
+  const auto known = kCaptions.find(plot);
+  return known == kCaptions.end() ? plot : known->second;
+}
+
 }  // namespace
 
 std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis) {
@@ -329,20 +355,28 @@ Map velocity_maps(const Analysis& analysis) {
   return map;
 }
 
-std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir) {
-  std::vector<std::string> files = write_analysis(analysis, dir);
-  for (const AnalysisPlot& plot : analysis_plots(analysis)) {
+std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDocument& report,
+                                       const std::string& dir) {
+  std::vector<std::string> files;
+  std::vector<std::pair<std::string, std::string>> figures;
+  const auto each = [&](const std::string& name, const std::string& caption, const auto& draw) {
     for (const char* ending : {".png", ".svg"}) {
-      files.push_back((std::filesystem::path(dir) / (plot.name + ending)).string());
-      draw_plots(plot.page, files.back());
+      files.push_back((std::filesystem::path(dir) / (name + ending)).string());
+      draw(files.back());
     }
+    figures.emplace_back(name, caption);
+  };
+  for (const AnalysisPlot& plot : analysis_plots(analysis)) {
+    each(plot.name, caption_of(plot.name),
+         [&](const std::string& file) { draw_plots(plot.page, file); });
   }
   const Map map = velocity_maps(analysis);
-  for (const char* ending : {".png", ".svg"}) {
-    if (map.panels.empty()) break;
-    files.push_back((std::filesystem::path(dir) / (std::string("velocity_map") + ending)).string());
-    draw_map(map, files.back());
+  if (!map.panels.empty()) {
+    each("velocity_map", "Mean velocity along x, along y and as arrows.",
+         [&](const std::string& file) { draw_map(map, file); });
   }
+  write_html_report(report, figures, dir);
+  files.push_back((std::filesystem::path(dir) / "report.html").string());
   return files;
 }
 

@@ -7,6 +7,7 @@
 
 #include "lilytank/distributions.hpp"
 #include "lilytank/metrics.hpp"
+#include "lilytank/report.hpp"
 #include "lilytank/smoothing.hpp"
 
 namespace lilytank {
@@ -116,7 +117,8 @@ std::string shared_key(const Analysis& analysis);
 /// tracks of two frames.
 Analysis analyse(const std::vector<AnalysisSource>& sources, const AnalysisOptions& options = {});
 
-/// All of it, readable, in lines of text.
+/// The report, without its provenance.
+ReportDocument analysis_report(const Analysis& analysis);
 std::string analysis_text(const Analysis& analysis);
 /// Tidy tables: one row a source and x (`difference` rows after them), a cell of a map, a step of
 /// a survival curve, a frequency of a transfer function, a number of the summary.
@@ -125,10 +127,13 @@ std::string velocity_map_csv(const Analysis& analysis);
 std::string contact_times_csv(const Analysis& analysis);
 std::string transfer_csv(const Analysis& analysis);
 std::string analysis_summary_csv(const Analysis& analysis);
-/// All of these as files, pairs of name and content: summary.txt, summary.csv and one CSV a plot.
-std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis);
+/// All of these as files, pairs of name and content: summary.txt (the report), summary.csv and one
+/// CSV a plot.
+std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis,
+                                                                const ReportDocument& report);
 /// Writes analysis_files() to a directory, made if absent. Returns their paths. Throws InputError
 /// if it cannot.
-std::vector<std::string> write_analysis(const Analysis& analysis, const std::string& dir);
+std::vector<std::string> write_analysis(const Analysis& analysis, const ReportDocument& report,
+                                        const std::string& dir);
 
 }  // namespace lilytank

@@ -149,10 +149,10 @@ std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis);
 /// Mean velocities along x and y and their arrows, a row a source, then the difference of two
 /// [paper, Fig. 7]. No panels where there are no maps.
 Map velocity_maps(const Analysis& analysis);
-/// The whole report of an analysis in a directory, made if absent: write_analysis()'s files, and
-/// each plot and map as .png and .svg. Returns the files' names. Throws InputError if it cannot be
-/// written.
-std::vector<std::string> report_analysis(const Analysis& analysis, const std::string& dir);
+/// Plots and maps of an analysis in a directory, each as .png and .svg, and report.html, the report
+/// with all of them. Returns the files' paths. Throws InputError if they cannot be written.
+std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDocument& report,
+                                       const std::string& dir);
 
 /// A map of an extracted flow, and the name of its files without ending.
 struct FlowMap {

@@ -5,6 +5,7 @@
 #include "cli/analyze_sources.hpp"
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
+#include "cli/provenance.hpp"
 #include "io/atomic_file.hpp"
 #include "study/study_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
@@ -83,7 +84,8 @@ std::vector<std::string> files_in_the_way(const Analysis& analysis, const std::s
     if (text.substr(0, text.find('\n')).ends_with(",number,unit,value,low,high")) return {};
   }
   std::vector<std::string> files;
-  for (const auto& [name, content] : analysis_files(analysis)) {
+  if (lies_there("report.html")) files.push_back((fs::path(dir) / "report.html").string());
+  for (const auto& [name, content] : analysis_files(analysis, {})) {
     const std::string stem = fs::path(name).stem().string();
     for (const std::string& file : {name, stem + ".png", stem + ".svg"}) {
       if (lies_there(file)) files.push_back((fs::path(dir) / file).string());
@@ -136,13 +138,15 @@ int analyze_verb(const Arguments& arguments) {
   if (!force) refuse_foreign(dir, {}, "analysis");
   const Analysis analysis = analyse(sources, how);
   if (!force) refuse_foreign(dir, files_in_the_way(analysis, dir), "analysis");
+  ReportDocument report = analysis_report(analysis);
+  report.provenance = provenance("analyze", arguments, how.bootstrap.seed, files);
+  write_analysis(analysis, report, dir);
 #ifdef LILYTANK_HAS_RENDER
-  report_analysis(analysis, dir);
+  draw_analysis(analysis, report, dir);
 #else
-  write_analysis(analysis, dir);
   std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
 #endif
-  std::cout << analysis_text(analysis) << std::flush;
+  std::cout << report_text(report) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }

@@ -6,9 +6,14 @@
 
 namespace lilytank {
 
-std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis) {
+std::string analysis_text(const Analysis& analysis) {
+  return report_text(analysis_report(analysis));
+}
+
+std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis,
+                                                                const ReportDocument& report) {
   std::vector<std::pair<std::string, std::string>> files{
-      {"summary.txt", analysis_text(analysis)}, {"summary.csv", analysis_summary_csv(analysis)}};
+      {"summary.txt", report_text(report)}, {"summary.csv", analysis_summary_csv(analysis)}};
   for (const AnalysisCurves& curves : analysis.curves) {
     files.emplace_back(curves.name + ".csv", curve_csv(analysis, curves));
   }
@@ -19,8 +24,9 @@ std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& 
   return files;
 }
 
-std::vector<std::string> write_analysis(const Analysis& analysis, const std::string& dir) {
-  std::vector<std::string> files = write_files(dir, analysis_files(analysis));
+std::vector<std::string> write_analysis(const Analysis& analysis, const ReportDocument& report,
+                                        const std::string& dir) {
+  std::vector<std::string> files = write_files(dir, analysis_files(analysis, report));
   for (std::string& file : files) file = (std::filesystem::path(dir) / file).string();
   return files;
 }

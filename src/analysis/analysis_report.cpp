@@ -24,6 +24,8 @@ std::string three(double value, double unit = 1) {
   return fixed(value / unit, decimals);
 }
 
+constexpr std::size_t kMostColumns = 4;  // more sources than these are rows
+
 // Sources as columns: with many, that would be too wide, so they are rows.
 class Table {
  public:
@@ -39,42 +41,40 @@ class Table {
     }
     if (!any) heads_.pop_back(), cells_.pop_back();
   }
-  std::string text() const {
-    if (heads_.empty()) return "";
-    const std::size_t n = analysis_.sources.size();
-    if (n > 4) return by_row();
-    std::vector<std::string> head{""};
-    for (const SourceSummary& s : analysis_.sources) head.push_back(s.name);
-    TextTable table(head);
+  ReportTable made() const {
+    ReportTable table;
+    if (heads_.empty()) return table;
+    if (analysis_.sources.size() > kMostColumns) return by_row();
+    table.head = {""};
+    for (const SourceSummary& s : analysis_.sources) table.head.push_back(s.name);
     for (std::size_t i = 0; i < heads_.size(); ++i) {
-      std::vector<std::string> row{heads_[i]};
-      row.insert(row.end(), cells_[i].begin(), cells_[i].end());
-      table.add(row);
+      table.rows.push_back({heads_[i]});
+      table.rows.back().insert(table.rows.back().end(), cells_[i].begin(), cells_[i].end());
     }
-    return table.text();
+    return table;
   }
 
  private:
-  std::string by_row() const {
+  ReportTable by_row() const {
     const std::string key = shared_key(analysis_);
-    std::vector<std::string> head{key.empty() ? "source" : key};
-    head.insert(head.end(), heads_.begin(), heads_.end());
-    TextTable table(head);
+    ReportTable table;
+    table.head = {key.empty() ? "source" : key};
+    table.head.insert(table.head.end(), heads_.begin(), heads_.end());
     for (std::size_t s = 0; s < analysis_.sources.size(); ++s) {
       const SourceSummary& source = analysis_.sources[s];
       const bool panel = !source.panel.empty();
       std::vector<std::string> row{source.name + (panel ? ", " + source.panel : "")};
       for (const auto& cells : cells_) row.push_back(cells[s]);
-      table.add(row);
+      table.rows.push_back(std::move(row));
     }
-    return table.text();
+    return table;
   }
   const Analysis& analysis_;
   std::vector<std::string> heads_;
   std::vector<std::vector<std::string>> cells_;
 };
 
-// One line, where frames say too little of velocities; it names the sources.
+// One line, where frames are too rare for velocities; it names the sources.
 std::string rate_warning(const Analysis& analysis) {
   std::string which;
   for (const SourceSummary& s : analysis.sources) {
@@ -83,13 +83,13 @@ std::string rate_warning(const Analysis& analysis) {
              " (" + three(1 / s.rate) + " s, memory " + three(s.velocity_memory) + " s)";
   }
   if (which.empty()) return "";
-  return "Warning: frames are further apart than a quarter of the velocity's memory: " + which +
+  return "frames are further apart than a quarter of the velocity's memory: " + which +
          ". Speeds, spins and the number of contacts are then too low, contacts too long and the "
          "memory coarse; displacements and density are not affected. Store a run more often: "
-         "--set output.rate=40\n";
+         "--set output.rate=40";
 }
 
-std::string tracks_text(const Analysis& analysis) {
+ReportSection tracks_section(const Analysis& analysis) {
   Table table(analysis);
   table.add("bodies", [](const SourceSummary& s) { return std::to_string(s.bodies); });
   table.add("tracks", [](const SourceSummary& s) { return std::to_string(s.tracks); });
@@ -98,7 +98,7 @@ std::string tracks_text(const Analysis& analysis) {
   table.add("frames/s", [](const SourceSummary& s) { return three(s.rate); });
   table.add("sightings", [](const SourceSummary& s) { return std::to_string(s.sightings); });
   table.add("missing (%)", [](const SourceSummary& s) { return fixed(100 * s.missing, 2); });
-  return "Tracks\n" + table.text();
+  return {"Tracks", {}, table.made(), {}, false};
 }
 
 double mean_of(const std::vector<MotionModel>& models, double MotionModel::*member) {
@@ -114,14 +114,14 @@ double window_of(const Analysis& analysis, const SourceSummary& s) {
 }
 
 // Where polynomials take in more of the motion than it remembers, velocities are not the bodies'.
-std::string wide_windows_text(const Analysis& analysis) {
-  std::string out;
+std::vector<std::string> wide_windows(const Analysis& analysis) {
+  std::vector<std::string> out;
   for (const SourceSummary& s : analysis.sources) {
     const double window = window_of(analysis, s);
     if (!(s.velocity_memory > 0) || window <= 4 * s.velocity_memory) continue;
-    out += "  Of " + s.name + " a window of " + three(window) +
-           " s is longer than four memories of the velocity (" + three(s.velocity_memory) +
-           " s): it rounds off what bodies do.\n";
+    out.push_back(s.name + ": a window of " + three(window) +
+                  " s is longer than four memories of the velocity (" + three(s.velocity_memory) +
+                  " s): it smooths away motion.");
   }
   return out;
 }
@@ -137,7 +137,7 @@ void add_cutoffs(Table& table) {
   cutoff("acceleration kept to (Hz)", &TransferFunction::acceleration_cutoff);
 }
 
-std::string smoothing_text(const Analysis& analysis) {
+ReportSection smoothing_section(const Analysis& analysis) {
   const bool kalman = analysis.options.smoothing.method == SmoothingMethod::kalman;
   Table table(analysis);
   if (!kalman) {
@@ -163,17 +163,18 @@ std::string smoothing_text(const Analysis& analysis) {
     return s.exact && !std::isnan(noise) ? "none" : three(noise, 1e-3);
   });
   add_cutoffs(table);
-  const std::string text = table.text();
-  if (text.empty()) return "";
   const std::string how = kalman ? "Kalman smoother, model and noise fitted to the tracks"
                                  : "polynomials of degree " +
                                        std::to_string(analysis.options.smoothing.degree) +
                                        " over " + three(analysis.options.smoothing.window) + " s";
-  return "\nSmoothing (" + how + "; kept: amplitude above 1/sqrt(2))\n" + text +
-         (kalman ? "" : wide_windows_text(analysis));
+  return {"Smoothing",
+          {how + "; kept: amplitude above 1/sqrt(2)"},
+          table.made(),
+          kalman ? std::vector<std::string>{} : wide_windows(analysis),
+          false};
 }
 
-std::string displacements_text(const Analysis& analysis) {
+ReportSection displacements_section(const Analysis& analysis) {
   Table table(analysis);
   table.add("first maximum (cm^2)",
             [](const SourceSummary& s) { return or_dash(s.first_maximum, 1e-4); });
@@ -186,19 +187,22 @@ std::string displacements_text(const Analysis& analysis) {
   table.add("  from lags (s)", [&](const SourceSummary& s) { return range(s.diffusion); });
   table.add("D of turning (rad^2/s)", [](const SourceSummary& s) { return or_dash(s.rotation.D); });
   table.add("  from lags (s)", [&](const SourceSummary& s) { return range(s.rotation); });
-  std::string note;
+  std::vector<std::string> note;
   for (const SourceSummary& s : analysis.sources) {
     if (s.diffusion.to > 0 || !note.empty()) continue;
-    note =
-        "  No D where the MSD grows in proportion to the lag over no factor of 2 of lags: the "
-        "motion is then not one of diffusion.\n";
+    note = {
+        "No D where the MSD is proportional to the lag over no factor of 2 of lags: the motion is "
+        "not diffusive there."};
   }
   const std::vector<double>& lags = analysis.curves.front().x;
-  return "\nMean squared displacement up to " + three(lags.back()) + " s, all origins\n" +
-         table.text() + note;
+  return {"Mean squared displacement up to " + three(lags.back()) + " s, all origins",
+          {},
+          table.made(),
+          std::move(note),
+          false};
 }
 
-std::string motion_text(const Analysis& analysis) {
+ReportSection motion_section(const Analysis& analysis) {
   Table table(analysis);
   table.add("mean speed (cm/s)", [](const SourceSummary& s) { return or_dash(s.speed, 0.01); });
   table.add("rms speed (cm/s)", [](const SourceSummary& s) { return or_dash(s.rms_speed, 0.01); });
@@ -210,11 +214,10 @@ std::string motion_text(const Analysis& analysis) {
   table.add("independent samples", [](const SourceSummary& s) {
     return s.motion.empty() ? "-" : fixed(s.independent_samples, 0);
   });
-  const std::string text = table.text();
-  return text.empty() ? "" : "\nVelocities\n" + text;
+  return {"Velocities", {}, table.made(), {}, false};
 }
 
-std::string neighbours_text(const Analysis& analysis) {
+ReportSection neighbours_section(const Analysis& analysis) {
   Table table(analysis);
   table.add("nearest neighbour (cm)",
             [](const SourceSummary& s) { return or_dash(s.nearest, 0.01); });
@@ -226,43 +229,84 @@ std::string neighbours_text(const Analysis& analysis) {
   table.add("time in contact (%)",
             [](const SourceSummary& s) { return or_dash(s.contact_share, 0.01); });
   table.add("mean duration (s)", [](const SourceSummary& s) { return or_dash(s.contacts.mean); });
-  const std::string text = table.text();
-  return text.empty() ? ""
-                      : "\nNeighbours (contact: gap below " +
-                            three(analysis.options.touching, 1e-3) + " mm)\n" + text;
+  return {"Neighbours",
+          {"Contact: gap below " + three(analysis.options.touching, 1e-3) + " mm"},
+          table.made(),
+          {},
+          false};
 }
 
-std::string comparison_text(const Analysis& analysis) {
-  if (!analysis.compared) return "";
+ReportSection comparison_section(const Analysis& analysis) {
   const SourceComparison& c = analysis.comparison;
-  std::string out = "\n" + analysis.sources[1].name + " less " + analysis.sources[0].name + "\n";
-  out += "  MSD: mean |difference| " + three(c.msd_difference, 1e-4) + " cm^2, " +
-         fixed(100 * c.msd_relative, 1) + " % of the first's mean; its band excludes 0 at " +
-         fixed(100 * c.msd_outside, 0) + " % of lags\n";
+  ReportSection section;
+  section.title = analysis.sources[1].name + " less " + analysis.sources[0].name;
+  section.above.push_back("MSD: mean |difference| " + three(c.msd_difference, 1e-4) + " cm^2, " +
+                          fixed(100 * c.msd_relative, 1) +
+                          " % of the first's mean; its band excludes 0 at " +
+                          fixed(100 * c.msd_outside, 0) + " % of lags");
   if (c.map_cells > 0) {
-    out += "  mean velocities in " + std::to_string(c.map_cells) + " cells: correlation x " +
-           fixed(c.map_correlation_x, 3) + ", y " + fixed(c.map_correlation_y, 3) +
-           "; rms difference " + three(c.map_difference, 0.01) + " cm/s, " +
-           three(c.map_expected, 0.01) + " expected from their errors alone\n";
+    section.above.push_back("mean velocities in " + std::to_string(c.map_cells) +
+                            " cells: correlation x " + fixed(c.map_correlation_x, 3) + ", y " +
+                            fixed(c.map_correlation_y, 3) + "; rms difference " +
+                            three(c.map_difference, 0.01) + " cm/s, " +
+                            three(c.map_expected, 0.01) + " expected from their errors alone");
+  }
+  return section;
+}
+
+std::string sources_of(const Analysis& analysis) {
+  if (analysis.sources.size() > kMostColumns) {
+    return std::to_string(analysis.sources.size()) + " sources";
+  }
+  std::string out;
+  for (const SourceSummary& s : analysis.sources) {
+    out += (out.empty() ? "" : ", ") + s.name + " (" + body_word(s.body) + ")";
   }
   return out;
 }
 
+ReportCard card_of(const Analysis& analysis) {
+  ReportCard card;
+  card.verdict = sources_of(analysis);
+  const auto fact = [&](const std::string& name, const std::string& unit, const auto& get,
+                        double scale) {
+    std::string values;
+    for (const SourceSummary& s : analysis.sources) {
+      if (std::isnan(get(s).value)) continue;
+      values += (values.empty() ? "" : "; ") + with_interval(get(s), scale) + " " + unit +
+                (analysis.sources.size() > 1 ? ", " + s.name : "");
+    }
+    if (!values.empty()) card.facts.emplace_back(name, values);
+  };
+  if (analysis.sources.size() > kMostColumns) return card;
+  fact(
+      "mean speed", "cm/s", [](const SourceSummary& s) { return s.speed; }, 0.01);
+  fact(
+      "MSD plateau", "cm^2", [](const SourceSummary& s) { return s.plateau; }, 1e-4);
+  fact(
+      "diffusion coefficient", "cm^2/s", [](const SourceSummary& s) { return s.diffusion.D; },
+      1e-4);
+  return card;
+}
+
 }  // namespace
 
-std::string analysis_text(const Analysis& analysis) {
-  std::string title;
-  for (const SourceSummary& s : analysis.sources) {
-    if (!title.empty()) title += ", ";
-    if (analysis.sources.size() <= 4) title += s.name + " (" + body_word(s.body) + ")";
+ReportDocument analysis_report(const Analysis& analysis) {
+  ReportDocument report;
+  report.title = "Analysis";
+  report.subtitle = "Intervals: " + fixed(100 * analysis.options.bootstrap.level, 0) +
+                    " %, bootstrap over bodies";
+  report.card = card_of(analysis);
+  if (const std::string warning = rate_warning(analysis); !warning.empty()) {
+    report.warnings.push_back(warning);
   }
-  if (title.empty() || analysis.sources.size() > 4) {
-    title = std::to_string(analysis.sources.size()) + " sources";
+  for (ReportSection section :
+       {tracks_section(analysis), smoothing_section(analysis), displacements_section(analysis),
+        motion_section(analysis), neighbours_section(analysis)}) {
+    if (!section.table.rows.empty()) report.sections.push_back(std::move(section));
   }
-  const std::string level = fixed(100 * analysis.options.bootstrap.level, 0);
-  return title + "\nIntervals: " + level + " %, bootstrap over bodies\n" + rate_warning(analysis) +
-         "\n" + tracks_text(analysis) + smoothing_text(analysis) + displacements_text(analysis) +
-         motion_text(analysis) + neighbours_text(analysis) + comparison_text(analysis);
+  if (analysis.compared) report.sections.push_back(comparison_section(analysis));
+  return report;
 }
 
 }  // namespace lilytank
