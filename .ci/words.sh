@@ -13,7 +13,7 @@ use strict;
 use warnings;
 
 # Files that are counted and do not fail yet.
-my $pending = qr{^(docs/(recordings|bodies|synthesis)\.md|scenarios/.*|(src|render)/.*)$};
+my $pending = qr{^(src|render)/};
 
 # Nonstandard term => standard terms.
 my @terms = (
@@ -43,12 +43,15 @@ my @terms = (
   [qr/\breal world\b(*SKIP)(*FAIL)|\bworlds?\b/, 'simulation run, replicate'],
 );
 
-# Lines on which such a word has its ordinary sense: file, and text of the line.
+# Lines on which such a word has its ordinary sense, and meanings of keys, which the sources determine: file,
+# and text of the line.
 my @ordinary = (
   ['docs/search.md', 'sk and tell'],
   ['docs/structure.md', 'the only user of Boost | world'],
   ['docs/structure.md', 'the only user of TOML | world'],
   ['bench/README.md', '| kB/world |'],
+  ['scenarios/README.md', '| `flow.K_v` |'],
+  ['scenarios/README.md', '| `control.release_failure` |'],
 );
 
 # What the terms are looked for in, with blanks for everything else: lines stay where they are.

@@ -4,8 +4,8 @@
 #
 #   scenarios/figure4.sh [OUT]
 #
-# Environment: LILYTANK, the program. Else it is that of the build or the installation that this file
-# belongs to, or the one in PATH.
+# Environment: LILYTANK, the program (default: that of the build or installation of this file, else the
+# one in PATH).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 out=${1:-out/figure4}
@@ -22,6 +22,6 @@ for level in -7 -8 -9; do
     runs+=("$run")
   done
 done
-# The first 20 s, in which the balls find their orbits, do not count.
+# The first 20 s are excluded: the balls reach their orbits.
 "$lilytank" analyze "${runs[@]}" --msd-only --label flow.pump_power --panel flow.water_level \
   --from '20 s' --longest-lag '15 s' --out "$out/analysis"

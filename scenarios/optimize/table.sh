@@ -1,13 +1,13 @@
 #!/bin/sh
-# For each target: our optimum of the probabilities, then from there a hybrid strategy and the choice
-# of the ruleset, and from the ruleset that won pump power by feedback; and one study that compares
-# them all.
+# For each target: searches the probabilities; from their optimum a hybrid strategy and the ruleset;
+# from the best ruleset the pump power by completed copies. One study per target then compares all
+# strategies.
 #
 #   scenarios/optimize/table.sh [OUT [TARGET...]]
 #
-# Environment: LILYTANK, the program (that of the build or the installation that this file belongs to,
-# or the one in PATH), HORIZON of the searches (4 h, as of the comparison),
-# REPLICATES of each strategy in the comparison (200), THREADS (one a core). Stopped or killed, the same command goes on.
+# Environment: LILYTANK, the program (default: that of the build or installation of this file, else the
+# one in PATH); HORIZON, duration of the searched runs (4 h, as in the comparison); REPLICATES of each
+# strategy in the comparison (200); THREADS (one per core). The same command resumes after an interruption.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 scenarios=$(dirname "$here")
@@ -41,7 +41,7 @@ for target; do
   search hybrid hybrid "$best"
   search race joint "$best"
   search agitation agitation "$out/$target/joint/optimum.toml"
-  # What a search found goes over what it was begun with.
+  # The later optimum overrides the one from which its search started.
   together=$out/$target/joint_agitation.toml
   echo 'base = ["joint/optimum.toml", "agitation/optimum.toml"]' > "$together"
   {
