@@ -68,5 +68,9 @@ printf '[study]\nname = "chains"\nscenario = "%s"\nreplicates = 2\n' "$sources/s
 "$lilytank" study study.toml --set run.duration='10 min' --quiet --out study > /dev/null 2>&1
 look study study/report.html
 
+"$lilytank" analyze "$sources/scenarios/experiments/lily_1.csv.gz" --longest-lag 3 --resamples 40 \
+  --out analysis > /dev/null 2>&1
+look analysis analysis/report.html
+
 ((faults == 0)) || echo "$faults pages are not as they should be"
 exit $((faults > 0))
