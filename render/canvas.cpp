@@ -49,8 +49,8 @@ PictureFormat format_of(const std::string& file, std::span<const PictureFormat> 
     if (low.ends_with(ending_of(f)) && low.size() > 4) return f;
     names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(ending_of(f));
   }
-  throw InputError("cannot tell the picture's format from '" + file + "': its name must end in " +
-                   names);
+  throw InputError("cannot determine the picture's format from '" + file +
+                   "': its name must end in " + names);
 }
 
 Canvas::Canvas(cairo_surface_t* surface, std::unique_ptr<std::string> sink)

@@ -101,7 +101,7 @@ std::string words_for(const std::string& group) {
       {"camera", "gaps at contact, over the picture"},
       {"contact", "bounces"},
       {"displacement", "displacement (MSD)"},
-      {"kicks", "jolts between frames"},
+      {"kicks", "process noise between frames"},
       {"module", "differences between modules"},
       {"neighbours", "distance of neighbours"},
       {"noise", "size and memory of gusts"},
@@ -121,7 +121,7 @@ Plot fit_plot(const Diagnosis& d) {
                : d.nothing_held_out
                    ? "Fitted recordings: distance from simulations, before and after"
                    : "Held-out recordings: distance from simulations, before and after";
-  plot.x_label = d.tank ? "mean square deviation (chance: 1)"
+  plot.x_label = d.tank ? "mean squared z (expected by chance: 1)"
                         : "mean square error / noise of the measurement squared";
   constexpr double kRoom = 1.2;  // beside the outermost, chance included
   plot.log_x = true, plot.x_low = 1 / kRoom, plot.x_high = kRoom;
@@ -177,7 +177,7 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& d, const ReportDocument
   if (!d.maps.empty()) {
     figures.push_back({"maps",
                        "Maps of the one-step innovations, strongest first. Values that the data "
-                       "hardly tell are left out.",
+                       "hardly constrain are not drawn.",
                        maps_page(d)});
   }
   return write_html_report(report, figures, dir);

@@ -62,7 +62,7 @@ bool is_gif(const std::string& file) {
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (ending == ".gif") return true;
   if (ending == ".mp4") return false;
-  throw InputError("cannot tell the film's format from '" + file +
+  throw InputError("cannot determine the film's format from '" + file +
                    "': its name must end in .mp4 or .gif");
 }
 

@@ -52,10 +52,11 @@ Map flow_map(const FlowReport& report, const FlowEstimate& e) {
   add_arrows(e, map.panels.back(), [&](std::size_t i) {
     return std::array{cell[i].flow.mu_x, cell[i].flow.mu_y};
   });
-  map.panels.push_back(panel(e, "Deviation per axis", "deviation (m/s)", [&](std::size_t i) {
-    const FlowSample& f = cell[i].flow;
-    return std::sqrt((f.sigma_x * f.sigma_x + f.sigma_y * f.sigma_y) / 2);
-  }));
+  map.panels.push_back(
+      panel(e, "Standard deviation per axis", "standard deviation (m/s)", [&](std::size_t i) {
+        const FlowSample& f = cell[i].flow;
+        return std::sqrt((f.sigma_x * f.sigma_x + f.sigma_y * f.sigma_y) / 2);
+      }));
   map.panels.push_back(panel(e, "Standard error of the mean", "per axis (m/s)", [&](std::size_t i) {
     const FlowSample& s = cell[i].error;
     return cell[i].measured ? std::sqrt((s.mu_x * s.mu_x + s.mu_y * s.mu_y) / 2) : kUndefined;
@@ -134,8 +135,8 @@ Map error_map(const FlowReport& report) {
     add_arrows(e, means.back(), [&](std::size_t i) {
       return e.cell[i].measured ? apart(i) : std::array{kUndefined, kUndefined};
     });
-    deviations.push_back(
-        panel(e, e.name + ": error of the deviation", "difference (m/s)", [&](std::size_t i) {
+    deviations.push_back(panel(
+        e, e.name + ": error of the standard deviation", "difference (m/s)", [&](std::size_t i) {
           const FlowSample& f = e.cell[i].flow;
           return (f.sigma_x - truth[i].sigma_x + f.sigma_y - truth[i].sigma_y) / 2;
         }));

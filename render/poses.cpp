@@ -130,7 +130,7 @@ void check_time(const Trajectory& trajectory, double time) {
   if (trajectory.frames() == 0) {
     throw InputError(
         "this run stored no frames (output.trajectory = \"none\", or it has just "
-        "begun): there is nothing to draw");
+        "started): there is nothing to draw");
   }
   const double first = trajectory.time.front(), last = trajectory.time.back();
   // Times typed with a few digits may miss the stored end by their rounding.

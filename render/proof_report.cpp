@@ -43,9 +43,9 @@ void spread_x(const ProofFigures& of, Plot& plot) {
 
 Plot power_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Told rightly, by what there is to see";
-  plot.x_label = "deviations by which the effect is off (expected z)";
-  plot.y_label = "told rightly (%)";
+  plot.title = "Correct verdicts by effect size";
+  plot.x_label = "standardised effect size (expected z)";
+  plot.y_label = "correct verdicts (%)";
   plot.log_x = true, plot.y_low = 0, plot.y_high = 100;
   spread_x(of, plot);
   const double apart = std::pow(plot.x_high / plot.x_low, kBarsApart);
@@ -65,8 +65,8 @@ Plot power_plot(const ProofFigures& of) {
 // A row an effect, a marker an experiment.
 Plot outcomes_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Every sealed experiment in which something was missing";
-  plot.x_label = "deviations by which the effect is off (expected z)";
+  plot.title = "Every synthetic experiment with an omitted effect";
+  plot.x_label = "standardised effect size (expected z)";
   plot.log_x = true;
   for (const ProofPoint& p : of.points) plot.y_names.push_back(p.row);
   std::sort(plot.y_names.begin(), plot.y_names.end(), [](const auto& a, const auto& b) {
@@ -84,10 +84,10 @@ Plot outcomes_plot(const ProofFigures& of) {
     const char* name;
     std::size_t place;
   };
-  for (const Kind& kind :
-       {Kind{Outcome::wrong_name, "a wrong name", 1}, Kind{Outcome::silent, "told as complete", 2},
-        Kind{Outcome::other, "in part, unnamed or undecided", 3},
-        Kind{Outcome::right, "told rightly", 12}}) {
+  for (const Kind& kind : {Kind{Outcome::wrong_name, "a wrong name", 1},
+                           Kind{Outcome::silent, "no discrepancy detected", 2},
+                           Kind{Outcome::other, "in part, unnamed or undecided", 3},
+                           Kind{Outcome::right, "correct", 12}}) {
     Curve curve;
     curve.markers = true, curve.line = false;
     for (const ProofPoint& p : of.points) {
@@ -138,8 +138,9 @@ Plot errors_plot(const ProofFigures& of) {
 
 std::string power_caption(const ProofFigures& of) {
   std::string out =
-      "How often sealed experiments were told rightly. Bars: 95 % (Wilson). Below the threshold of "
-      "a few deviations silence is what false alarms cost.";
+      "Fraction of synthetic experiments with a correct verdict. Bars: 95 % (Wilson). Effects "
+      "below "
+      "the detection threshold are missed so that the false-positive rate stays low.";
   if (!of.two.empty()) out += " Of two effects the expected z is the weaker one's.";
   if (!of.two.empty() || !of.unnamed.empty()) {
     out += " Bars that would hide each other stand a little to the right of their z.";
@@ -149,8 +150,9 @@ std::string power_caption(const ProofFigures& of) {
 
 std::string outcomes_caption(const ProofFigures& of) {
   std::string out =
-      "What was said of every experiment in which something was missing. One that was told "
-      "rightly and has a wrong name besides counts as one with a wrong name.";
+      "Verdict on every experiment with an omitted effect. A correct name beside a wrong one "
+      "counts "
+      "as a wrong name.";
   const bool held = std::any_of(of.points.begin(), of.points.end(), [](const ProofPoint& p) {
     return p.expected_z <= ProofFigures::kLeastZ;
   });

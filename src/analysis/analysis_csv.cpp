@@ -83,7 +83,7 @@ void add_motion(SummaryRows& rows, const std::string& what, const std::string& u
   if (!exact) rows.add(what + " noise", unit, noise);
   rows.add(what + " lasting acceleration", unit + "/s^2", acceleration);
   rows.add(what + " acceleration memory", "s", memory);
-  rows.add(what + " jolts", unit + "/s^1.5", jolts);
+  rows.add(what + " process noise", unit + "/s^1.5", jolts);
 }
 
 void add_source(SummaryRows& rows, const SourceSummary& s) {

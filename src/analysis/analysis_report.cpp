@@ -157,7 +157,7 @@ ReportSection smoothing_section(const Analysis& analysis) {
   });
   model("lasting acceleration (m/s^2)", &SourceSummary::motion, &MotionModel::acceleration, 1);
   model("its memory (s)", &SourceSummary::motion, &MotionModel::memory, 1);
-  model("jolts (m/s^1.5)", &SourceSummary::motion, &MotionModel::jolts, 1);
+  model("process noise (m/s^1.5)", &SourceSummary::motion, &MotionModel::jolts, 1);
   table.add("heading noise (mrad)", [](const SourceSummary& s) {
     const double noise = mean_of(s.turning, &MotionModel::noise);
     return s.exact && !std::isnan(noise) ? "none" : three(noise, 1e-3);
@@ -224,7 +224,7 @@ ReportSection neighbours_section(const Analysis& analysis) {
   table.add("contacts seen to begin", [](const SourceSummary& s) {
     return std::isnan(s.contact_rate.value) ? "-" : std::to_string(s.contacts.contacts);
   });
-  table.add("begun by a body (1/min)",
+  table.add("contacts started by a body (1/min)",
             [](const SourceSummary& s) { return or_dash(s.contact_rate, 1 / 60.0); });
   table.add("time in contact (%)",
             [](const SourceSummary& s) { return or_dash(s.contact_share, 0.01); });

@@ -155,7 +155,7 @@ ReportSection pair_tests_section(const StudySummary& s, const TimeScale& unit) {
          shown(p_text(t.result.p)), shown(p_text(t.adjusted_p)),
          shown(t.pairs < 2 ? "-" : fixed(t.result.saving, 2))});
   }
-  if (single) section.above.push_back("One pair cannot tell: a test takes two pairs or more.");
+  if (single) section.above.push_back("One pair is no test: the test needs two pairs or more.");
   return section;
 }
 

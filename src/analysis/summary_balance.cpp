@@ -21,7 +21,7 @@ class Balance final : public SummaryPart {
     std::vector<SummaryEntry> out;
     for (const char* name :
          {"along slip", "along slip, quadratic", "along velocity", "along water", "across water",
-          "velocity and water", "kick in slow water", "kick in fast water"}) {
+          "velocity and water", "process noise in slow water", "process noise in fast water"}) {
       out.push_back({"balance", name});
     }
     if (!turns_) return out;

@@ -162,8 +162,9 @@ class Kicks final : public SummaryPart {
   std::vector<SummaryEntry> entries() const override {
     std::vector<SummaryEntry> out;
     for (const int lag : kLags) {
-      out.push_back({turning_ ? "turning" : "kicks",
-                     (turning_ ? "turning kick " : "kick ") + std::to_string(lag) + " frames"});
+      out.push_back(
+          {turning_ ? "turning" : "kicks",
+           (turning_ ? "turning noise " : "process noise ") + std::to_string(lag) + " frames"});
     }
     return out;
   }

@@ -168,7 +168,8 @@ std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   for (const auto& [gain, name] : by) add(gain > 2 ? seen : none, name);
   return "seen in " + (seen.empty() ? "no body alone" : seen) +
          (none.empty() ? "" : "; not in " + none) +
-         (unasked.empty() ? "" : "; not asked, as no run of theirs is held out: " + unasked);
+         (unasked.empty() ? ""
+                          : "; not tested, because none of their runs is held out: " + unasked);
 }
 
 void tell_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {

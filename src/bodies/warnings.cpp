@@ -27,7 +27,7 @@ void warn_of_pushes(const Comparison& c, Diagnosis& d) {
       c.experiment->unit + "/s^2 rms are left (" + significant(std::sqrt(had / n), 2) +
       " without the findings): where nothing pushes these bodies at random, suspect the "
       "measurement (release, clock, scale); laws that differ by less along this motion are not "
-      "told apart");
+      "distinguished");
 }
 
 void warn_of_coefficients(const Comparison& c, Diagnosis& d) {
@@ -38,8 +38,8 @@ void warn_of_coefficients(const Comparison& c, Diagnosis& d) {
                          significant(c.repeats.factor(), 2) + " times their errors" +
                          (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
                          ": suspect the measurement (release, clock, scale); intervals are widened "
-                         "by that, and which law it is cannot be told from fits that differ by "
-                         "less");
+                         "by that, and fits that differ by less do not distinguish the "
+                         "laws");
   }
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const BodyModel& m = best.fits[i].model;

@@ -19,8 +19,8 @@ namespace {
 
 const std::vector<ModelParameter>& camera_parameters() {
   static const std::vector<ModelParameter> all{
-      {kPositionNoise, "m", 0, 0.1, "deviation of a position"},
-      {kHeadingNoise, "rad", 0, 1, "deviation of a heading"},
+      {kPositionNoise, "m", 0, 0.1, "standard error of a position"},
+      {kHeadingNoise, "rad", 0, 1, "standard error of a heading"},
       {kLens, "1/m^2", -1.5, 1.5, "places are seen at x (1 + lens |x|^2)"},
       {kTiltX, "rad", -0.3, 0.3, "the camera leans towards +x"},
       {kTiltY, "rad", -0.3, 0.3, "the camera leans towards +y"},

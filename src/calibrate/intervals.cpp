@@ -195,7 +195,7 @@ void warn_of_entangled(std::size_t n, CalibrationResult& out) {
     }
     const std::string r = without_rounding(std::round(1000 * closest) / 1000);
     out.warnings.push_back(
-        "these data cannot tell " + listed(names) + " apart: " +
+        "these data do not distinguish " + listed(names) + ": " +
         (group.size() == 2
              ? "their correlation is " + r + ", so only a combination of the two is"
              : "two of them correlate by " + r + ", so only combinations of them are") +
@@ -212,8 +212,8 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
         (of.to_scale(p.high) - of.to_scale(p.low)) / (of.to_scale(of.high) - of.to_scale(of.low));
     if (share > kTellsNothing) {
       out.warnings.push_back(
-          "these data hardly tell " + own_name(of.path) + ": its interval takes up " +
-          std::to_string(static_cast<int>(100 * share)) + " % of the bounds it was looked for in");
+          "these data hardly constrain " + own_name(of.path) + ": its interval spans " +
+          std::to_string(static_cast<int>(100 * share)) + " % of the range searched");
     }
     if (p.estimate <= of.low || p.estimate >= of.high) {
       out.warnings.push_back(own_name(of.path) + " is at a bound, " + shortest(p.estimate) +
@@ -246,9 +246,9 @@ void warn_of_choice(const Stages& stages, const NearestPoint& chosen, Calibratio
     if (p.estimate < p.low || p.estimate > p.high) outside.push_back(own_name(p.parameter.path));
   }
   if (outside.empty()) return;
-  out.warnings.push_back("recorded displacements ask for " + listed(outside) +
-                         " outside the interval that all numbers give: the model lacks something, "
-                         "or the flow is off");
+  out.warnings.push_back("the recorded displacements fit best with " + listed(outside) +
+                         " outside the interval from all summary statistics: the model omits an "
+                         "effect, or the flow is wrong");
 }
 
 }  // namespace

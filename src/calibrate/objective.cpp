@@ -51,7 +51,7 @@ struct CalibrationSearch::Parts {
       if (piece) rows[static_cast<std::size_t>(i)] = setup.numbers({*piece});
     });
     std::erase_if(rows, [](const auto& row) { return row.empty(); });
-    if (rows.size() < 4) throw InputError("the experiment's own parameters make worlds diverge");
+    if (rows.size() < 4) throw InputError("simulations at the experiment's own parameters diverge");
     const auto n = static_cast<double>(rows.size());
     for (std::size_t k = 0; k < observed.size(); ++k) {
       double mean = 0, square = 0;

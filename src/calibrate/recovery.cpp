@@ -90,7 +90,7 @@ std::optional<std::vector<RecoveryRow>> recover(const Scenario& scenario,
     while (!made) {
       const auto run = static_cast<std::uint64_t>(kTruthSeed + static_cast<unsigned>(drawn++));
       made = synthesise(scenario, options, parameters, derived_seed(options.calibration.seed, run));
-      if (drawn > 20 * options.experiments) throw InputError("almost every world diverges");
+      if (drawn > 20 * options.experiments) throw InputError("almost every simulation diverges");
     }
     for (const CalibrationObjective objective : options.objectives) {
       CalibrationOptions one = options.calibration;
@@ -203,10 +203,13 @@ std::string recovery_text(const std::vector<RecoveryRow>& rows) {
     }
     table.add(cells_of(chosen(rows, objective, ""), objective, ""));
   }
-  return "95 % intervals that hold the truth, with the 95 % interval of that share; medians of the "
-         "error, its size,\nand the half width, of the true value; mean interval score (width, and "
-         "forty times what is missed)\nas a share of the range that was searched: least for "
-         "intervals that are honest and narrow\n\n" +
+  return "Coverage of 95 % intervals with its 95 % interval; medians of the error, its size and "
+         "the "
+         "half width,\nrelative to the true value; mean interval score (width, plus forty times "
+         "the "
+         "distance by which the truth is missed)\nas a fraction of the range searched: smallest "
+         "for "
+         "intervals that are calibrated and narrow\n\n" +
          table.text();
 }
 

@@ -91,7 +91,7 @@ void find_summary(CalibrationSetup& setup) {
       setup.piece = std::min(setup.piece, one.frames / 2 / one.rate);
   }
   // Where recordings are short, two pieces of each, for the noise floor.
-  if (setup.piece < 2) throw InputError("recordings of less than 4 s tell nothing of a tank");
+  if (setup.piece < 2) throw InputError("recordings shorter than 4 s do not constrain a tank");
   MotionSummary& s = setup.summary;
   s.tank_radius = setup.model.tank.radius;
   s.body_size =

@@ -123,7 +123,7 @@ class Reader {
     } else {
       read_file(word);
     }
-    if (pieces_.empty()) throw InputError("'" + word + "' has no bodies of the kind asked for");
+    if (pieces_.empty()) throw InputError("'" + word + "' has no bodies of this kind");
     return std::move(pieces_);
   }
 

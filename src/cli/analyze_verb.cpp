@@ -121,8 +121,8 @@ void add_analyze_options(VerbOptions& options) {
 
 int analyze_verb(const Arguments& arguments) {
   VerbOptions options("analyze", "RUN|EXPERIMENT.toml|RECORDING...",
-                      "Tells what tracks show: displacements, velocities, maps, neighbours; two "
-                      "sources also against each other. Text, tables and plots.");
+                      "Analyses tracks: displacements, velocities, maps, neighbours. Compares two "
+                      "sources. Writes text, tables and plots.");
   add_analyze_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {

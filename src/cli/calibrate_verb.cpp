@@ -43,7 +43,7 @@ void add_calibrate_options(VerbOptions& options) {
       "recordings", "of an experiment, with --recover (3)", text(), "N")(
       "out", "directory of the results (default: out/calibrate-<name>)", text(), "DIR")(
       "seed", "of everything that is drawn (1)", text(), "N")(
-      "threads", "worlds at a time (default: one a core)", text(), "N")(
+      "threads", "simulations at a time (default: one a core)", text(), "N")(
       "force", "replace another calibration's files")("quiet", "no progress");
 }
 
@@ -150,9 +150,9 @@ int recover_verb(const VerbOptions& options, CalibrationOptions job) {
 
 int calibrate_verb(const Arguments& arguments) {
   VerbOptions options("calibrate", "EXPERIMENT.toml...",
-                      "Finds the model's parameters from an experiment's recordings: estimates, "
-                      "intervals, what the data cannot tell, and how like the recordings the "
-                      "model then is.");
+                      "Estimates the model's parameters from an experiment's recordings, with "
+                      "intervals, parameters that the data do not constrain, and the fit of the "
+                      "calibrated model.");
   add_calibrate_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {

@@ -125,7 +125,7 @@ std::optional<Counted> measure(const VerbOptions& options, const CheckInput& inp
   job.identity = identity_of(scenario, input.rules);
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  job.progress = [&](double done) { progress.tell(done, "of the worlds"); };
+  job.progress = [&](double done) { progress.tell(done, "of the simulations"); };
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
   if (stop_signal().load()) return std::nullopt;
@@ -147,8 +147,9 @@ std::string diverged_text(const Counted& counted) {
       std::to_string(counted.completion.size() + static_cast<std::size_t>(counted.diverged));
   if (counted.diverged == 0) return "";
   if (counted.completion.empty())
-    return (all == "1" ? "the world" : "all " + all + " worlds") + " diverged: no rates\n";
-  return diverged + " of " + all + " worlds diverged, left out of everything below\n";
+    return (all == "1" ? "the simulation" : "all " + all + " simulations") +
+           " diverged: no rates\n";
+  return diverged + " of " + all + " simulations diverged and are excluded below\n";
 }
 
 RateTable stored_rates(const std::string& where) {
@@ -176,7 +177,7 @@ void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, i
           const std::string& dir) {
 #ifdef LILYTANK_HAS_RENDER
   Plot plot;
-  plot.title = "Physical worlds and the well-mixed model on rates measured in them";
+  plot.title = "Simulations and the well-mixed model on rates measured in them";
   plot.x_label = "time (h)";
   plot.y_label = "mean copies of the target";
   plot.y_high = possible;
@@ -186,7 +187,7 @@ void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, i
     for (double& time : curve.x) time /= 3600;
     plot.curves.push_back(std::move(curve));
   };
-  add(worlds, std::to_string(number) + " physical worlds");
+  add(worlds, std::to_string(number) + " simulations");
   add(model, "well-mixed model");
   for (const char* ending : {".png", ".svg"})
     draw_plot(plot, (fs::path(dir) / (std::string("yield") + ending)).string());
@@ -220,13 +221,13 @@ std::string comparison(const CurveBand& worlds, const CurveBand& model) {
     out += "  after " + digits(model.time[k] / 3600) + " h: model " + digits(model.mean[k]) +
            band_text(model, k) + " copies";
     if (!worlds.mean.empty()) {
-      out += ", worlds " + digits(worlds.mean[k]) + band_text(worlds, k);
+      out += ", simulations " + digits(worlds.mean[k]) + band_text(worlds, k);
     }
     out += "\n";
   }
   if (!worlds.mean.empty())
     out += "  furthest apart after " + digits(model.time[furthest] / 3600) + " h: model " +
-           digits(model.mean[furthest]) + ", worlds " + digits(worlds.mean[furthest]) + "\n";
+           digits(model.mean[furthest]) + ", simulations " + digits(worlds.mean[furthest]) + "\n";
   return out;
 }
 
@@ -268,7 +269,7 @@ std::string table_text(const RateTable& table) {
   std::int64_t dockings = 0;
   for (const auto& [pair, meeting] : table.meetings) dockings += meeting.dockings;
   std::string out = "rates from " + std::to_string(table.worlds) +
-                    (table.worlds == 1 ? " world" : " worlds") + ", " +
+                    (table.worlds == 1 ? " simulation" : " simulations") + ", " +
                     digits(table.seconds / 3600) + " h: " + std::to_string(dockings) +
                     " dockings of two assemblies";
   if (table.contacts > 0)
@@ -283,14 +284,14 @@ std::string table_text(const RateTable& table) {
 void add_kinetics_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   const auto list = [] { return cxxopts::value<std::vector<std::string>>(); };
-  options.add()("measure", "count rates in worlds of a scenario (repeat for overlays)", list(),
-                "SCENARIO")("set", "a value over the scenario's", list(), "PATH=VALUE")(
-      "worlds", "how many (20)", text(), "N")("duration", "of each (the scenario's; model: 4 h)",
-                                              text(), "TIME")(
-      "threads", "worlds at once (one a core)", text(), "N")(
+  options.add()("measure", "measure rates in simulations of a scenario (repeat for overlays)",
+                list(), "SCENARIO")("set", "a value over the scenario's", list(), "PATH=VALUE")(
+      "worlds", "simulations to run (20)", text(), "N")(
+      "duration", "of each (the scenario's; model: 4 h)", text(), "TIME")(
+      "threads", "simulations at a time (one a core)", text(), "N")(
       "rates", "a run's directory or a rates.csv instead", text(), "RUN|FILE")(
       "gillespie", "runs of the well-mixed model on the rates (1000)", text(), "N")(
-      "out", "directory for worlds, rates and curves (out/check-<name>)", text(), "DIR")(
+      "out", "directory of simulations, rates and curves (out/check-<name>)", text(), "DIR")(
       "kappa", "the rules for KaSim", text(), "FILE.ka")("bngl", "the rules for BioNetGen", text(),
                                                          "FILE.bngl");
 }

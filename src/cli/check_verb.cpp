@@ -14,7 +14,7 @@ namespace {
 void add_check_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
-      "lattice", "worlds of the lattice model to run (20)", text(), "N")(
+      "lattice", "simulations of the lattice model (20)", text(), "N")(
       "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
                                                            text(), "N")("quiet", "no progress");
   add_kinetics_options(options);
@@ -23,10 +23,11 @@ void add_check_options(VerbOptions& options) {
 }  // namespace
 
 int check_verb(const Arguments& arguments) {
-  VerbOptions options("check", "RULESET",
-                      "Proves what a ruleset can build, where it gets stuck and whether its "
-                      "reverse rules undo their joins; counts rates in worlds and runs a "
-                      "well-mixed model on them.");
+  VerbOptions options(
+      "check", "RULESET",
+      "Proves which assemblies a ruleset can build, where it gets stuck and whether its "
+      "reverse rules undo their joins. Measures rates in simulations and runs a "
+      "well-mixed model on them.");
   add_check_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().size() != 1)
@@ -42,18 +43,18 @@ int check_verb(const Arguments& arguments) {
   RulesetCheck check;
   {
     Progress progress(options.has("quiet"));
-    job.progress = [&](double done) { progress.tell(done, "of the lattice worlds"); };
+    job.progress = [&](double done) { progress.tell(done, "of the lattice simulations"); };
     check = check_ruleset(input.rules, job);
     progress.clear();
   }
   if (stop_signal().load()) {
-    std::cerr << "stopped; the same command begins again, as lattice worlds are not kept\n";
+    std::cerr << "stopped; lattice simulations are not kept, so the same command starts again\n";
     return Exit::stopped;
   }
   std::cout << input.note << check_text(input.rules, check) << std::flush;
   const KineticsReport kinetics = run_kinetics(options, input);
   if (kinetics.stopped) {
-    std::cerr << "stopped; the same command goes on with the worlds that are done\n";
+    std::cerr << "stopped; finished simulations are kept, and the same command resumes\n";
     return Exit::stopped;
   }
   std::cout << kinetics.text << std::flush;

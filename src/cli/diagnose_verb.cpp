@@ -51,7 +51,7 @@ void add_diagnose_options(VerbOptions& options) {
       "hold-out", "recordings kept for showing, if none is marked held_out (1)", text(), "N")(
       "set", "a value over the experiment's, as run.dt='5 ms'",
       cxxopts::value<std::vector<std::string>>(),
-      "PATH=VALUE")("threads", "worlds at a time (default: one a core)", text(), "N")(
+      "PATH=VALUE")("threads", "simulations at a time (default: one a core)", text(), "N")(
       "force", "replace another diagnosis's files")("quiet", "no progress");
 }
 

@@ -103,9 +103,10 @@ void write_report(const FlowReport& report, const std::string& dir) {
 }  // namespace
 
 int flow_verb(const Arguments& arguments) {
-  VerbOptions options("flow", "EXPERIMENT.toml...",
-                      "Finds the water's velocity from the tracks of an experiment's balls: mean "
-                      "and deviation on a grid, with errors. Text, tables and maps.");
+  VerbOptions options(
+      "flow", "EXPERIMENT.toml...",
+      "Estimates the water's velocity from the tracks of an experiment's balls: mean and "
+      "standard deviation on a grid, with errors. Writes text, tables and maps.");
   add_flow_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (options.positional().empty()) {

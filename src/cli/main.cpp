@@ -24,11 +24,12 @@ const std::vector<Verb>& verbs() {
       {"optimize", "find the probabilities, rulesets and pump power that build a target best",
        optimize_verb},
       {"recording", "read, check and convert trackers' files; film a run", recording_verb},
-      {"analyze", "what runs and recordings show, alone and against each other", analyze_verb},
-      {"flow", "find the water's velocity from the tracks of balls", flow_verb},
-      {"calibrate", "find the model's parameters from recordings, with intervals", calibrate_verb},
-      {"diagnose", "find what physics a model leaves out, from recordings", diagnose_verb},
-      {"prove", "diagnose sealed experiments blind, and tell how often that was right", prove_verb},
+      {"analyze", "statistics of runs and recordings, alone and compared", analyze_verb},
+      {"flow", "estimate the water's velocity from the tracks of balls", flow_verb},
+      {"calibrate", "estimate the model's parameters from recordings, with intervals",
+       calibrate_verb},
+      {"diagnose", "find effects that the model omits, from recordings", diagnose_verb},
+      {"prove", "benchmark the diagnosis on blinded synthetic experiments", prove_verb},
       {"synthesize", "make a ruleset from the drawing of a target", synthesize_verb},
       {"check", "prove what a ruleset can build, where it gets stuck, how fast it would be",
        check_verb},
@@ -50,8 +51,8 @@ void print_help() {
   }
   std::cout << "  help        lilytank help VERB: the options of a verb\n\n"
                "After '--' every word is a file, even if it begins with a dash.\n"
-               "exit codes: 0 done, 1 a world diverged or a check found a fault, 2 bad input, 3 "
-               "stopped (run again to go on)\n";
+               "exit codes: 0 done, 1 a simulation diverged or a check found a fault, 2 bad input, "
+               "3 stopped (repeat the command to resume)\n";
 }
 
 const Verb& find_verb(const std::string& name) {

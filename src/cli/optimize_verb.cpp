@@ -109,13 +109,13 @@ int compare(const Optimization& what, const OptimizationResult& result,
 }
 
 void add_optimize_options(VerbOptions& options) {
-  options.add()("overlay", "a file laid over the scenarios, before --set",
+  options.add()("overlay", "a file that overrides values of the scenarios, before --set",
                 cxxopts::value<std::vector<std::string>>(),
-                "FILE")("set", "a value for every world, as run.duration='1 h'",
+                "FILE")("set", "a value for every simulation, as run.duration='1 h'",
                         cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
       "out", "directory of the results (default: out/<name>)", cxxopts::value<std::string>(),
-      "DIR")("threads", "worlds at a time (default: one a core)", cxxopts::value<std::string>(),
-             "N")("no-compare", "leave out the comparison that [compare] asks for")(
+      "DIR")("threads", "simulations at a time (default: one a core)",
+             cxxopts::value<std::string>(), "N")("no-compare", "skip the comparison of [compare]")(
       "dry-run", "check everything, write nothing")("force", "replace another search's files")(
       "quiet", "no progress");
 }
@@ -149,7 +149,7 @@ int optimize_verb(const Arguments& arguments) {
     return Exit::stopped;
   }
   if (result.optimum.empty()) {
-    std::cerr << "no optimum: no point could be evaluated without worlds that diverged; every "
+    std::cerr << "no optimum: at every point that was evaluated a simulation diverged; every "
                  "value is in "
               << job.out << "\n";
     return Exit::diverged;

@@ -55,16 +55,16 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
 
 void add_prove_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add()("worlds", "sealed experiments (100)", text(), "N")(
-      "only", "null, named, two or unnamed: leave out those of another kind", text(), "KIND")(
+  options.add()("worlds", "synthetic experiments (100)", text(), "N")(
+      "only", "null, named, two or unnamed: experiments of this kind only", text(), "KIND")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
       "drawn-tank", "draw the tank, too: its pumps, inlets and parameters (the built-in tank)")(
-      "modelled", "worlds whose effect is also fitted and shown (10)", text(), "N")(
+      "modelled", "experiments whose effect is also fitted and shown (10)", text(), "N")(
       "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
       "seed", "of everything that is drawn (1)", text(), "N")(
       "out", "directory of the results (out/proof)", text(), "DIR")(
-      "threads", "worlds at a time (default: one a core)", text(), "N")(
+      "threads", "simulations at a time (default: one a core)", text(), "N")(
       "force", "replace another proof's files")("quiet", "no progress");
 }
 
@@ -110,10 +110,10 @@ void keep(const Proof& so_far, const std::filesystem::path& dir) {
 int prove_verb(const Arguments& arguments) {
   VerbOptions options(
       "prove", "[PROOF...]",
-      "Seals experiments with known effects, none, or odd ones, diagnoses them "
-      "blind, opens the key, and tells how often the diagnosis was right. With "
-      "the directories of finished proofs: tells it of all their experiments, with --out "
-      "as a report.");
+      "Benchmarks the diagnosis: simulates experiments with known effects, with none, and with "
+      "effects outside the catalogue, diagnoses them blind, and compares the verdicts with the "
+      "ground truth. With directories of finished benchmarks: pools their experiments, with "
+      "--out as a report.");
   add_prove_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
@@ -132,7 +132,7 @@ int prove_verb(const Arguments& arguments) {
   };
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
-    std::cout << "sealed; SHA-256 of the key: " << hash << std::endl;
+    std::cout << "ground truth recorded; its SHA-256: " << hash << std::endl;
   };
   job.judged = [&](const Proof& so_far) { keep(so_far, dir); };
   const auto proof = prove(job);

@@ -191,7 +191,8 @@ int for_each(const std::vector<NamedRecording>& all, const Act& act) {
 }  // namespace
 
 int recording_info(const Arguments& arguments) {
-  VerbOptions options("recording info", "FILE...", "Tells what was recorded.");
+  VerbOptions options("recording info", "FILE...",
+                      "Describes recordings: bodies, frames, gaps and faults.");
   add_reading_options(options);
   if (!options.parse(arguments)) return Exit::done;
   return for_each(named_recordings(options, options.positional()), print_info);

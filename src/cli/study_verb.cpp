@@ -65,7 +65,7 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
   };
   job.progress = [&](const StudyProgress& now) {
     char note[120];
-    std::snprintf(note, sizeof note, "%d runs, %d left, %.3g worlds/s, %.3g simulated h/s%s%s",
+    std::snprintf(note, sizeof note, "%d runs, %d left, %.3g simulations/s, %.3g simulated h/s%s%s",
                   now.runs, now.left, now.worlds_per_second, now.hours_per_second,
                   now.failed > 0 ? ", diverged: " : "",
                   now.failed > 0 ? std::to_string(now.failed).c_str() : "");
@@ -113,7 +113,7 @@ int run_one(const Arguments& arguments) {
       "shard",
       "do part i of n, 1/n to n/n (default: from Slurm's or Open MPI's environment, else all)",
       cxxopts::value<std::string>(),
-      "I/N")("threads", "worlds at a time (default: SLURM_CPUS_PER_TASK, or one a core)",
+      "I/N")("threads", "simulations at a time (default: SLURM_CPUS_PER_TASK, or one a core)",
              cxxopts::value<std::string>(), "N")("dry-run", "check everything, write nothing")(
       "force", "replace another study's files")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;

@@ -119,7 +119,8 @@ int study_report(const Arguments& arguments) {
 }
 
 int study_status(const Arguments& arguments) {
-  VerbOptions options("study status", "DIR", "Tells what is done, missing and diverged.");
+  VerbOptions options("study status", "DIR",
+                      "Counts simulations that are done, missing and diverged.");
   const auto found = asked(options, arguments);
   if (!found) return Exit::done;
   const StoredStudy& study = found->study;

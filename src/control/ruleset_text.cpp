@@ -134,7 +134,7 @@ void Parser::target_row(std::string_view row, int y, int first_line) {
     throw InputError({out_.file, number_, column},
                      "'" + std::string(1, row[x]) +
                          "' in a target row: rows are of '#' and '.', and 'end' ends "
-                         "the target begun in line " +
+                         "the target that starts in line " +
                          std::to_string(first_line));
   }
 }

@@ -145,8 +145,8 @@ void Diagnoser::run(Diagnosis& out) {
       std::max({out.modules, most_bodies(setup_.shapes), most_bodies(setup_.held_out_shapes)});
   if (!atlas_->plan().identities) {
     out.checks.push_back(
-        "there are more identities than bodies: what single modules differ in is "
-        "not asked, nor is heterogeneous_module");
+        "there are more identities than bodies: differences between modules, "
+        "heterogeneous_module among them, are not tested");
   }
   out.nothing_held_out = setup_.held_out.empty();
   if (out.nothing_held_out) {

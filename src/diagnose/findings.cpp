@@ -154,13 +154,13 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
 
 // Findings that leave more than a complete experiment has, and no name for the rest.
 void Diagnoser::warn_of_rest(const Explanation& e, Diagnosis& out) const {
-  std::string text = "what is left is more than in a complete experiment";
+  std::string text = "the remaining discrepancy exceeds that of null experiments";
   if (e.left_shape.z > out.shape_threshold) {
     const Shape& shape = atlas_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
     text += ", most over " + shape.variable + " " + shape.direction + " (z " +
             significant(e.left_shape.z, 2) + ")";
   }
-  out.warnings.push_back(text + ": something else may be missing, or a law has another form");
+  out.warnings.push_back(text + ": another effect may be omitted, or a law has another form");
 }
 
 // Names that leave most of the mismatch are not told as findings.

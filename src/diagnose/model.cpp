@@ -128,8 +128,8 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
       }
     }
   }
-  std::string text = "# Physics that the recordings of " + setup_.name +
-                     " ask for, found by lilytank diagnose: lay this over a scenario, as in\n"
+  std::string text = "# Effects that the recordings of " + setup_.name +
+                     " support, found by lilytank diagnose. An overlay of a scenario:\n"
                      "#   lilytank run scenarios/tank_lilies.toml missing.toml\n";
   text += "run.dt = " + shortest(setup_.model.dt) + "\n";
   if (setup_.flow) text += "flow.file = \"flow.csv\"\n";

@@ -195,7 +195,7 @@ std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
   }
   if (out.empty()) {
     throw InputError("none of the first " + std::to_string(options.worlds) +
-                     " sealed experiments is \"" + options.only + "\"");
+                     " synthetic experiments is \"" + options.only + "\"");
   }
   return out;
 }
@@ -233,7 +233,8 @@ class Examination {
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
     const double begin = diagnoser.stages().spent();
     for (std::size_t w = 0; w < rows_.size(); ++w) {
-      world_told_ = "world " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
+      world_told_ =
+          "experiment " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
       if (w < before.size() && !asks_for_model(before[w])) {
         out_.worlds.push_back(before[w]);
       } else {
@@ -274,7 +275,7 @@ class Examination {
   }
 
   std::vector<std::vector<double>> film_all(Diagnoser& diagnoser) const {
-    const std::string stage = options_.only.empty() ? "sealed" : "sealed " + options_.only;
+    const std::string stage = options_.only.empty() ? "synthetic" : "synthetic " + options_.only;
     const auto row = [&](int i) {
       const auto made = film(static_cast<std::size_t>(i));
       if (!made) return std::vector<double>{};

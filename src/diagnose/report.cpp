@@ -131,8 +131,8 @@ ReportSection fit_section(const Diagnosis& d) {
     section.title = d.nothing_held_out ? "Fit to the recordings (none was held out)"
                                        : "Fit to the held-out recordings";
     section.above = {
-        "Mean square deviation of groups of statistics from simulations, before and "
-        "after; 1 is chance."};
+        "Mean squared z of groups of summary statistics against simulations, before and "
+        "after; 1 is expected by chance."};
   } else {
     section.title = "Prediction a quarter of a run ahead";
     section.above = {

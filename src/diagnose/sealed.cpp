@@ -245,7 +245,7 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
     seen.insert(seen.end(), amplitudes.begin(), amplitudes.end());
   }
   std::vector<RecordingShape> shapes(
-      kSealedRecordings, shape_named("sealed", BodyKind::lily, model.module.count, seconds));
+      kSealedRecordings, shape_named("synthetic", BodyKind::lily, model.module.count, seconds));
   EmulatorOptions options;
   options.moment_matched = false;
   return Emulator(model, cameras, shapes, options).record(seen, seed);

@@ -139,7 +139,7 @@ std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps&
   for (auto& one : made) {
     if (one) out.push_back(std::move(*one));
   }
-  if (2 * out.size() < made.size()) throw InputError("most worlds at the estimate diverge");
+  if (2 * out.size() < made.size()) throw InputError("most simulations at the estimate diverge");
   return out;
 }
 

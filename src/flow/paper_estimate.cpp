@@ -112,7 +112,7 @@ FlowEstimate estimate_paper(std::span<const Recording> recordings, const BallPhy
     all.rate = std::max(all.rate, recording.rate);
     out.filter = options.smoothing.method == SmoothingMethod::polynomial
                      ? filter_text(options.smoothing, recording.rate)
-                     : "Kalman smoother with the recording's own noise and jolts";
+                     : "Kalman smoother with the recording's own measurement and process noise";
   }
   out.samples = static_cast<std::int64_t>(all.x.size());
   const std::vector<CellSamples> cells = by_cell(all, grid.size(), out.thinning);

@@ -74,9 +74,9 @@ std::string fields(const FlowReport& report) {
   table.add("mean speed, m/s", number(&Summary::speed));
   table.add("  counter-clockwise", number(&Summary::around));
   table.add("  inwards", number(&Summary::inward));
-  table.add("deviation per axis, m/s", number(&Summary::deviation));
+  table.add("standard deviation per axis, m/s", number(&Summary::deviation));
   table.add("median standard error of a mean", number(&Summary::mean_error));
-  table.add("median standard error of a deviation", number(&Summary::deviation_error));
+  table.add("median standard error of a standard deviation", number(&Summary::deviation_error));
   return table.text();
 }
 
@@ -146,15 +146,16 @@ std::string errors(const FlowReport& report) {
     add(
         "  mean: counter-clockwise", [](const FlowError& f) { return f.mean_around; }, 4);
     add(
-        "  deviation: root mean square", [](const FlowError& f) { return f.deviation_rms; }, 4);
+        "  standard deviation: root mean square",
+        [](const FlowError& f) { return f.deviation_rms; }, 4);
     add(
-        "  deviation: average", [](const FlowError& f) { return f.deviation_bias; }, 4);
+        "  standard deviation: average", [](const FlowError& f) { return f.deviation_bias; }, 4);
     if (!measured) continue;
     add(
-        "  share of means within 1.96 standard errors",
+        "  fraction of means within 1.96 standard errors",
         [](const FlowError& f) { return f.mean_coverage; }, 3);
     add(
-        "  share of deviations within 1.96 standard errors",
+        "  fraction of standard deviations within 1.96 standard errors",
         [](const FlowError& f) { return f.deviation_coverage; }, 3);
   }
   return "\nErrors against " + report.truth_file + ", m/s:\n" + table.text();
@@ -162,7 +163,7 @@ std::string errors(const FlowReport& report) {
 
 std::string bias_text(const std::vector<FlowBiasRow>& rows) {
   TextTable table({"synthetic recordings", "estimator", "cells", "mean rms", "outwards", "around",
-                   "deviation rms", "average"});
+                   "standard deviation rms", "average"});
   std::string missing;
   for (const FlowBiasRow& row : rows) {
     const FlowError& e = row.error;

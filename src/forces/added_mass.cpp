@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"coefficient", "1", 0, 0, 5, "mass moved along, as a share of the displaced water's"},
+    {"coefficient", "1", 0, 0, 5, "added mass, as a fraction of the displaced water's mass"},
 };
 
 class AddedMass final : public ForceTerm {

@@ -11,7 +11,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"deviation", "m/s", 0, 0, 2, "of the eddies' velocity per axis"},
+    {"deviation", "m/s", 0, 0, 2, "standard deviation of the eddies' velocity per axis"},
     {"time", "s", 0.5, 0.01, 100, "over which they fade by e"},
     {"length", "m", 0.06, 0.005, 10, "over which the velocity of neighbours is alike"},
     {"share", "1", 0, 0, 1, "of the variance of the flow's own gusts that are such eddies"},

@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"rate", "1/s", 0, -0.1, 0.1, "growth of the flow, as a share a second"},
+    {"rate", "1/s", 0, -0.1, 0.1, "relative growth of the flow a second"},
 };
 
 class FlowDrift final : public ForceTerm {
@@ -15,7 +15,7 @@ class FlowDrift final : public ForceTerm {
   std::string_view name() const override { return "flow_drift"; }
   std::string_view summary() const override { return "the whole flow grows or fades in time"; }
   std::string_view equation() const override {
-    return "u *= max(0, 1 + rate t), mean and deviation";
+    return "u *= max(0, 1 + rate t), mean and standard deviation";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }

@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"share", "1", 0, 0, 1, "amplitude, as a share of the flow"},
+    {"share", "1", 0, 0, 1, "amplitude, as a fraction of the flow"},
     {"frequency", "Hz", 0.9, 0, 20, "of the pulsation"},
     {"phase", "rad", 0, -6.2832, 6.2832, "at time 0"},
 };
@@ -17,7 +17,7 @@ class FlowPulsation final : public ForceTerm {
   std::string_view name() const override { return "flow_pulsation"; }
   std::string_view summary() const override { return "the whole flow rises and falls in time"; }
   std::string_view equation() const override {
-    return "u *= 1 + share cos(2 pi frequency t + phase), mean and deviation";
+    return "u *= 1 + share cos(2 pi frequency t + phase), mean and standard deviation";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool stirs() const override { return true; }

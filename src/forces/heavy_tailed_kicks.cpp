@@ -7,7 +7,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"impulse", "N s", 0, 0, 0.1, "deviation per axis of a knock"},
+    {"impulse", "N s", 0, 0, 0.1, "standard deviation of an impulse per axis"},
     {"rate", "1/s", 0.2, 0, 40, "knocks a second and module"},
 };
 

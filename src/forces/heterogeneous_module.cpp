@@ -8,7 +8,7 @@ namespace lilytank {
 namespace {
 
 constexpr Parameter kParameters[] = {
-    {"extra", "1", 0, -0.9, 9, "mass and inertia beyond those of the others, as a share"},
+    {"extra", "1", 0, -0.9, 9, "mass and inertia beyond those of the others, as a fraction"},
     {"module", "1", 0, 0, 9999, "which one", true},
 };
 

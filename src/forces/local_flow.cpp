@@ -14,7 +14,7 @@ constexpr Parameter kParameters[] = {
     {"speed_y", "m/s", 0, -2, 2, "of the added stream in its middle"},
     {"x", "m", 0, -5, 5, "middle"},
     {"y", "m", 0, -5, 5, "middle"},
-    {"width", "m", 0.05, 0.005, 5, "deviation of its bell-shaped profile"},
+    {"width", "m", 0.05, 0.005, 5, "standard deviation of its Gaussian profile"},
 };
 
 class LocalFlow final : public ForceTerm {

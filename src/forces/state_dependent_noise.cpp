@@ -11,8 +11,8 @@ namespace {
 
 constexpr Parameter kParameters[] = {
     {"by_radius", "N", 0, 0, 1,
-     "deviation per axis at the wall, growing in proportion to the radius"},
-    {"by_slip", "N s/m", 0, 0, 10, "deviation per axis by relative speed"},
+     "standard deviation per axis at the wall, growing in proportion to the radius"},
+    {"by_slip", "N s/m", 0, 0, 10, "standard deviation per axis and unit of relative speed"},
 };
 
 class StateDependentNoise final : public ForceTerm {

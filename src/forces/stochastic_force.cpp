@@ -11,7 +11,8 @@ namespace {
 
 constexpr Parameter kParameters[] = {
     {"sigma_stoch", "N", 12.682e-3, 0, 1,
-     "deviation per axis of one draw a 25 ms [Table 1, in 1e-4 N: Lilies 126.82, balls 195.25]"},
+     "standard deviation per axis of one draw a 25 ms [Table 1, in 1e-4 N: Lilies 126.82, balls "
+     "195.25]"},
 };
 
 class StochasticForce final : public ForceTerm {

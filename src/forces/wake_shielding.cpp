@@ -11,8 +11,9 @@ namespace {
 
 constexpr Parameter kParameters[] = {
     {"share", "1", 0, 0, 1, "share of the relative flow that is missing right behind a module"},
-    {"length", "m", 0.08, 0.01, 0.5, "distance downstream over which the lee falls by e"},
-    {"width", "m", 0.02, 0.005, 0.2, "deviation of the lee across the stream"},
+    {"length", "m", 0.08, 0.01, 0.5,
+     "distance downstream over which the wake decays by a factor e"},
+    {"width", "m", 0.02, 0.005, 0.2, "standard deviation of the wake across the stream"},
 };
 
 constexpr double kWide = 5;  // deviations beyond which the lee is nothing
@@ -52,7 +53,7 @@ class WakeShielding final : public ForceTerm {
  public:
   std::string_view name() const override { return "wake_shielding"; }
   std::string_view summary() const override {
-    return "a module in the lee of another meets less of the flow";
+    return "a module in the wake of another meets a weaker flow";
   }
   std::string_view equation() const override {
     return "u_i += share exp(-s / length - y^2 / (2 width^2)) (v_i - u_i), s > 0 and y the place "

@@ -219,7 +219,7 @@ class Reader {
   void compare(const toml::table& from) {
     const TomlFields fields(from, "compare", file_, {"overlays", "labels", "replicates", "seed"});
     CompareTable& out = out_.compare;
-    fields.need("replicates", "how many worlds of the optimum and of each overlay");
+    fields.need("replicates", "how many simulations of the optimum and of each overlay");
     out.replicates = whole(fields, "replicates", 0, 1, 10'000'000);
     out.seed = fields.has("seed")
                    ? static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed))

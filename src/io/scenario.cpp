@@ -240,8 +240,8 @@ class Loader {
     for (const Ruleset& rules : m.rulesets) {
       if (!final_labels(rules).empty()) continue;
       throw InputError(place("command"), "ruleset '" + rules.name +
-                                             "' has no last join, so no finished copies can be "
-                                             "told from its labels");
+                                             "' has no last join, so its labels do not show "
+                                             "completed copies");
     }
     if (m.rulesets.empty())
       throw InputError(place("command"), "command.copies needs a ruleset.file");

@@ -29,8 +29,8 @@ void body_keys(ScenarioDraft& d, Keys& keys) {
   keys.push_back({"module.count", &m.module.count, "1", 0, 10000, "number of Lily modules"});
   keys.push_back({"module.side", &m.module.side, "m", 0.005, 0.5, "side of the square module"});
   keys.push_back({"module.mass", &m.module.mass, "kg", 1e-4, 10, "mass of a module"});
-  keys.push_back(
-      {"module.draught", &m.module.draught, "m", 1e-4, 0.5, "height of a face that feels drag"});
+  keys.push_back({"module.draught", &m.module.draught, "m", 1e-4, 0.5,
+                  "immersion depth: height of a face that feels drag"});
   keys.push_back({"module.shadowing", &m.module.shadowing, "", 0, 0,
                   "a face covered by a latched neighbour feels no drag"});
   keys.push_back({"ball.count", &m.ball.count, "1", 0, 10000, "number of balls"});
@@ -60,7 +60,7 @@ void flow_keys(ScenarioDraft& d, Keys& keys) {
       {"flow.at", choice(f.at, {"points", "centre"}), "", 0, 0,
        "where the water is read for the drag: at each drag point, or the module's centre"});
   keys.push_back(
-      {"flow.K_v", &f.K_v, "1", 0, 10, "factor on mean and deviation of the flow, Eq. 4"});
+      {"flow.K_v", &f.K_v, "1", 0, 10, "factor on mean and standard deviation of the flow, Eq. 4"});
   keys.push_back({"flow.rho", &f.rho, "kg/m^3", 1, 20000, "density of the water"});
   keys.push_back({"flow.pump_power", &d.tank.pump_power, "%", 0, 100,
                   "share of a pump's full flow of 9 l/min, of the built-in tank"});
@@ -107,7 +107,7 @@ void control_keys(ScenarioDraft& d, Keys& keys) {
   keys.push_back({"control.latch_failure", &c.latch_failure, "1", 0, 1,
                   "probability that two faces that meet fail to hold each other"});
   keys.push_back({"control.release_failure", &c.release_failure, "1", 0, 1,
-                  "probability that a latch told to let go holds on"});
+                  "probability that a latch fails to release when commanded"});
 }
 
 void start_keys(ScenarioDraft& d, Keys& keys) {

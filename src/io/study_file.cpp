@@ -39,7 +39,7 @@ class Reader {
     if (top.has("stop")) stop(top.table("stop"));
     if (out_.replicates < 0) {
       throw InputError(top.place("study"),
-                       "study.replicates is missing: how many worlds of each setting");
+                       "study.replicates is missing: the number of simulations of each setting");
     }
     for (const toml::table* axis : top.tables("axis")) {
       out_.axes.push_back(read_axis(*axis, file_, directory_));

@@ -218,7 +218,7 @@ std::optional<Unit> parse_unit(std::string_view text) {
 
 std::string described(std::string_view unit) {
   if (unit == "1" || unit.empty()) return "a number without a unit";
-  if (unit == "%") return "a share in %";
+  if (unit == "%") return "a fraction in %";
   return std::string(dimension_name(unit)) + " in " + std::string(unit);
 }
 

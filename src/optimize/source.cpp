@@ -85,8 +85,8 @@ void Optimization::Source::check_names() const {
       if (!is_rule(value)) continue;
       if (std::any_of(ruleset->rules.begin(), ruleset->rules.end(), named)) continue;
       throw InputError(value.place, "'" + value.path() + "' is no rule of '" + ruleset->name +
-                                        "', a ruleset of the race, which could not be laid over "
-                                        "this: give the p in the ruleset's file");
+                                        "', a ruleset of the race, which an overlay cannot "
+                                        "change: set p in the ruleset's file");
     }
   }
 }
@@ -158,7 +158,7 @@ void Optimization::Source::prepare() {
 void Optimization::Source::check_overrides() const {
   for (const Assignment& value : overrides_.values) {
     if (value.path() == "run.seed") {
-      throw InputError(value.place, "worlds have seeds of their own: set optimize.seed in '" +
+      throw InputError(value.place, "each simulation has its own seed: set optimize.seed in '" +
                                         file.hybrid_place.file + "'");
     }
     for (const SearchAxis& axis : plan.space) {
@@ -224,8 +224,8 @@ Scenario Optimization::Source::scenario(const std::vector<double>& point) const 
   Model& model = out.model;
   if (final_labels(model.rulesets.front()).empty()) {
     throw InputError(file.hybrid_place,
-                     "the ruleset has no last join, so no finished copies can be told from its "
-                     "labels");
+                     "the ruleset has no last join, so its labels do not show completed "
+                     "copies");
   }
   Command command;
   command.kind = CommandKind::replace_ruleset;

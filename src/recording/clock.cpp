@@ -44,7 +44,7 @@ class ClockFinder {
       collect(true);
     }
     if (instants_.empty()) {
-      throw InputError(file_, "nothing is left of it after what the checks marked");
+      throw InputError(file_, "the checks excluded all of its rows");
     }
     clock_.first = instants_.front().frame;
     take_step();

@@ -238,7 +238,7 @@ std::int64_t track_of(const std::string& file) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
   const auto last = name.find_last_of("0123456789", name.rfind(".csv"));
   if (last == std::string::npos) {
-    throw InputError({file, 0, 0}, "the file's name has no number that tells the track");
+    throw InputError({file, 0, 0}, "the file's name has no number that identifies the track");
   }
   const auto before = name.find_last_not_of("0123456789", last);
   const std::size_t begin = before == std::string::npos ? 0 : before + 1;

@@ -171,7 +171,7 @@ CheckedRecording process(Sightings sightings, const RecordingOptions& options) {
     if (finding.id >= 0 && id < out.names.size()) finding.name = out.names[id];
   }
   if (!report.refused() && r.tracks.empty()) {
-    throw InputError(file, "nothing is left of it after what the checks marked");
+    throw InputError(file, "the checks excluded all of its rows");
   }
   return out;
 }

@@ -26,8 +26,8 @@ Incumbent incumbent_of(const SearchSpace& space, const std::vector<double>& u, c
 
 void check_count(std::size_t told, std::size_t asked) {
   if (told == asked && asked > 0) return;
-  throw std::logic_error("a search was told " + std::to_string(told) +
-                         " values where it asked for " + std::to_string(asked));
+  throw std::logic_error("a search received " + std::to_string(told) + " values where it needs " +
+                         std::to_string(asked));
 }
 
 void save_history(StateWriter& out, const std::vector<IterationRecord>& history) {

@@ -49,7 +49,7 @@ std::string first_lines(std::uint64_t identity) {
 /// The first three.
 std::string head_of(std::uint64_t identity, std::int64_t batches, bool finished) {
   return first_lines(identity) + "batches " + std::to_string(batches) +
-         (finished ? " finished\n" : " begun\n");
+         (finished ? " finished\n" : " started\n");
 }
 
 std::uint64_t identity_of(const std::string& what, const Search& fresh) {

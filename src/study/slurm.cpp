@@ -90,16 +90,16 @@ std::string slurm_script(const SlurmJob& job) {
        name + "-%A_%a.log\n\n";
   s += "# TERM, a minute before the time limit, makes the program keep what is finished and end "
        "with 3.\n"
-       "export SLURM_EXIT_ERROR=125  # of srun itself; it would be 1, as of diverged worlds\n"
+       "export SLURM_EXIT_ERROR=125  # of srun itself; it would be 1, as for diverged simulations\n"
        "srun --cpus-per-task=\"$SLURM_CPUS_PER_TASK\" \\\n  " +
        command +
        " --threads \"$SLURM_CPUS_PER_TASK\"\n"
        "code=$?\n"
        "if [ \"$code\" -eq 3 ] && [ \"$(squeue -h -j \"$SLURM_JOB_ID\" -o %T)\" = RUNNING ]; then\n"
-       "  # There is more to do, and nobody has cancelled the task: take it up again.\n"
+       "  # Simulations remain and the task was not cancelled: requeue it.\n"
        "  exec scontrol requeue \"$SLURM_JOB_ID\"\n"
        "fi\n"
-       "# 1 says that worlds diverged: their rows are there, and the study goes on.\n"
+       "# 1: some simulations diverged. Their rows are stored, and the study continues.\n"
        "[ \"$code\" -eq 1 ] && code=0\n"
        "exit \"$code\"\n";
   return s;

@@ -101,10 +101,10 @@ void judge_lattice(const Ruleset& rules, const CheckOptions& options, RulesetChe
     illegal += result.illegal, unrestored += result.unrestored;
   if (illegal > 0)
     check.faults.push_back(many(illegal, "assembly", "assemblies") +
-                           " in the lattice worlds that the rules cannot make one at a time");
+                           " in the lattice simulations that the rules cannot make one at a time");
   if (unrestored > 0)
     check.faults.push_back(many(unrestored, "join", "joins") +
-                           " in the lattice worlds that undoing did not take back");
+                           " in the lattice simulations that reverse rules did not undo");
 }
 
 std::string contents(const ReactionNetwork& network, const std::vector<int>& counts) {
@@ -165,7 +165,8 @@ std::string lattice_text(const RulesetCheck& check) {
     restored += r.restored, blocked += r.blocked;
     full += r.possible > 0 && r.copies == r.possible ? 1 : 0;
   }
-  return many(static_cast<std::int64_t>(check.lattice.size()), "lattice world", "lattice worlds") +
+  return many(static_cast<std::int64_t>(check.lattice.size()), "lattice simulation",
+              "lattice simulations") +
          ": " + std::to_string(attempts) + " meetings, " + std::to_string(links) + " joins, " +
          std::to_string(unlinks) + " undone, " + std::to_string(blocked) + " without a way in; " +
          std::to_string(illegal) + " illegal assemblies; " + std::to_string(restored) +

@@ -232,7 +232,7 @@ LatticeResult LatticeWorld::run() {
 
 LatticeResult run_lattice(const Ruleset& rules, const ReactionNetwork& network,
                           const LatticeOptions& options) {
-  if (options.modules < 1) throw InputError("a lattice world needs one module or more");
+  if (options.modules < 1) throw InputError("a lattice simulation needs one module or more");
   return LatticeWorld(rules, network, options).run();
 }
 

@@ -156,8 +156,7 @@ std::string to_csv(const MeasuredWorld& world, std::uint64_t identity) {
 
 MeasuredWorld measured_world_from(const std::string& stored, const std::string& file,
                                   std::uint64_t identity) {
-  const std::string text(
-      without_checksum_line(stored, file, "remove it to have the world simulated again"));
+  const std::string text(without_checksum_line(stored, file, "remove it to simulate again"));
   MeasuredWorld world;
   world.rates = rate_table_from(text, file);
   CsvReader rows(text, file, {kColumns});
@@ -166,7 +165,7 @@ MeasuredWorld measured_world_from(const std::string& stored, const std::string& 
     if (rows.text(0) == "copy") world.completion.push_back(rows.number(5));
     if (rows.text(0) != "scenario") continue;
     if (rows.text(1) != hex(identity))
-      throw InputError({file, 0, 0}, "this world is of another scenario: take another --out");
+      throw InputError({file, 0, 0}, "this simulation is of another scenario: use another --out");
     known = true;
     world.diverged = rows.whole(4, 0, 1) == 1;
   }

@@ -109,7 +109,8 @@ TEST(DiagnoseBodies, bodiesOfWhichNothingIsHeldOutAreNotAsked) {
   }
   const Diagnosis d = diagnosis_of(e);
   ASSERT_EQ(d.verdict, Verdict::missing);
-  EXPECT_EQ(d.findings.at(0).text, "seen in P; not asked, as no run of theirs is held out: Q");
+  EXPECT_EQ(d.findings.at(0).text,
+            "seen in P; not tested, because none of their runs is held out: Q");
 }
 
 // Runs that are not held out have no part in what is compared, not even as zeros.

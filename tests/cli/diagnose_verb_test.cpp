@@ -30,7 +30,7 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"prove --worlds 0", "--worlds"},
       {"prove --only nothing", "--only nothing is none of null, named, two, unnamed"},
       {"prove --only unamed", "--only unamed is none of null, named, two, unnamed - did you mean"},
-      {"prove --worlds 1 --only named", "none of the first 1 sealed experiments is \"named\""},
+      {"prove --worlds 1 --only named", "none of the first 1 synthetic experiments is \"named\""},
   };
   for (const auto& c : cases) {
     const Answer a = lilytank(c.words + " --out x");
@@ -67,7 +67,8 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
       << nulls.out;
 #ifdef LILYTANK_HAS_RENDER
   const std::string page = lilytank.here.read("r/report.html");
-  for (const char* part : {"How often sealed", "What was said of every", "local_flow"}) {
+  for (const char* part :
+       {"Fraction of synthetic experiments", "Verdict on every experiment", "local_flow"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
 #endif

@@ -47,7 +47,7 @@ TEST_F(OptimizeVerbTest, WhereAllWorldsDivergeThereIsNoOptimum) {
   EXPECT_EQ(a.code, 1);
   EXPECT_EQ(a.out, "");
   EXPECT_EQ(a.err,
-            "no optimum: no point could be evaluated without worlds that diverged; every value is "
+            "no optimum: at every point that was evaluated a simulation diverged; every value is "
             "in a\n");
   expect_there({"a/evaluations.csv"}, true);
   expect_there({"a/optimum.toml", "a/compare.toml"}, false);

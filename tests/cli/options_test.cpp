@@ -126,7 +126,7 @@ TEST_F(OptionsTest, AnInterruptedCheckDoesNotPromiseWhatIsNotKept) {
   check.await([&] { return check.catches(SIGINT); });
   EXPECT_EQ(check.end(SIGINT), 3);
   EXPECT_EQ(lilytank_.here.read("said"),
-            "stopped; the same command begins again, as lattice worlds are not kept\n");
+            "stopped; lattice simulations are not kept, so the same command starts again\n");
 }
 
 }  // namespace

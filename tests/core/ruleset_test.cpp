@@ -243,8 +243,8 @@ TEST(RulesetErrors, Target) {
        "bad.rules:3:1: the target has no 'end': the file stops in line 4"},
       {kHead + "target\n  ##\n" + kRule,
        "bad.rules:5:1: '(' in a target row: rows are of '#' and '.', and 'end' ends the target "
-       "begun "
-       "in line 3"},
+       "that "
+       "starts in line 3"},
       {kHead + "target\n  ..\nend\n" + kRule, "bad.rules:3:1: the target has no '#'"},
       {kHead + "target\n  #.\n  .#\nend\n" + kRule,
        "bad.rules:3:1: the target is in several pieces"},

@@ -281,7 +281,7 @@ TEST(Optimize, OverlaysToCompareWithAreCheckedFirst) {
   expect(refused("\"crowd.toml\""), "crowd: ");
   expect(refused("\"sticky.toml\", \"glued.toml\""),
          "optimize.toml:9:12: overlays 'sticky' and 'glued' make one and the same scenario");
-  expect(refused("\"sticky.toml\"", {"run.seed=3"}), "worlds have seeds of their own");
+  expect(refused("\"sticky.toml\"", {"run.seed=3"}), "each simulation has its own seed");
   EXPECT_EQ(refused("\"sticky.toml\""), "(accepted)");
 }
 

@@ -147,7 +147,7 @@ TEST(MalformedFiles, columnsOfWideTables) {
 TEST(MalformedFiles, trackFilesNeedANumber) {
   RecordingOptions options;
   options.rate = 30;
-  EXPECT_NE(complaint("% Frame number  x  y\n0\t0\t0\n", options).find("no number that tells"),
+  EXPECT_NE(complaint("% Frame number  x  y\n0\t0\t0\n", options).find("no number that identifies"),
             std::string::npos);
 }
 

@@ -232,8 +232,9 @@ TEST_F(StudyFileTest, MistakesInTheHead) {
             "overlays");
   EXPECT_EQ(refusal("[study]\nscenario = \"nobody.toml\"\n"),
             "study.toml:2:12: cannot read 'nobody.toml': No such file or directory");
-  EXPECT_EQ(refusal("[study]\nscenario = \"pair.toml\"\n"),
-            "study.toml:1:1: study.replicates is missing: how many worlds of each setting");
+  EXPECT_EQ(
+      refusal("[study]\nscenario = \"pair.toml\"\n"),
+      "study.toml:1:1: study.replicates is missing: the number of simulations of each setting");
   EXPECT_EQ(refusal(kHead + "sede = 3\n"),
             "study.toml:4:1: unknown key 'study.sede' - did you mean 'seed'?");
   EXPECT_EQ(refusal(kHead + "seed = 1.5\n"),
