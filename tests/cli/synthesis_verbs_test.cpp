@@ -148,7 +148,7 @@ TEST(CheckVerb, CountsRatesAndGoesOnAfterAStop) {
                             "/scenarios/chain5.toml' --duration '4 min' --gillespie 20 --quiet";
   const Answer one = lilytank(words + " --worlds 1 --out a");
   ASSERT_EQ(one.code, 0) << one.err;
-  EXPECT_NE(one.out.find("copies, worlds 0 (-)"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("copies, simulations 0 (-)"), std::string::npos) << one.out;
   EXPECT_EQ(one.out.find("inf"), std::string::npos) << one.out;
   EXPECT_EQ(lilytank.here.read("a/yield.csv").find("inf"), std::string::npos);
   ASSERT_EQ(lilytank(words + " --worlds 2 --out a --kappa a.ka --bngl a.bngl").code, 0);
@@ -233,7 +233,7 @@ TEST(CheckVerb, RatesOfAStoredRun) {
             0);
   const Answer a = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r --out c");
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("rates from 1 world, 0.0667 h"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("rates from 1 simulation, 0.0667 h"), std::string::npos) << a.out;
   EXPECT_EQ(lilytank.here.read("c/rates.csv").find("evaluations,,,,-1,"), std::string::npos);
   std::filesystem::remove(lilytank.here.path("r/summary.json"));
   const Answer begun = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r");
