@@ -211,7 +211,7 @@ TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
   const Answer all =
       lilytank(words + "a --set module.mass='0.1 g' --set forces.body_force.force_x=1");
   EXPECT_EQ(all.code, 1) << all.err;
-  EXPECT_NE(all.out.find("all 2 worlds diverged"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("all 2 simulations diverged"), std::string::npos) << all.out;
   ASSERT_EQ(lilytank(words + "b").code, 0);
   // As if the second of the worlds that are kept had diverged.
   std::string kept = lilytank.here.read("b/world-1-2.csv");
@@ -220,7 +220,7 @@ TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
   lilytank.here.write("b/world-1-2.csv", with_checksum_line(kept));
   const Answer some = lilytank(words + "b");
   EXPECT_EQ(some.code, 1) << some.err;
-  EXPECT_NE(some.out.find("1 of 2 worlds diverged"), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("1 of 2 simulations diverged"), std::string::npos) << some.out;
   EXPECT_NE(some.out.find("rates from 1 world,"), std::string::npos) << some.out;
 }
 
