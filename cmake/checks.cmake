@@ -5,6 +5,7 @@ add_test(NAME style COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/style.sh)
 set_tests_properties(style PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME words COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/words.sh)
 add_test(NAME links COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/links.sh $<TARGET_FILE:lilytank>)
+add_test(NAME options COMMAND bash ${PROJECT_SOURCE_DIR}/.ci/options.sh $<TARGET_FILE:lilytank>)
 
 # The same program inside and outside the tree; both must print the same fingerprint.
 add_executable(package_inside ${PROJECT_SOURCE_DIR}/tests/package/main.cpp)
@@ -13,7 +14,7 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -DSOURCE=${PROJECT_SOURCE_DIR}/tests/package -DINSIDE=$<TARGET_FILE:package_inside>
   -DGENERATOR=${CMAKE_GENERATOR} -DCOMPILER=${CMAKE_CXX_COMPILER} -DRENDER=${LILYTANK_HAS_RENDER}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
-set_tests_properties(layers style words links package PROPERTIES LABELS tree TIMEOUT 300)
+set_tests_properties(layers style words links options package PROPERTIES LABELS tree TIMEOUT 300)
 
 # Studies under a real Slurm of one node; skipped, with the reason, where only root could start one or
 # the package is not to be had. It mostly waits for Slurm, so it goes first and beside other tests.

@@ -52,7 +52,7 @@ Plot curve_plot(const FoundCurve& c, bool tank, bool small) {
   }
   if (small) plot.width = 460, plot.height = 330;
   const double scale = scale_of(c), untold = kUntold * median(c.deviation);
-  Curve nothing{"nothing there, 95 %", c.at, {}, {}, {}}, found{"found", c.at, {}, {}, {}};
+  Curve nothing{"null, 95 %", c.at, {}, {}, {}}, found{"estimate", c.at, {}, {}, {}};
   for (std::size_t k = 0; k < c.at.size(); ++k) {
     const double gap = c.deviation[k] > untold ? NAN : 1, band = 1.96 * c.deviation[k] * scale;
     nothing.y.push_back(0 * gap), found.y.push_back(c.value[k] * scale * gap);
@@ -98,7 +98,7 @@ PlotPage laws_page(const Diagnosis& d) {
 std::string words_for(const std::string& group) {
   static const std::map<std::string, std::string> kWords = {
       {"balance", "balance of momentum"},
-      {"camera", "gaps at contact, over the picture"},
+      {"camera", "gaps at contact, across the image"},
       {"contact", "bounces"},
       {"displacement", "displacement (MSD)"},
       {"kicks", "process noise between frames"},
@@ -126,7 +126,7 @@ Plot fit_plot(const Diagnosis& d) {
   constexpr double kRoom = 1.2;  // beside the outermost, chance included
   plot.log_x = true, plot.x_low = 1 / kRoom, plot.x_high = kRoom;
   plot.height = std::max(220, 120 + 36 * static_cast<int>(d.held_out.size()));
-  Curve before{"baseline", {}, {}, {}, {}}, after{"with what was found", {}, {}, {}, {}};
+  Curve before{"baseline", {}, {}, {}, {}}, after{"with the findings", {}, {}, {}, {}};
   Curve chance{d.tank ? "chance" : "noise alone",
                {1, 1},
                {-0.5, static_cast<double>(d.held_out.size()) - 0.5},

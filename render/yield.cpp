@@ -78,7 +78,7 @@ Plot yield_plot(const StoredRun& run) {
   plot.title = run.scenario.title;
   const YieldCurve found = yield_of(run);
   Curve curve;
-  curve.name = "copies standing";
+  curve.name = "completed copies";
   curve.steps = true;
   std::vector<double> time = run.metrics_time;
   std::vector<double> copies(run.metrics_copies.begin(), run.metrics_copies.end());

@@ -309,7 +309,10 @@ void check_kinetics_options(const VerbOptions& options) {
   std::vector<std::string> inputs = options.positional();
   for (const std::string& file : options.list("measure")) inputs.push_back(file);
   inputs.push_back(options.text("rates"));
-  for (const char* name : {"kappa", "bngl"}) options.spare_inputs(name, options.text(name), inputs);
+  for (const char* name : {"kappa", "bngl"}) {
+    options.spare_inputs(name, options.text(name), inputs);
+    options.spare_existing(name, options.text(name));
+  }
   options.spare_each_other({"kappa", "bngl"});
 }
 

@@ -39,9 +39,10 @@ std::string seconds_list(const Json& times) {
 ReportCard card_of(const Json& summary, const Model& model) {
   ReportCard card;
   const int copies = summary["copies"], possible = summary["possible_copies"];
-  const std::string simulated = without_rounding(summary["time_s"]) + " s of " +
-                                std::to_string(model.module.count) + " modules and " +
-                                std::to_string(model.ball.count) + " balls";
+  const std::string simulated =
+      without_rounding(summary["time_s"]) + " s of " + std::to_string(model.module.count) +
+      " modules" +
+      (model.ball.count > 0 ? " and " + std::to_string(model.ball.count) + " balls" : "");
   if (summary["status"] != "complete") {
     card.tone = ReportTone::fault;
     card.verdict = "the simulation diverged at step " + summary["diverged_step"].dump();

@@ -27,8 +27,8 @@ TEST(SynthesizeVerb, MakesTheShippedRulesets) {
   for (const std::string name :
        {"chain5", "cross5", "i4", "l4", "j4", "t4", "s4", "o4", "p5", "caterpillar7", "arms7"}) {
     const std::string algorithm = name == "arms7" ? " --algorithm linchpin" : "";
-    const Answer a =
-        lilytank("synthesize '" + kTargets + name + ".txt'" + algorithm + " --out made.rules");
+    const Answer a = lilytank("synthesize '" + kTargets + name + ".txt'" + algorithm +
+                              " --out made.rules --force");
     ASSERT_EQ(a.code, 0) << a.err;
     EXPECT_EQ(a.out, "");
     const Ruleset made = read_ruleset(lilytank.here.path("made.rules"));
@@ -221,7 +221,7 @@ TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
   const Answer some = lilytank(words + "b");
   EXPECT_EQ(some.code, 1) << some.err;
   EXPECT_NE(some.out.find("1 of 2 simulations diverged"), std::string::npos) << some.out;
-  EXPECT_NE(some.out.find("rates from 1 world,"), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("rates from 1 simulation,"), std::string::npos) << some.out;
 }
 
 // What is counted while a world runs, and from the events that a run stores, is the same.
