@@ -48,7 +48,7 @@ only_in 'src/study/' '#include <(thread|future|mutex|condition_variable|executio
   'threads belong to src/study'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
-only_in 'src/analysis/' '#include <boost/' 'Boost.Math belongs to src/analysis'
+only_in 'src/(statistics|tracks)/' '#include <boost/' 'Boost.Math belongs to src/statistics and src/tracks'
 only_in 'src/io/' '#include <toml' 'TOML belongs to src/io'
 only_in 'src/io/' '#include <openssl' 'hashes of files belong to src/io'
 only_in 'src/math/' '#include <Random123' 'Random123 belongs to src/math'
@@ -62,7 +62,7 @@ forbid "(std::|::|[^_.>:[:alnum:]])$functions\(" \
   'bits of libm differ between machines: use lilytank/math.hpp' "${steady[@]}" include/lilytank/math.hpp
 forbid '#include <(chrono|ctime|time\.h|unordered_map|unordered_set|iostream)>' \
   'no clock, no hashed order and no console in what steps a world or a search' "${steady[@]}"
-forbid '#include [<"](jobs|io|study|cli|analysis)/' 'the public headers know no layer' include
+forbid '#include [<"](jobs|io|study|cli|statistics|smoothing|tracks|assemblies)/' 'the public headers know no layer' include
 
 layer text text
 layer math math
@@ -71,18 +71,21 @@ layer forces forces math
 layer control control physics math text
 layer world world control forces physics text
 layer search search text
-layer analysis analysis text
-layer io io analysis text
-layer jobs jobs io analysis text
-layer recording recording math io analysis text
-layer flow flow recording io analysis text
-layer synthesis synthesis io analysis text
-layer study study jobs io analysis text
-layer optimize optimize study synthesis io analysis text
-layer calibrate calibrate study io analysis text
-layer diagnose diagnose calibrate study forces io analysis text
-layer bodies bodies study recording io analysis text
-layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io analysis text
+layer io io statistics text
+layer jobs jobs io tracks smoothing recording assemblies statistics text
+layer statistics statistics text
+layer assemblies assemblies text
+layer recording recording io math statistics text
+layer smoothing smoothing statistics text
+layer tracks tracks smoothing io statistics text
+layer flow flow recording io tracks smoothing recording assemblies statistics text
+layer synthesis synthesis io tracks smoothing recording assemblies statistics text
+layer study study jobs io statistics text
+layer optimize optimize study synthesis io tracks smoothing recording assemblies statistics text
+layer calibrate calibrate study io tracks smoothing recording assemblies statistics text
+layer diagnose diagnose calibrate study forces io tracks smoothing recording assemblies statistics text
+layer bodies bodies study recording io tracks smoothing recording assemblies statistics text
+layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io tracks smoothing recording assemblies statistics text
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <functional>
 
-#include "analysis/undefined.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/undefined.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "analysis/median.hpp"
-#include "analysis/text_table.hpp"
 #include "lilytank/flow_report.hpp"
+#include "statistics/median.hpp"
+#include "statistics/text_table.hpp"
 
 namespace lilytank {
 namespace {
