@@ -50,6 +50,7 @@ only_in 'render/' '#include <cairo' 'Cairo belongs to render'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
 only_in 'src/(statistics|tracks)/' '#include <boost/' 'Boost.Math belongs to src/statistics and src/tracks'
 only_in 'src/io/' '#include <toml' 'TOML belongs to src/io'
+only_in 'src/io/' '#include <nlohmann' 'JSON belongs to src/io'
 only_in 'src/io/' '#include <openssl' 'hashes of files belong to src/io'
 only_in 'src/math/' '#include <Random123' 'Random123 belongs to src/math'
 only_in 'nowhere' '#include <random>|[^_[:alnum:]]s?rand\(' \

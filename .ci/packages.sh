@@ -2,7 +2,7 @@
 
 build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtomlplusplus-dev
                 libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev
-                libssl-dev)
+                libssl-dev nlohmann-json3-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
 test_packages=(libgtest-dev chromium)  # chromium opens the reports
 slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/undefined.hpp"
 #include "text/number.hpp"
@@ -155,20 +156,31 @@ Map error_map(const FlowReport& report) {
 std::vector<FlowMap> flow_maps(const FlowReport& report) {
   std::vector<FlowMap> maps;
   for (const FlowEstimate& e : report.estimates) {
-    maps.push_back({"flow_" + e.name, flow_map(report, e)});
-    if (e.thinning > 0) maps.push_back({"normality", normality_map(report, e)});
+    maps.push_back({"flow_" + e.name,
+                    "Flow of the " + e.name +
+                        " estimate: mean velocity, standard deviation, standard error, samples.",
+                    flow_map(report, e)});
+    if (e.thinning > 0)
+      maps.push_back({"normality",
+                      "Cells in which a test rejects a normal distribution of the velocity.",
+                      normality_map(report, e)});
   }
-  if (report.truth) maps.push_back({"errors", error_map(report)});
+  if (report.truth)
+    maps.push_back({"errors", "Errors of the estimates against the true flow.", error_map(report)});
   return maps;
 }
 
-void report_flow(const FlowReport& report, const std::string& dir) {
-  write_flow(report, dir);
+void draw_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir) {
+  std::vector<std::pair<std::string, std::string>> figures;
   for (const FlowMap& named : flow_maps(report)) {
-    const std::string base = (std::filesystem::path(dir) / named.name).string();
-    draw_map(named.map, base + ".png");
-    draw_map(named.map, base + ".svg");
+    for (const char* ending : {".png", ".svg"}) {
+      draw_map(named.map, (std::filesystem::path(dir) / (named.name + ending)).string());
+    }
+    // The picture beside the verdict is of the estimate that it is about, the last one.
+    const bool first = named.name == "flow_" + report.estimates.back().name;
+    figures.emplace(first ? figures.begin() : figures.end(), named.name, named.caption);
   }
+  write_html_report(document, figures, dir);
 }
 
 }  // namespace lilytank

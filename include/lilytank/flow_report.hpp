@@ -1,5 +1,5 @@
-// All that `lilytank flow` tells: estimates side by side, their errors where the truth is known,
-// and their biases as measured on synthetic recordings.
+// The results of `lilytank flow`: estimates side by side, their errors where the truth is known,
+// and their biases measured on synthetic recordings.
 #pragma once
 #include <functional>
 #include <optional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lilytank/flow_estimate.hpp"
+#include "lilytank/report.hpp"
 
 namespace lilytank {
 
@@ -42,12 +43,15 @@ std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings
 
 /// Number of the grid's cells whose centres lie in the tank.
 int cells_in_tank(const FlowEstimate& estimate);
-/// The report as text, with a warning where less than a fifth of the tank's cells were measured.
-std::string flow_text(const FlowReport& report);
+/// The report as a document, with a warning where less than a fifth of the tank's cells were
+/// measured. Provenance is the caller's. Takes one estimate or more.
+ReportDocument flow_report(const FlowReport& report);
+/// Names of all files that a report of any flow may leave in its directory.
+std::vector<std::string> flow_files();
 /// Writes into a directory, made if absent: flow_<estimator>.csv (the grid that a run reads),
 /// cells_<estimator>.csv, balls_<estimator>.toml (an overlay for scenarios that simulates these
-/// balls in that flow), errors_<estimator>.csv where there is a truth, bias.csv, and flow.txt.
-/// Throws InputError.
-void write_flow(const FlowReport& report, const std::string& dir);
+/// balls in that flow), errors_<estimator>.csv where there is a truth, bias.csv, and the
+/// document as flow.txt and flow.json. Throws InputError.
+void write_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir);
 
 }  // namespace lilytank

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/report.hpp"
 #include "lilytank/scenario.hpp"
 #include "lilytank/search.hpp"
 
@@ -141,5 +142,8 @@ struct OptimizationResult {
 /// race.csv, compare.toml. Throws InputError if it holds another search, or files that would be
 /// overwritten, and not `force`, or cannot be written.
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options);
+
+/// The report of a finished optimisation as a document. Provenance is the caller's.
+ReportDocument optimization_report(const OptimizationPlan& plan, const OptimizationResult& result);
 
 }  // namespace lilytank

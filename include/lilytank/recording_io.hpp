@@ -103,6 +103,9 @@ struct Finding {
   /// "balls.csv:120: frame 4, id 3, gap: not seen in 12 frames, 0.4 s (track cut)"
   std::string text() const;
 };
+/// Texts of findings in their order: of each check in each file the first `most`, and a line with
+/// the number of the others.
+std::vector<std::string> finding_texts(const std::vector<Finding>& findings, int most);
 
 /// About 3 GB of memory while a recording is read and checked.
 constexpr std::int64_t kDefaultMostRows = 20'000'000;

@@ -156,16 +156,17 @@ std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDoc
 
 /// A map of an extracted flow, and the name of its files without ending.
 struct FlowMap {
-  std::string name;
+  std::string name;     ///< of its files, without ending
+  std::string caption;  ///< what a reader sees in it
   Map map;
 };
 /// "flow_<estimator>": mean with arrows, deviation, standard error, samples, filled cells hatched;
 /// "normality": where it is rejected, as in Fig. 3 and for independent samples with a bound on
 /// false discoveries; "errors" where the truth is known.
 std::vector<FlowMap> flow_maps(const FlowReport& report);
-/// The whole report of a flow in a directory, made if absent: write_flow()'s files, and each map as
-/// .png and .svg. Throws InputError if it cannot be written.
-void report_flow(const FlowReport& report, const std::string& dir);
+/// Draws the maps of a flow in a directory that exists, each as .png and .svg, and writes
+/// report.html. Throws InputError if they cannot be written.
+void draw_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir);
 
 /// The stages of an assembly, one after each join [paper, Figs. 9 and 11]: control states in the
 /// modules, hops at their faces, the connector engaged last in blue, the rule above; .png, .svg or
@@ -176,11 +177,18 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
                            const std::string& title, const std::string& file);
 
+/// Draws the last frame and the yield of a run in its directory, and writes report.html. Throws
+/// InputError if they cannot be written.
+void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir);
+
 /// How a search came along: the best point's mean so far and the median of each iteration's new
 /// points, over evaluations [paper, Figs. 10 (a) and 12 (a)]. `selected`: the last record is that
 /// of a final selection, whose new values of the best point stand alone.
 Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
                  const std::string& title, const std::string& y_label);
+/// Draws that plot in a directory, as fitness.png and fitness.svg, and writes report.html. Throws
+/// InputError if they cannot be written.
+void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir);
 
 /// Plots of a calibration in a directory, each as .png and .svg: "convergence" of the search
 /// [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity" maps [Fig. 7], "profiles"

@@ -49,6 +49,10 @@ struct ReportDocument {
 /// The report for a terminal or a text file.
 std::string report_text(const ReportDocument& report);
 
+/// The report as a JSON object: title, subtitle, verdict, facts, sections with their tables as
+/// printed, warnings, provenance.
+std::string report_json(const ReportDocument& report);
+
 /// A figure of a page.
 struct ReportPicture {
   std::string svg;      ///< the file's content

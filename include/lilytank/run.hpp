@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/report.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank {
@@ -42,6 +43,9 @@ struct StoredRun {
   std::vector<int> metrics_copies;
 };
 StoredRun load_run(const std::string& dir);
+/// The report of a finished run as a document: copies, assemblies, rules. Provenance is the
+/// caller's. Throws InputError if a file of the run cannot be read.
+ReportDocument run_report(const StoredRun& run, const std::string& dir);
 /// Compares a run's scenario, events and metrics with its checkpoint. Throws InputError with the
 /// file that was changed.
 void check_stored_run(const std::string& dir);

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "io/atomic_file.hpp"
+#include "io/json.hpp"
 #include "lilytank/calibration.hpp"
 #include "study/claimed_directory.hpp"
-#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -134,39 +134,31 @@ std::string rounds_csv(const CalibrationResult& c) {
 }
 
 std::string json(const CalibrationResult& c) {
-  std::string out =
-      "{\n  \"name\": " + json_quoted(c.name) + ",\n  \"objective\": " + json_quoted(c.objective) +
-      ",\n  \"flow\": " + json_quoted(c.flow) + ",\n  \"search\": " + json_quoted(c.search_name) +
-      ",\n  \"dt\": " + json_number(c.dt) +
-      ",\n  \"simulations\": " + std::to_string(c.simulations) +
-      ",\n  \"misfit\": " + json_number(c.misfit) +
-      ",\n  \"misfit_p\": " + json_number(c.misfit_p) + ",\n  \"parameters\": [";
-  const char* comma = "";
+  Json out{{"name", c.name},     {"objective", c.objective},
+           {"flow", c.flow},     {"search", c.search_name},
+           {"dt", c.dt},         {"simulations", c.simulations},
+           {"misfit", c.misfit}, {"misfit_p", c.misfit_p}};
+  out["parameters"] = Json::array(), out["eq9"] = Json::array();
   for (const CalibratedParameter& p : c.parameters) {
-    out += std::string(comma) + "\n    {\"path\": " + json_quoted(p.parameter.path) +
-           ", \"unit\": " + json_quoted(p.parameter.unit) + ", \"start\": " + json_number(p.start) +
-           ", \"estimate\": " + json_number(p.estimate) + ", \"low\": " + json_number(p.low) +
-           ", \"high\": " + json_number(p.high) + "}";
-    comma = ",";
+    out["parameters"].push_back({{"path", p.parameter.path},
+                                 {"unit", p.parameter.unit},
+                                 {"start", p.start},
+                                 {"estimate", p.estimate},
+                                 {"low", p.low},
+                                 {"high", p.high}});
   }
-  out += "\n  ],\n  \"eq9\": [";
-  comma = "";
   for (const MsdFit& m : c.msd) {
-    out += std::string(comma) + "\n    {\"recordings\": " + json_quoted(m.recordings) +
-           ", \"pieces\": " + std::to_string(m.pieces) +
-           ", \"seconds\": " + json_number(m.seconds) + ", \"before\": " + json_number(m.before) +
-           ", \"after\": " + json_number(m.after) + ", \"floor\": " + json_number(m.floor) +
-           ", \"equals\": " + json_number(m.equals) + ", \"equals_p\": " + json_number(m.equals_p) +
-           "}";
-    comma = ",";
+    out["eq9"].push_back({{"recordings", m.recordings},
+                          {"pieces", m.pieces},
+                          {"seconds", m.seconds},
+                          {"before", m.before},
+                          {"after", m.after},
+                          {"floor", m.floor},
+                          {"equals", m.equals},
+                          {"equals_p", m.equals_p}});
   }
-  out += "\n  ],\n  \"warnings\": [";
-  comma = "";
-  for (const std::string& w : c.warnings) {
-    out += std::string(comma) + "\n    " + json_quoted(w);
-    comma = ",";
-  }
-  return out + (c.warnings.empty() ? "]\n}\n" : "\n  ]\n}\n");
+  out["warnings"] = c.warnings;
+  return json_text(out);
 }
 
 }  // namespace

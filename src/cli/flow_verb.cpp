@@ -5,8 +5,10 @@
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
+#include "cli/provenance.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_report.hpp"
+#include "study/claimed_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -51,7 +53,7 @@ Experiment balls_of(const VerbOptions& options) {
       [](const RecordingSource& source) { return source.options.body == BodyKind::ball; });
 }
 
-// The drag coefficient as it was asked for, or as the experiment's files set it.
+// The drag coefficient from --drag, or as the experiment's files set it.
 BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
   BallPhysics ball = ball_physics(experiment.base);
   ball.drag_coefficient = options.number("drag", ball.drag_coefficient, 1e-3, 100);
@@ -73,7 +75,12 @@ void add_flow_options(VerbOptions& options) {
       "degree", "of these polynomials (3)", text(), "N")(
       "kalman", "smooth for Eq. 3 by a Kalman smoother instead")(
       "level", "significance of the tests of normality (0.05)", text(), "P")(
-      "seed", "of --bias (1)", text(), "N")("quiet", "no progress");
+      "seed", "of --bias (1)", text(), "N")("force", "replace other results in the directory")(
+      "quiet", "no progress");
+}
+
+std::uint64_t seed_of(const VerbOptions& options) {
+  return static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
 }
 
 void measure_bias(const VerbOptions& options, const std::vector<Recording>& recordings,
@@ -84,18 +91,27 @@ void measure_bias(const VerbOptions& options, const std::vector<Recording>& reco
   }
   if (smooth == nullptr) options.refuse("--bias needs --estimator smooth or both");
   Progress progress(options.has("quiet"));
-  const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  report.bias = measure_flow_bias(recordings, *smooth, report.ball, report.options, seed,
-                                  [&](double done) { progress.tell(done, "of the biases"); });
+  report.bias =
+      measure_flow_bias(recordings, *smooth, report.ball, report.options, seed_of(options),
+                        [&](double done) { progress.tell(done, "of the biases"); });
   progress.clear();
 }
 
+std::vector<std::string> input_files(const VerbOptions& options, const Experiment& experiment) {
+  std::vector<std::string> files = options.positional();
+  for (const RecordingSource& source : experiment.sources) {
+    if (source.options.body == BodyKind::ball) files.push_back(source.file);
+  }
+  return files;
+}
+
 /// Tables and, where they can be drawn, maps.
-void write_report(const FlowReport& report, const std::string& dir) {
+void write_report(const FlowReport& report, const ReportDocument& document,
+                  const std::string& dir) {
+  write_flow(report, document, dir);
 #ifdef LILYTANK_HAS_RENDER
-  report_flow(report, dir);
+  draw_flow(report, document, dir);
 #else
-  write_flow(report, dir);
   std::cerr << "no maps: this program was built without the renderer (Cairo was not found)\n";
 #endif
 }
@@ -132,13 +148,22 @@ int flow_verb(const Arguments& arguments) {
     report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
   }
   const std::string dir = options.text("out", "out/flow-" + report.name);
-  write_report(report, dir);
+  const ClaimedDirectory own(dir, options.has("force"), {"flow", "map", flow_files()});
+  const ReportProvenance origin =
+      provenance("flow", arguments, seed_of(options), input_files(options, experiment));
+  const auto write = [&] {
+    ReportDocument document = flow_report(report);
+    document.provenance = origin;
+    write_report(report, document, dir);
+    return document;
+  };
+  ReportDocument document = write();
   if (options.has("bias")) {
-    // Long: what is known already lies there by now.
+    // Takes minutes: the estimates are stored before.
     measure_bias(options, experiment.recordings, report);
-    write_flow(report, dir);
+    document = write();
   }
-  std::cout << flow_text(report) << std::flush;
+  std::cout << report_text(document) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }

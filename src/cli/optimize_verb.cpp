@@ -4,8 +4,10 @@
 
 #include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
+#include "cli/provenance.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
+#include "io/atomic_file.hpp"
 #include "lilytank/optimize.hpp"
 #include "optimize/search_directory.hpp"
 #include "text/number.hpp"
@@ -17,10 +19,6 @@ namespace lilytank::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string four(double value) {
-  return significant(value, 4);
-}
 
 std::string plan_line(const OptimizationPlan& plan, const std::string& out) {
   const std::size_t n = plan.space.size();
@@ -42,17 +40,19 @@ int dry_run(const OptimizationPlan& plan, const std::string& out) {
   return Exit::done;
 }
 
-void draw(const OptimizationPlan& plan, const OptimizationResult& result, const std::string& dir) {
+/// Text and, where they can be drawn, the plot and the page.
+void write_report(const OptimizationPlan& plan, const OptimizationResult& result,
+                  const ReportDocument& document, const std::string& dir) {
+  write_atomically((fs::path(dir) / "optimum.txt").string(), report_text(document));
+  write_atomically((fs::path(dir) / "optimum.json").string(), report_json(document));
 #ifdef LILYTANK_HAS_RENDER
   const std::string unit = fitness_unit(plan.fitness.fitness);
   const Plot plot =
       search_plot(result.history, result.selected, plan.name,
                   name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
-  for (const char* ending : {"fitness.png", "fitness.svg"}) {
-    draw_plot(plot, (fs::path(dir) / ending).string());
-  }
+  draw_search(plot, document, dir);
 #else
-  static_cast<void>(plan), static_cast<void>(result), static_cast<void>(dir);
+  static_cast<void>(plan), static_cast<void>(result);
   std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
 #endif
 }
@@ -63,25 +63,6 @@ OptimizationResult run_with_progress(const Optimization& what, OptimizationOptio
   if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
   job.progress = [&](double done, const std::string& note) { progress.tell(done, note); };
   return run_optimization(what, job);
-}
-
-std::string found_text(const OptimizationPlan& plan, const OptimizationResult& result) {
-  const std::string unit = fitness_unit(plan.fitness.fitness);
-  std::string out;
-  for (const RaceEntry& entry : result.race) {
-    if (!entry.kept) {
-      out += "  " + entry.ruleset + ": left in round " + std::to_string(entry.round) + " with " +
-             four(entry.best) + "\n";
-    }
-    if (entry.last)
-      out += "  " + entry.ruleset + ": " + four(*entry.last) + " in the last comparison\n";
-  }
-  for (const std::string& label : result.left_out) {
-    out += "  " + label + ": the optimum itself, left out of the comparison\n";
-  }
-  return out + "best: " + four(result.best.mean) + (unit == "1" ? "" : " " + unit) +
-         ", standard error " + four(result.best.standard_error) + ", " +
-         std::to_string(result.best.evaluations) + " evaluations\n" + result.optimum + "\n";
 }
 
 /// The study that compares the optimum; its exit code.
@@ -154,8 +135,10 @@ int optimize_verb(const Arguments& arguments) {
               << job.out << "\n";
     return Exit::diverged;
   }
-  std::cout << found_text(what.plan(), result) << std::flush;
-  draw(what.plan(), result, job.out);
+  ReportDocument document = optimization_report(what.plan(), result);
+  document.provenance = provenance("optimize", arguments, what.plan().seed, what.source().inputs());
+  std::cout << report_text(document) << std::flush;
+  write_report(what.plan(), result, document, job.out);
   if (result.compare.empty() || options.has("no-compare")) return Exit::done;
   return compare(what, result, job, quiet);
 }

@@ -1,11 +1,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "cli/dry_run.hpp"
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
+#include "cli/provenance.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
@@ -42,8 +44,8 @@ void check_video(const VerbOptions& options, const Scenario& scenario) {
 #endif
 }
 
-/// Draws video.mp4 and yield.png; false if it was stopped.
-bool draw(const std::string& out, bool quiet) {
+/// Draws video.mp4, then the pictures and the page of the report; false if it was stopped.
+bool draw(const std::string& out, const ReportProvenance& origin, bool quiet) {
 #ifdef LILYTANK_HAS_RENDER
   const StoredRun stored = load_run(out);
   FilmOptions film;
@@ -54,9 +56,11 @@ bool draw(const std::string& out, bool quiet) {
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
   draw_film(stored, film, (fs::path(out) / "video.mp4").string());
   if (film.stop->load()) return false;
-  draw_plot(yield_plot(stored), (fs::path(out) / "yield.png").string());
+  ReportDocument report = run_report(stored, out);
+  report.provenance = origin;
+  draw_run(stored, report, out);
 #else
-  static_cast<void>(out), static_cast<void>(quiet);
+  static_cast<void>(out), static_cast<void>(origin), static_cast<void>(quiet);
 #endif
   return true;
 }
@@ -95,8 +99,9 @@ void say_time(const RunResult& result, const std::string& out) {
   std::cerr << "results in " << out << "\n";
 }
 
-int finish(const Scenario& scenario, const RunResult& result, const std::string& out, bool video,
-           bool quiet) {
+/// `film`: where the numbers come from, if the run is to be drawn.
+int finish(const Scenario& scenario, const RunResult& result, const std::string& out,
+           const std::optional<ReportProvenance>& film, bool quiet) {
   if (result.status == RunStatus::stopped) {
     std::cerr << "stopped at " << without_rounding(result.time) << " s of "
               << shortest(scenario.duration) << " s; the same command goes on from there\n";
@@ -105,7 +110,7 @@ int finish(const Scenario& scenario, const RunResult& result, const std::string&
   if (!quiet) say_time(result, out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
-  } else if (video && !draw(out, quiet)) {
+  } else if (film && !draw(out, *film, quiet)) {
     std::cerr << "stopped while drawing; the same command goes on from there\n";
     return Exit::stopped;
   }
@@ -123,7 +128,7 @@ int run_verb(const Arguments& arguments) {
       "seed", "where all random numbers come from", cxxopts::value<std::string>(), "N")(
       "out", "directory of the results (default: out/<title>-seed<N>)",
       cxxopts::value<std::string>(),
-      "DIR")("video", "draw video.mp4 (35 s, 1280 x 720) and yield.png")(
+      "DIR")("video", "draw video.mp4 (35 s, 1280 x 720), yield.png and report.html")(
       "dry-run", "check everything, write nothing")("force", "replace another run's files")(
       "quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
@@ -144,7 +149,10 @@ int run_verb(const Arguments& arguments) {
   job.force = options.has("force");
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
   job.stop = &stop_signal();
-  return finish(scenario, run_with_progress(scenario, job, quiet), job.out, video, quiet);
+  const RunResult result = run_with_progress(scenario, job, quiet);
+  std::optional<ReportProvenance> film;
+  if (video) film = provenance("run", arguments, scenario.seed, options.positional());
+  return finish(scenario, result, job.out, film, quiet);
 }
 
 }  // namespace lilytank::cli

@@ -1,32 +1,27 @@
 // The files of a diagnosis.
 
 #include "io/atomic_file.hpp"
+#include "io/json.hpp"
 #include "lilytank/diagnosis.hpp"
 #include "study/claimed_directory.hpp"
-#include "text/json.hpp"
 #include "text/number.hpp"
-#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
 
-std::string finding_json(const DiagnosisFinding& f) {
-  std::string out = "\n    {\"effect\": " + json_quoted(f.effect) + ", \"alternatives\": [" +
-                    joined(f.alternatives, ", ", json_quoted) +
-                    "], \"confidence\": " + json_number(f.confidence) +
-                    ",\n     \"where\": {\"variable\": " + json_quoted(f.variable) +
-                    ", \"from\": " + json_number(f.from) + ", \"to\": " + json_number(f.to) +
-                    ", \"unit\": " + json_quoted(f.unit) + ", \"text\": " + json_quoted(f.text) +
-                    "},\n     \"equation\": " + json_quoted(f.equation) +
-                    ", \"split\": " + json_quoted(f.split) + ",\n     \"parameters\": [";
-  out += joined(f.parameters, ", ", [](const FoundParameter& p) {
-    return "{\"name\": " + json_quoted(p.name) + ", \"value\": " + json_number(p.value) +
-           ", \"low\": " + json_number(p.low) + ", \"high\": " + json_number(p.high) +
-           ", \"unit\": " + json_quoted(p.unit) + "}";
-  });
-  return out + "],\n     \"held_out\": {\"log_likelihood_gain\": " + json_number(f.gain) +
-         ", \"low\": " + json_number(f.gain_low) + ", \"high\": " + json_number(f.gain_high) +
-         ", \"unit\": \"nat\"}}";
+Json finding_json(const DiagnosisFinding& f) {
+  Json out{{"effect", f.effect}, {"alternatives", f.alternatives}, {"confidence", f.confidence}};
+  out["where"] = {
+      {"variable", f.variable}, {"from", f.from}, {"to", f.to}, {"unit", f.unit}, {"text", f.text}};
+  out["equation"] = f.equation, out["split"] = f.split;
+  out["parameters"] = Json::array();
+  for (const FoundParameter& p : f.parameters) {
+    out["parameters"].push_back(
+        {{"name", p.name}, {"value", p.value}, {"low", p.low}, {"high", p.high}, {"unit", p.unit}});
+  }
+  out["held_out"] = {
+      {"log_likelihood_gain", f.gain}, {"low", f.gain_low}, {"high", f.gain_high}, {"unit", "nat"}};
+  return out;
 }
 
 std::string number(double value) {
@@ -65,32 +60,32 @@ std::string fit_csv(const Diagnosis& d) {
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
-  std::string out = "{\"schema\": \"diagnosis/1\", \"name\": " + json_quoted(d.name) +
-                    ", \"verdict\": " + json_quoted(name_of(d.verdict)) + ",\n  \"findings\": [";
-  out += joined(d.findings, ",", finding_json);
-  out += "],\n  \"fit\": {\"msd\": {\"before\": " + json_number(d.msd_before) +
-         ", \"after\": " + json_number(d.msd_after) +
-         ", \"share_removed\": " + json_number(d.msd_removed) +
-         ", \"low\": " + json_number(d.msd_low) + ", \"high\": " + json_number(d.msd_high) +
-         "}},\n";
-  out += "  \"parameters\": [" +
-         joined(d.parameters, ",",
-                [](const MovedParameter& p) {
-                  return "\n    {\"path\": " + json_quoted(p.path) +
-                         ", \"alone\": " + json_number(p.baseline) +
-                         ", \"value\": " + json_number(p.with_effects) +
-                         ", \"low\": " + json_number(p.low) + ", \"high\": " + json_number(p.high) +
-                         ", \"unit\": " + json_quoted(p.unit) + "}";
-                }) +
-         "],\n";
-  out += "  \"detectable\": [" + joined(d.detectable, ",", [](const Detectable& one) {
-           return "\n    {\"effect\": " + json_quoted(one.effect) +
-                  ", \"parameter\": " + json_quoted(one.parameter()) +
-                  ", \"smallest\": " + json_number(one.smallest) +
-                  ", \"tried\": " + json_number(one.tried) +
-                  ", \"unit\": " + json_quoted(one.unit) + "}";
-         });
-  return out + "]}\n";
+  Json out{{"schema", "diagnosis/1"}, {"name", d.name}, {"verdict", name_of(d.verdict)}};
+  out["findings"] = Json::array();
+  for (const DiagnosisFinding& f : d.findings) out["findings"].push_back(finding_json(f));
+  out["fit"]["msd"] = {{"before", d.msd_before},
+                       {"after", d.msd_after},
+                       {"share_removed", d.msd_removed},
+                       {"low", d.msd_low},
+                       {"high", d.msd_high}};
+  out["parameters"] = Json::array();
+  for (const MovedParameter& p : d.parameters) {
+    out["parameters"].push_back({{"path", p.path},
+                                 {"alone", p.baseline},
+                                 {"value", p.with_effects},
+                                 {"low", p.low},
+                                 {"high", p.high},
+                                 {"unit", p.unit}});
+  }
+  out["detectable"] = Json::array();
+  for (const Detectable& one : d.detectable) {
+    out["detectable"].push_back({{"effect", one.effect},
+                                 {"parameter", one.parameter()},
+                                 {"smallest", one.smallest},
+                                 {"tried", one.tried},
+                                 {"unit", one.unit}});
+  }
+  return json_text(out);
 }
 
 std::vector<std::string> diagnosis_files() {

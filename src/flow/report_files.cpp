@@ -13,7 +13,7 @@ namespace {
 std::string overlay(const FlowReport& report, const FlowEstimate& e) {
   const BallPhysics& ball = report.ball;
   std::string out = "# Balls in the flow of " + report.name + ", " + e.name +
-                    " estimate: lay this over a scenario with balls.\n[flow]\nfile = \"flow_" +
+                    " estimate: an overlay for a scenario with balls.\n[flow]\nfile = \"flow_" +
                     e.name + ".csv\"\nK_v = 1\nrho = " + shortest(ball.rho) + "\n\n[ball]\n";
   out += "radius = " + shortest(ball.radius) + "\nmass = " + shortest(ball.mass) +
          "\ndrag_area = " + shortest(ball.drag_area) + "\n\n[forces]\n";
@@ -49,7 +49,21 @@ std::string bias_csv(const std::vector<FlowBiasRow>& rows) {
 
 }  // namespace
 
-void write_flow(const FlowReport& report, const std::string& dir) {
+std::vector<std::string> flow_files() {
+  std::vector<std::string> files{"bias.csv", "flow.txt", "flow.json", "report.html"};
+  for (const char* figure : {"flow_paper", "flow_smooth", "normality", "errors"}) {
+    for (const char* ending : {".png", ".svg"}) files.push_back(std::string(figure) + ending);
+  }
+  for (const char* table : {"flow_", "cells_", "errors_"}) {
+    for (const char* estimator : {"paper.csv", "smooth.csv"}) {
+      files.push_back(std::string(table) + estimator);
+    }
+  }
+  files.insert(files.end(), {"balls_paper.toml", "balls_smooth.toml"});
+  return files;
+}
+
+void write_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir) {
   const std::filesystem::path path(dir);
   make_directory(dir);
   const auto write = [&](const std::string& name, const std::string& content) {
@@ -62,7 +76,8 @@ void write_flow(const FlowReport& report, const std::string& dir) {
     if (report.truth) write("errors_" + e.name + ".csv", flow_errors_csv(e, *report.truth));
   }
   if (!report.bias.empty()) write("bias.csv", bias_csv(report.bias));
-  write("flow.txt", flow_text(report));
+  write("flow.txt", report_text(document));
+  write("flow.json", report_json(document));
 }
 
 }  // namespace lilytank

@@ -5,9 +5,9 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
+#include "io/json.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
-#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -1,9 +1,7 @@
 #include "jobs/report.hpp"
 
-#include <cmath>
-
+#include "io/json.hpp"
 #include "lilytank/start.hpp"
-#include "text/json.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -26,22 +24,10 @@ std::string sizes_text(const std::vector<int>& by_size) {
   return out.empty() ? "none" : out;
 }
 
-/// Collects the members of a JSON object, one a line.
-class JsonObject {
- public:
-  void raw(const std::string& name, const std::string& value) {
-    text_ += (text_.empty() ? "" : ",\n") + ("  \"" + name + "\": " + value);
-  }
-  void number(const std::string& name, double value) {
-    raw(name, std::isfinite(value) ? shortest(value) : "null");  // JSON has no infinity
-  }
-  void whole(const std::string& name, std::int64_t value) { raw(name, std::to_string(value)); }
-  void text(const std::string& name, const std::string& value) { raw(name, json_quoted(value)); }
-  std::string whole_object() const { return "{\n" + text_ + "\n}\n"; }
-
- private:
-  std::string text_;
-};
+/// Seconds as they are printed, without the rounding of a product.
+double printed(double seconds) {
+  return Json::parse(without_rounding(seconds)).get<double>();
+}
 
 std::string line(std::string name, const std::string& value) {
   name.resize(16, ' ');
@@ -116,40 +102,41 @@ std::string summary_text(const Scenario& scenario, const World& world, const Ass
 std::string summary_json(const Scenario& scenario, const World& world, const AssemblyRecord& record,
                          const Outcome& outcome) {
   const bool diverged = outcome.status == RunStatus::diverged;
-  JsonObject json;
-  json.text("program", "lilytank " LILYTANK_VERSION);
-  json.text("title", scenario.title);
-  json.text("scenario", hex(scenario.identity));
-  json.whole("seed", static_cast<std::int64_t>(scenario.seed));
-  json.text("status", diverged ? "diverged" : "complete");
-  json.raw("time_s", without_rounding(world.time()));
-  json.whole("steps", world.state().step);
-  json.whole("modules", scenario.model.module.count);
-  json.whole("balls", scenario.model.ball.count);
-  json.whole("copies", record.copies());
-  json.whole("most_copies", record.most_copies());
-  json.whole("possible_copies", record.possible_copies());
-  json.raw("completion_times_s",
-           "[" + joined(record.completion_times(), ", ", without_rounding) + "]");
-  std::string sizes;
+  Json json;
+  json["program"] = "lilytank " LILYTANK_VERSION;
+  json["title"] = scenario.title;
+  json["scenario"] = hex(scenario.identity);
+  json["seed"] = scenario.seed;
+  json["status"] = diverged ? "diverged" : "complete";
+  json["time_s"] = printed(world.time());
+  json["steps"] = world.state().step;
+  json["modules"] = scenario.model.module.count;
+  json["balls"] = scenario.model.ball.count;
+  json["copies"] = record.copies();
+  json["most_copies"] = record.most_copies();
+  json["possible_copies"] = record.possible_copies();
+  json["completion_times_s"] = Json::array();
+  for (const double time : record.completion_times()) {
+    json["completion_times_s"].push_back(printed(time));
+  }
+  json["assemblies_by_size"] = Json::array();
   for (std::size_t n = 1; n < record.by_size().size(); ++n) {
-    sizes += (n == 1 ? "" : ", ") + std::to_string(record.by_size()[n]);
+    json["assemblies_by_size"].push_back(record.by_size()[n]);
   }
-  json.raw("assemblies_by_size", "[" + sizes + "]");
-  json.whole("illegal", record.illegal());
-  json.whole("evaluations", outcome.tallies.evaluations);
-  json.whole("snaps_refused", outcome.tallies.snaps_refused);
-  json.whole("moves_undone", outcome.tallies.moves_undone);
-  json.number("deepest_overlap_m", outcome.tallies.deepest_overlap);
+  json["illegal"] = record.illegal();
+  json["evaluations"] = outcome.tallies.evaluations;
+  json["snaps_refused"] = outcome.tallies.snaps_refused;
+  json["moves_undone"] = outcome.tallies.moves_undone;
+  json["deepest_overlap_m"] = outcome.tallies.deepest_overlap;
   if (diverged) {
-    json.whole("diverged_step", outcome.divergence.step);
-    json.whole("diverged_body", outcome.divergence.body);
-    json.text("diverged_force", std::string(outcome.divergence.force));
+    json["diverged_step"] = outcome.divergence.step;
+    json["diverged_body"] = outcome.divergence.body;
+    json["diverged_force"] = std::string(outcome.divergence.force);
     const bool stalled = outcome.divergence.force == kStalled;
-    json.number(stalled ? "visits_allowed" : "diverged_force_N", outcome.divergence.size);
+    json[stalled ? "visits_allowed" : "diverged_force_N"] = outcome.divergence.size;
   }
-  json.text("fingerprint", hex(fingerprint(world.state())));
-  return json.whole_object();
+  json["fingerprint"] = hex(fingerprint(world.state()));
+  return json_text(json);
 }
 
 }  // namespace lilytank

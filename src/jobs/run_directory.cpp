@@ -27,7 +27,8 @@ constexpr const char* kResults[] = {
     run_file::summary_text,      run_file::summary_json,   run_file::checkpoint};
 
 /// Pictures that `run --video` adds; they belong to the run that made them.
-constexpr const char* kPictures[] = {"video.mp4", "yield.png"};
+constexpr const char* kPictures[] = {"video.mp4", "yield.png", "yield.svg", "frame.svg",
+                                     "report.html"};
 
 /// Names in a run's directory that load_scenario gives to attachments.
 std::vector<std::string> attached_names(const std::string& dir) {

@@ -21,10 +21,10 @@ bool is_there(const fs::path& file) {
 /// Names of all files that an optimisation may leave beside its folders. The checkpoint first:
 /// without it the others are nobody's.
 std::vector<std::string> result_names() {
-  return with_figures(
-      {search_file::state, search_file::evaluations, search_file::history, "optimum.toml",
-       "optimum.rules", "optimum-after.rules", "compare.toml", "race.csv"},
-      {"fitness"});
+  return with_figures({search_file::state, search_file::evaluations, search_file::history,
+                       "optimum.toml", "optimum.rules", "optimum-after.rules", "optimum.txt",
+                       "optimum.json", "compare.toml", "race.csv", "report.html"},
+                      {"fitness"});
 }
 
 std::string compare_in(const std::string& dir) {

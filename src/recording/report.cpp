@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "text/number.hpp"
 
@@ -58,6 +59,20 @@ std::string Finding::text() const {
   if (id >= 0) out += "id " + (name.empty() ? std::to_string(id) : name) + ", ";
   return out + check_word(check) + ": " + what + " (" + done[static_cast<std::size_t>(treatment)] +
          ")";
+}
+
+std::vector<std::string> finding_texts(const std::vector<Finding>& findings, int most) {
+  std::map<std::pair<std::string, Check>, int> count;
+  std::vector<std::string> out;
+  for (const Finding& f : findings) {
+    if (++count[{f.place.file, f.check}] <= most) out.push_back(f.text());
+  }
+  for (const auto& [of, n] : count) {
+    if (n <= most) continue;
+    out.push_back(of.first + ": " + check_word(of.second) + ": " + std::to_string(n - most) +
+                  " more findings");
+  }
+  return out;
 }
 
 }  // namespace lilytank

@@ -5,9 +5,9 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
+#include "io/json.hpp"
 #include "lilytank/kinetics.hpp"
 #include "lilytank/scenario.hpp"
-#include "text/json.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

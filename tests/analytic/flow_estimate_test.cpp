@@ -115,7 +115,7 @@ TEST(flowFiles, aRunReadsTheGrid) {
   report.name = "three";
   report.estimates.push_back(estimate_paper({&r, 1}, report.ball, few_samples()));
   const TemporaryDirectory dir;
-  write_flow(report, dir.path("out"));
+  write_flow(report, flow_report(report), dir.path("out"));
   const FlowField field = read_flow_csv(dir.path("out/flow_paper.csv"), Interpolation::bilinear);
   const FlowField own = field_of(report.estimates[0], Interpolation::bilinear);
   EXPECT_EQ(field.measured(), own.measured());

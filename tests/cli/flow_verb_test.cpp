@@ -1,6 +1,8 @@
 // lilytank flow: what users see.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "cli/program.hpp"
 #include "lilytank/flow_field.hpp"
 #include "lilytank/recording_io.hpp"
@@ -14,14 +16,14 @@ TEST(flowVerb, leavesGridsThatARunReads) {
   const Program lilytank;
   Answer a = lilytank("flow " + kTank + " --out f");
   ASSERT_EQ(a.code, 0) << a.err;
-  for (const char* text : {"flow of tank\n", "measured cells", "median standard error of a mean",
-                           "tracking noise", "stand as discoveries"}) {
+  for (const char* text :
+       {"Flow of tank: the balls measured", "measured cells", "median standard error of a mean",
+        "tracking noise", "false-discovery rate"}) {
     EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
   }
   // Twenty seconds are little for 50 x 50 cells, and that is said.
   EXPECT_NE(a.out.find("measured cells, of 1976 in the tank"), std::string::npos) << a.out;
-  EXPECT_NE(a.out.find("warning: smooth measured 6 of the tank's 1976 cells"), std::string::npos)
-      << a.out;
+  EXPECT_NE(a.out.find("smooth measured 6 of 1976 cells of the tank"), std::string::npos) << a.out;
   EXPECT_EQ(lilytank.here.read("f/flow.txt"), a.out);
   for (const char* name : {"paper", "smooth"}) {
     const std::string n = name;
@@ -33,6 +35,9 @@ TEST(flowVerb, leavesGridsThatARunReads) {
     EXPECT_GT(lilytank.here.read("f/flow_" + n + ".svg").size(), 10000u);
 #endif
   }
+#ifdef LILYTANK_HAS_RENDER
+  EXPECT_NE(lilytank.here.read("f/report.html").find("Flow of tank"), std::string::npos);
+#endif
   a = lilytank("run '" LILYTANK_SOURCE_DIR
                "/scenarios/tank_balls.toml' f/balls_smooth.toml "
                "--set run.duration='2 s' --out r --quiet");
@@ -47,8 +52,22 @@ TEST(flowVerb, aTruthGivesErrors) {
       lilytank("flow " + kTank + " --estimator smooth --truth p/flow_paper.csv --out s");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("Errors against p/flow_paper.csv"), std::string::npos) << a.out;
-  EXPECT_EQ(a.out.find("stand as discoveries"), std::string::npos);
+  EXPECT_EQ(a.out.find("false-discovery rate"), std::string::npos);
   EXPECT_EQ(lilytank.here.read("s/errors_smooth.csv").substr(0, 6), "ix,iy,");
+}
+
+TEST(flowVerb, replacesOnlyWhatAFlowLeft) {
+  const Program lilytank;
+  const std::string flow = "flow " + kTank + " --estimator paper --out f --quiet";
+  std::filesystem::create_directory(lilytank.here.path("f"));
+  lilytank.here.write("f/flow.txt", "mine");
+  Answer a = lilytank(flow);
+  EXPECT_EQ(a.code, 2);
+  EXPECT_NE(a.err.find("f holds a file 'flow.txt' that is not of a flow"), std::string::npos)
+      << a.err;
+  EXPECT_EQ(lilytank.here.read("f/flow.txt"), "mine");
+  EXPECT_EQ(lilytank(flow + " --force").code, 0);
+  EXPECT_EQ(lilytank(flow + " --cells 20").code, 0);
 }
 
 TEST(flowVerb, cellsThatAreLargeEnoughGiveNoWarning) {

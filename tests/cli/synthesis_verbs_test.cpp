@@ -148,7 +148,7 @@ TEST(CheckVerb, CountsRatesAndGoesOnAfterAStop) {
                             "/scenarios/chain5.toml' --duration '4 min' --gillespie 20 --quiet";
   const Answer one = lilytank(words + " --worlds 1 --out a");
   ASSERT_EQ(one.code, 0) << one.err;
-  EXPECT_NE(one.out.find("copies, worlds 0 (-)"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("copies, simulations 0 (-)"), std::string::npos) << one.out;
   EXPECT_EQ(one.out.find("inf"), std::string::npos) << one.out;
   EXPECT_EQ(lilytank.here.read("a/yield.csv").find("inf"), std::string::npos);
   ASSERT_EQ(lilytank(words + " --worlds 2 --out a --kappa a.ka --bngl a.bngl").code, 0);
@@ -211,7 +211,7 @@ TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
   const Answer all =
       lilytank(words + "a --set module.mass='0.1 g' --set forces.body_force.force_x=1");
   EXPECT_EQ(all.code, 1) << all.err;
-  EXPECT_NE(all.out.find("all 2 worlds diverged"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("all 2 simulations diverged"), std::string::npos) << all.out;
   ASSERT_EQ(lilytank(words + "b").code, 0);
   // As if the second of the worlds that are kept had diverged.
   std::string kept = lilytank.here.read("b/world-1-2.csv");
@@ -220,7 +220,7 @@ TEST(CheckVerb, DivergedWorldsAreCountedAndTheExitCodeSaysSo) {
   lilytank.here.write("b/world-1-2.csv", with_checksum_line(kept));
   const Answer some = lilytank(words + "b");
   EXPECT_EQ(some.code, 1) << some.err;
-  EXPECT_NE(some.out.find("1 of 2 worlds diverged"), std::string::npos) << some.out;
+  EXPECT_NE(some.out.find("1 of 2 simulations diverged"), std::string::npos) << some.out;
   EXPECT_NE(some.out.find("rates from 1 world,"), std::string::npos) << some.out;
 }
 
@@ -233,7 +233,7 @@ TEST(CheckVerb, RatesOfAStoredRun) {
             0);
   const Answer a = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r --out c");
   ASSERT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("rates from 1 world, 0.0667 h"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("rates from 1 simulation, 0.0667 h"), std::string::npos) << a.out;
   EXPECT_EQ(lilytank.here.read("c/rates.csv").find("evaluations,,,,-1,"), std::string::npos);
   std::filesystem::remove(lilytank.here.path("r/summary.json"));
   const Answer begun = lilytank("check '" + kRulesets + "chain5.rules' --lattice 0 --rates r");

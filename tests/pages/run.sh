@@ -72,5 +72,15 @@ look study study/report.html
   --out analysis > /dev/null 2>&1
 look analysis analysis/report.html
 
+"$lilytank" flow "$sources/scenarios/experiments/tank.toml" --out flow > /dev/null 2>&1
+look flow flow/report.html
+
+"$lilytank" optimize "$sources/scenarios/optimize/chain5.toml" --set run.duration='2 min' --no-compare \
+  --quiet --out optimum > /dev/null 2>&1
+look optimum optimum/report.html
+
+"$lilytank" run "$sources/scenarios/chain5.toml" --set run.duration='2 min' --video --quiet --out run > /dev/null 2>&1
+look run run/report.html
+
 ((faults == 0)) || echo "$faults pages are not as they should be"
 exit $((faults > 0))

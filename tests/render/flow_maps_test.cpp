@@ -82,7 +82,8 @@ TEST(flowMaps, errorsAreDifferencesFromTheTruth) {
 
 TEST(flowMaps, theReportIsADirectoryOfPictures) {
   const TemporaryDirectory dir;
-  report_flow(sample_report(), dir.path("out"));
+  std::filesystem::create_directory(dir.path("out"));
+  draw_flow(sample_report(), flow_report(sample_report()), dir.path("out"));
   for (const char* name : {"flow_paper", "normality", "errors"}) {
     for (const char* ending : {".png", ".svg"}) {
       const auto file = dir.path("out/" + std::string(name) + ending);

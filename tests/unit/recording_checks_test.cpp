@@ -347,6 +347,16 @@ TEST_F(Checks, findingsSayWhereAndWhat) {
       << text;
 }
 
+TEST_F(Checks, manyFindingsOfAKindAreCounted) {
+  for (const std::size_t frame : {20, 40, 60, 80}) truth_.tracks[2].x[frame] += 0.05;
+  const CheckedRecording c = check();
+  const std::vector<std::string> texts = finding_texts(c.findings, 3);
+  ASSERT_EQ(texts.size(), 4u);
+  EXPECT_EQ(texts[2], c.findings[2].text());
+  EXPECT_TRUE(texts[3].ends_with("tracks.csv: spike: 1 more findings")) << texts[3];
+  EXPECT_EQ(finding_texts(c.findings, 4).size(), 4u);
+}
+
 TEST_F(Checks, framesAreCalledByTheirNumbersInTheFile) {
   std::string table = "frame,time,id,x,y\n";
   for (int f = 1000; f < 1100; ++f) {

@@ -1,0 +1,18 @@
+// JSON as this program's files hold it.
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace lilytank {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they are written
+
+/// A file's content: indented, null where a number is not finite. Bytes that are not UTF-8 become
+/// U+FFFD.
+std::string json_text(const Json& value);
+
+/// The number at the top level under a key; nothing if the text is no JSON object or holds none.
+std::optional<double> json_number_of(const std::string& text, const std::string& key);
+
+}  // namespace lilytank

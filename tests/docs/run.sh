@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Runs the commands of the documentation: every line of a fenced block that begins with lilytank, in the order
+# of its page, beside a copy of the scenarios. Runs are cut to five minutes of simulated time and pictures are
+# small. A command that takes longer than a few seconds is interrupted, and must then stop as Ctrl-C stops it
+# (exit code 3). A command that reads results of an interrupted one is skipped.
+#   run.sh LILYTANK SOURCES
+set -euo pipefail
+lilytank=$(realpath "$1") sources=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/bin"
+ln -s "$lilytank" "$work/bin/lilytank"
+PATH=$work/bin:$PATH
+done=0 cut=0 skipped=0 faults=0
+
+# commands <page>: one a line, continued lines joined, comments and build/ gone.
+commands() {
+  perl -0777 -ne '
+    while (/^```\w*\n(.*?)^```/gms) {
+      my $block = $1;
+      $block =~ s/ *\\\n */ /g;
+      for (split /\n/, $block) {
+        s/\s+#.*//;
+        print "$_\n" if s{^(?:build/)?lilytank (?=[a-z])}{lilytank } && !/^lilytank ruleset/;
+      }
+    }' "$1"
+}
+
+# shortened <command>: placeholders filled in, and options that make it short.
+shortened() {
+  local line=$1
+  [[ $line != *calibrate* ]] || line=${line//EXPERIMENT.toml/scenarios/experiments/tour.toml}
+  line=${line//EXPERIMENT.toml/scenarios/experiments/tank.toml}
+  line=${line//experiment.toml/scenarios/experiments/tank.toml}
+  line=${line//GRID.csv/out/flow-tank/flow_smooth.csv}
+  line=${line//FILE.../scenarios/experiments/lily_1.csv.gz}
+  line=${line// balls.csv.gz/ scenarios/experiments/balls_1.csv.gz}
+  line=${line//other.rules/scenarios/rulesets/chain5.rules}
+  case $line in
+    'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;
+    'lilytank render '*) line+=' --size 120 --fps 1 --quiet' ;;
+    'lilytank study slurm '*) ;;
+    'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
+    'lilytank calibrate '* | 'lilytank diagnose '*) line+=' --force --quiet' ;;
+    'lilytank analyze '*) line+=' --resamples 20 --longest-lag 2' ;;
+  esac
+  printf '%s' "$line"
+}
+
+# needs <command>: what it reads below out/, which an interrupted command may not have left.
+needs() {
+  grep -oE '(^| )out/[^ ]+' <<< "${1//--out out\//--out }" | tr -d ' ' || true
+}
+
+page() {
+  local line code file
+  rm -rf "$work/page"
+  mkdir "$work/page"
+  cp -r "$sources/scenarios" "$work/page/scenarios"
+  cd "$work/page"
+  while IFS= read -r line; do
+    line=$(shortened "$line")
+    for file in $(needs "$line"); do
+      [[ -e $file ]] && continue
+      skipped=$((skipped + 1))
+      continue 2
+    done
+    code=0
+    timeout -s INT -k 60 3 bash -c "exec $line" < /dev/null > "$work/output" 2>&1 || code=$?
+    case $code in
+      0 | 1) done=$((done + 1)) ;;
+      3 | 124) cut=$((cut + 1)) ;;
+      *)
+        faults=$((faults + 1))
+        printf '%s: exit code %s\n  %s\n' "${1#"$sources"/}" "$code" "$line"
+        tail -n 3 "$work/output" | sed 's/^/    /'
+        ;;
+    esac
+  done < <(commands "$1")
+}
+
+for one in "$sources"/README.md "$sources"/scenarios/README.md "$sources"/docs/*.md; do page "$one"; done
+echo "commands of the documentation: $done ran, $cut were interrupted, $skipped need their results, $faults failed"
+exit $((faults > 0))
