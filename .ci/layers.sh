@@ -56,7 +56,7 @@ only_in 'src/math/' '#include <Random123' 'Random123 belongs to src/math'
 only_in 'nowhere' '#include <random>|[^_[:alnum:]]s?rand\(' \
   'random numbers come from lilytank/random.hpp only'
 
-core=(src/math src/physics src/forces src/control src/world)
+core=(src/math src/model src/physics src/forces src/control src/world)
 steady=("${core[@]}" src/search)  # whose bits must not depend on the machine
 functions='(a?(sin|cos|tan)h?|atan2|exp(2|m1)?|log(2|10|1p)?|pow|hypot|cbrt|fma|erfc?|[lt]gamma)f?l?'
 forbid "(std::|::|[^_.>:[:alnum:]])$functions\(" \
@@ -67,10 +67,11 @@ forbid '#include [<"](jobs|io|study|cli|statistics|smoothing|tracks|assemblies)/
 
 layer text text
 layer math math
+layer model model text
 layer physics physics
-layer forces forces math
-layer control control physics math text
-layer world world control forces physics text
+layer forces forces math model
+layer control control physics math text model
+layer world world control forces physics text model
 layer search search text
 layer io io statistics text
 layer jobs jobs io tracks smoothing recording assemblies statistics text
@@ -86,7 +87,7 @@ layer optimize optimize study synthesis io tracks smoothing recording assemblies
 layer calibrate calibrate study io tracks smoothing recording assemblies statistics text
 layer diagnose diagnose calibrate study forces io tracks smoothing recording assemblies statistics text
 layer bodies bodies study recording io tracks smoothing recording assemblies statistics text
-layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io tracks smoothing recording assemblies statistics text
+layer cli cli bodies diagnose calibrate optimize study jobs recording flow synthesis io tracks smoothing recording assemblies statistics text model
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

@@ -1,4 +1,4 @@
-#include "control/commands.hpp"
+#include "model/commands.hpp"
 
 namespace lilytank {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "control/ruleset_scanner.hpp"
+#include "model/ruleset_scanner.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

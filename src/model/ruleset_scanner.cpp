@@ -1,4 +1,4 @@
-#include "control/ruleset_scanner.hpp"
+#include "model/ruleset_scanner.hpp"
 
 #include <charconv>
 
