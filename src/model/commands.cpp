@@ -22,4 +22,9 @@ int said_by(const Model& model, int place, int Command::*what) {
   return i < timed ? model.commands[i].*what : model.feedback[i - timed].*what;
 }
 
+const Command& command_at(const Model& model, int index) {
+  const int timed = static_cast<int>(model.commands.size());
+  return index < timed ? model.commands[index] : model.feedback[index - timed];
+}
+
 }  // namespace lilytank

@@ -1,11 +1,6 @@
-#include "lilytank/model.hpp"
+#include "lilytank/start.hpp"
 
 namespace lilytank {
-
-const Command& command_at(const Model& model, int index) {
-  const int timed = static_cast<int>(model.commands.size());
-  return index < timed ? model.commands[index] : model.feedback[index - timed];
-}
 
 Model standard_model() {
   Model model;
