@@ -44,8 +44,6 @@ my @terms = (
 # and text of the line.
 my @ordinary = (
   ['docs/search.md', 'sk and tell'],
-  ['docs/structure.md', 'the only user of Boost | world'],
-  ['docs/structure.md', 'the only user of TOML | world'],
   ['bench/README.md', '| kB/world |'],
   # Symbols of equations are the keys' names; columns are the trackers'.
   ['src/forces/added_mass.cpp', 'rho side^2 draught'],

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <map>
 
-#include "analysis/undefined.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {

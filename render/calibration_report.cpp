@@ -2,9 +2,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "analysis/undefined.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {

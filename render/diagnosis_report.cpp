@@ -2,9 +2,9 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/median.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

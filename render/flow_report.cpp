@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "analysis/undefined.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/undefined.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -4,7 +4,7 @@
 #include <array>
 #include <sstream>
 
-#include "control/commands.hpp"
+#include "model/commands.hpp"
 #include "streamlines.hpp"
 #include "text/number.hpp"
 

@@ -1,5 +1,5 @@
 #include "study_names.hpp"
-#include "analysis/undefined.hpp"
+#include "statistics/undefined.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
-#include "analysis/undefined.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/undefined.hpp"
 #include "study_names.hpp"
 #include "yield.hpp"
 

@@ -138,7 +138,4 @@ struct Model {
 /// The command of an EventKind::command: those of `commands` first, then those of `feedback`.
 const Command& command_at(const Model& model, int index);
 
-/// The paper's tank with 15 Lilies, the baseline forces and the analytic flow; no ruleset.
-Model standard_model();
-
 }  // namespace lilytank

@@ -1,9 +1,10 @@
-// Whether bodies may lie where a start puts them.
+// How a run starts: the standard model, the initial state, and whether bodies fit.
 #pragma once
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "lilytank/event.hpp"
 #include "lilytank/state.hpp"
 
 namespace lilytank {
@@ -12,11 +13,12 @@ namespace lilytank {
 /// bound that holds in every later step. Poses rounded to 0.1 mm and 1 mrad stay below it.
 constexpr double kStartTolerance = 0.5e-3;
 
-/// The deepest overlap of a state.
-struct Overlap {
-  double depth = 0;    ///< m; 0: nothing overlaps
-  int a = -1, b = -1;  ///< bodies, a < b; a = -1: b and the wall
-};
+/// The paper's tank with 15 Lilies, the baseline forces and the analytic flow; no ruleset.
+Model standard_model();
+
+/// The state at step 0: poses drawn from the seed as Model::start says, at rest, nothing latched.
+/// Throws InputError if the bodies do not fit.
+State initial_state(const Model& model, std::uint64_t seed);
 
 /// All bodies at rest at `poses` (one for each body, modules first), nothing latched. Nothing is
 /// checked: the poses may overlap.

@@ -80,10 +80,6 @@ void for_each_field(S& state, Visit&& visit) {
   visit("firmware", state.firmware), visit("faces", state.faces);
 }
 
-/// The state at step 0: poses drawn from the seed as Model::start says, at rest, nothing latched.
-/// Throws InputError if the bodies do not fit.
-State initial_state(const Model& model, std::uint64_t seed);
-
 /// 64-bit fingerprint (FNV-1a over every field); equal states have equal fingerprints.
 std::uint64_t fingerprint(const State& state);
 /// A fingerprint as 16 hexadecimal digits.

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank::bodies {
 namespace {

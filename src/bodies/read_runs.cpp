@@ -3,12 +3,12 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/median.hpp"
+#include "bodies/bodies_file.hpp"
 #include "bodies/law.hpp"
-#include "io/bodies_file.hpp"
 #include "io/enough_memory.hpp"
 #include "io/table.hpp"
 #include "io/time_text.hpp"
+#include "statistics/median.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

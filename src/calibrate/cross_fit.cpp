@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

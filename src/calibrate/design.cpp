@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

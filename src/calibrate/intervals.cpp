@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

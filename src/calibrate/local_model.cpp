@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

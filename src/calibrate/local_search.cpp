@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <numeric>
 
-#include "analysis/text_table.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/statistics.hpp"
 #include "lilytank/study.hpp"
+#include "statistics/text_table.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/text_table.hpp"
 #include "lilytank/calibration.hpp"
+#include "statistics/text_table.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

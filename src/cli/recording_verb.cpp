@@ -4,11 +4,11 @@
 #include <iostream>
 
 #include "cli/point_bodies.hpp"
-#include "io/experiment_file.hpp"
-#include "io/recording_keys.hpp"
 #include "lilytank/experiment.hpp"
+#include "recording/experiment_file.hpp"
 #include "recording/files.hpp"
 #include "recording/formats.hpp"
+#include "recording/recording_keys.hpp"
 
 namespace lilytank::cli {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "cli/recording_verb.hpp"
 #include "cli/stored_poses.hpp"
-#include "io/recording_keys.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/run.hpp"
 #include "recording/columns.hpp"
+#include "recording/recording_keys.hpp"
 
 namespace lilytank::cli {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <iostream>
 
-#include "analysis/median.hpp"
-#include "analysis/text_table.hpp"
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
+#include "statistics/median.hpp"
+#include "statistics/text_table.hpp"
 #include "text/number.hpp"
 #include "text/printable.hpp"
 #include "text/words.hpp"

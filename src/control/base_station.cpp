@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "control/commands.hpp"
+#include "model/commands.hpp"
 
 namespace lilytank {
 namespace {

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lilytank/world.hpp"
+#include "lilytank/event.hpp"
+#include "lilytank/state.hpp"
 #include "physics/assembly.hpp"
 #include "physics/motion.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

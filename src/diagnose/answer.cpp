@@ -1,6 +1,6 @@
 #include "diagnose/answer.hpp"
 
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

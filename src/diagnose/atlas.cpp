@@ -4,16 +4,16 @@
 #include <cmath>
 #include <iterator>
 
-#include "analysis/linear.hpp"
-#include "analysis/median.hpp"
-#include "analysis/summary_parts.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
+#include "statistics/median.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
+#include "tracks/summary_parts.hpp"
 
 namespace lilytank {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <span>
 
-#include "analysis/linear.hpp"
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
 #include "diagnose/joint_parameters.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 

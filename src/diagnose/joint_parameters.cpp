@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/linear.hpp"
 #include "lilytank/model_parameter.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

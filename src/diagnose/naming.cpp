@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/linear.hpp"
 #include "calibrate/design.hpp"
 #include "lilytank/statistics.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

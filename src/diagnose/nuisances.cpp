@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/linear.hpp"
 #include "diagnose/slack.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "analysis/undefined.hpp"
 #include "lilytank/start.hpp"
 #include "lilytank/world.hpp"
+#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "analysis/text_table.hpp"
 #include "lilytank/proof.hpp"
 #include "lilytank/statistics.hpp"
+#include "statistics/text_table.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

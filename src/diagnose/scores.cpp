@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "diagnose/features.hpp"
 #include "diagnose/nuisances.hpp"
 #include "diagnose/scatter.hpp"
 #include "diagnose/sensitivity.hpp"
 #include "forces/pairs.hpp"
+#include "statistics/linear.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "analysis/median.hpp"
 #include "diagnose/scatter.hpp"
+#include "statistics/median.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

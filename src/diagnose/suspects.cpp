@@ -3,10 +3,10 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/linear.hpp"
-#include "analysis/text_table.hpp"
 #include "diagnose/diagnoser.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
+#include "statistics/text_table.hpp"
 
 namespace lilytank {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "diagnose/features.hpp"
 #include "lilytank/math.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/median.hpp"
-#include "analysis/text_table.hpp"
 #include "lilytank/flow_report.hpp"
+#include "statistics/median.hpp"
+#include "statistics/text_table.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/linear.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
 
 namespace lilytank {
 namespace {

@@ -1,5 +1,5 @@
-#include "analysis/text_table.hpp"
 #include "lilytank/report.hpp"
+#include "statistics/text_table.hpp"
 
 namespace lilytank {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "io/optimize_file.hpp"
 #include "io/scenario_layers.hpp"
 #include "lilytank/optimize.hpp"
+#include "optimize/optimize_file.hpp"
 
 namespace lilytank {
 

@@ -1,7 +1,8 @@
 // Moves an island through a span of time in substeps.
 #pragma once
 #include "contact_solver.hpp"
-#include "lilytank/world.hpp"
+#include "lilytank/event.hpp"
+#include "lilytank/state.hpp"
 
 namespace lilytank {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "assembly.hpp"
-#include "lilytank/start.hpp"
-#include "lilytank/world.hpp"
+#include "lilytank/event.hpp"
+#include "lilytank/state.hpp"
 
 namespace lilytank {
 

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <set>
 
-#include "analysis/median.hpp"
 #include "recording/checks.hpp"
 #include "recording/column_names.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

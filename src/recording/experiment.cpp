@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "io/experiment_file.hpp"
 #include "io/scenario_build.hpp"
+#include "recording/experiment_file.hpp"
 
 namespace lilytank {
 namespace {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/median.hpp"
 #include "lilytank/math.hpp"
 #include "recording/checks.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
-#include "analysis/median.hpp"
 #include "lilytank/math.hpp"
 #include "recording/checks.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

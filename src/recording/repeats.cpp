@@ -13,8 +13,8 @@
 #include <numeric>
 #include <set>
 
-#include "analysis/median.hpp"
 #include "recording/checks.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

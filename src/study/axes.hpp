@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "io/study_file.hpp"
+#include "study/study_file.hpp"
 
 namespace lilytank {
 

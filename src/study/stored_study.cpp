@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "analysis/study_rows.hpp"
 #include "io/atomic_file.hpp"
-#include "io/study_record.hpp"
 #include "study/ledger.hpp"
 #include "study/row_text.hpp"
 #include "study/study_directory.hpp"
+#include "study/study_record.hpp"
+#include "study/study_rows.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <map>
 
-#include "analysis/study_rows.hpp"
 #include "io/scenario_build.hpp"
-#include "io/study_file.hpp"
 #include "study/axes.hpp"
+#include "study/study_file.hpp"
 #include "study/study_inputs.hpp"
+#include "study/study_rows.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

@@ -10,12 +10,12 @@
 #include <tuple>
 
 #include "io/atomic_file.hpp"
-#include "io/study_record.hpp"
 #include "jobs/directory_lock.hpp"
 #include "jobs/run_directory.hpp"
 #include "study/claimed_directory.hpp"
 #include "study/row_text.hpp"
 #include "study/search_store.hpp"
+#include "study/study_record.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

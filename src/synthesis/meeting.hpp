@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/pattern.hpp"
+#include "assemblies/pattern.hpp"
 #include "lilytank/ruleset.hpp"
 
 namespace lilytank {

@@ -1,7 +1,7 @@
 // Counts dockings and contacts of a world, species by species.
 #include <algorithm>
 
-#include "analysis/pattern.hpp"
+#include "assemblies/pattern.hpp"
 #include "lilytank/kinetics.hpp"
 
 namespace lilytank {

@@ -7,7 +7,6 @@
 #include "fuzz/readers.hpp"
 #include "io/file_digest.hpp"
 #include "io/poses_csv.hpp"
-#include "io/study_record.hpp"
 #include "io/table.hpp"
 #include "io/time_text.hpp"
 #include "io/trajectory_format.hpp"
@@ -25,6 +24,7 @@
 #include "lilytank/target.hpp"
 #include "study/kept_rows.hpp"
 #include "study/row_text.hpp"
+#include "study/study_record.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <vector>
 
-#include "io/recording_keys.hpp"
 #include "io/toml_text.hpp"
 #include "recording/formats.hpp"
 #include "recording/gzip.hpp"
 #include "recording/process.hpp"
+#include "recording/recording_keys.hpp"
 
 namespace lilytank::fuzz {
 namespace {

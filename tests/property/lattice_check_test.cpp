@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "analysis/pattern.hpp"
+#include "assemblies/pattern.hpp"
 #include "lilytank/lattice.hpp"
 #include "lilytank/synthesis.hpp"
 #include "support/polyominoes.hpp"

@@ -1,10 +1,10 @@
-#include "analysis/linear.hpp"
+#include "statistics/linear.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "analysis/median.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {

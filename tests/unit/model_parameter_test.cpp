@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lilytank/error.hpp"
+#include "lilytank/start.hpp"
 
 namespace lilytank {
 namespace {

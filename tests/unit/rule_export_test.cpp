@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "analysis/pattern.hpp"
+#include "assemblies/pattern.hpp"
 #include "lilytank/kinetics.hpp"
 #include "support/control_rig.hpp"
 #include "support/kappa.hpp"

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "analysis/pattern.hpp"
+#include "assemblies/pattern.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "support/control_rig.hpp"
 

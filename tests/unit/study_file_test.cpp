@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/study_record.hpp"
+#include "study/study_record.hpp"
 #include "support/study_rig.hpp"
 
 namespace lilytank {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/text_table.hpp"
 #include "lilytank/error.hpp"
+#include "statistics/text_table.hpp"
 #include "support/study_tables.hpp"
 #include "support/temporary_directory.hpp"
 

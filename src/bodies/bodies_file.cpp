@@ -1,0 +1,225 @@
+#include "bodies/bodies_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "io/atomic_file.hpp"
+#include "io/scenario_values.hpp"
+#include "io/toml_fields.hpp"
+#include "io/units.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Reader {
+ public:
+  Reader(const std::string& file, const std::vector<std::string>& laws)
+      : file_(file), laws_(laws), root_(parse_toml(read_whole(file), file)) {}
+
+  BodyFile read() {
+    const TomlFields top(root_, "", file_, {"experiment", "baseline", "recording"});
+    if (!top.has("experiment")) throw InputError({file_, 1, 1}, "there is no [experiment] table");
+    experiment(top.table("experiment"));
+    if (top.has("baseline")) baseline(top.table("baseline"));
+    for (const toml::table* one : top.tables("recording")) recording(*one);
+    if (out_.tables.empty()) {
+      throw InputError({file_, 1, 1}, "there is no [[recording]]: nothing to diagnose");
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // A number of at least `low`, given plainly or with a unit.
+  double number(const TomlFields& f, const std::string& name, const std::string& unit,
+                double low) const {
+    const double value = f.number(name, unit);
+    if (value < low || value > 1e12) {
+      f.refuse(name, f.path(name) + " = " + shortest(value) + " is outside " + shortest(low) +
+                         " .. 1e+12 " + unit);
+    }
+    return value;
+  }
+
+  void experiment(const toml::table& from) {
+    const TomlFields f(
+        from, "experiment", file_,
+        {"name", "body", "dimensions", "unit", "noise", "coefficients", "turning", "latitude"});
+    BodyExperiment& e = out_.experiment;
+    e.name = f.has("name") ? f.text("name") : fs::path(file_).stem().string();
+    const std::string unsafe = "/\\\n";
+    if (e.name.empty() || e.name.find_first_of(unsafe) != std::string::npos) {
+      f.refuse("name",
+               "experiment.name is empty or has a character that names of files cannot have");
+    }
+    if (f.has("dimensions")) e.dimensions = static_cast<int>(f.whole("dimensions", 1, 2));
+    if (f.has("unit")) {
+      e.unit = f.text("unit");
+      const auto unit = parse_unit(e.unit);
+      if (!unit || unit->ten != 0 || unit->scale != 1) {
+        f.refuse("unit", "experiment.unit = \"" + e.unit + "\" is not m or rad");
+      }
+    }
+    if (f.has("noise")) {
+      e.noise = number(f, "noise", e.unit, 0);
+      if (!(e.noise > 0)) {
+        f.refuse("noise", "experiment.noise is more than 0; leave it out if it is to be estimated");
+      }
+    }
+    if (f.has("coefficients")) {
+      const std::string word = f.text("coefficients");
+      if (word != "shared" && word != "each body") {
+        f.refuse("coefficients",
+                 "experiment.coefficients = \"" + word + "\" is none of \"shared\", \"each body\"");
+      }
+      e.different = word == "each body";
+    }
+    if (f.has("turning")) e.turning = f.number("turning", "1/s");
+    if (f.has("latitude")) out_.latitude = {f.text("latitude"), f.place("latitude")};
+    if ((e.turning != 0 || f.has("latitude")) && e.dimensions != 2) {
+      f.refuse(f.has("latitude") ? "latitude" : "turning",
+               "bodies can turn in two dimensions only: experiment.dimensions = 2");
+    }
+  }
+
+  void baseline(const toml::table& from) {
+    std::vector<std::string> words = laws_;
+    words.push_back("contact");
+    const TomlFields f(from, "baseline", file_, words);
+    for (const std::string& word : words) {
+      if (!f.has(word)) continue;
+      BaselineLaw law{word, 0, false, f.place(word)};
+      const auto* text = f.node(word)->as_string();
+      law.fit = text != nullptr && text->get() == "fit";
+      if (text != nullptr && !law.fit) {
+        f.refuse(word, f.path(word) + " = \"" + text->get() + "\" is neither a number nor \"fit\"");
+      }
+      if (!law.fit) law.value = f.number(word, "1");
+      if (word == "contact" && (law.fit || law.value < 0 || law.value > 1)) {
+        f.refuse(word, "baseline.contact is the restitution of contacts, 0 .. 1");
+      }
+      out_.experiment.baseline.push_back(law);
+    }
+  }
+
+  static std::vector<NamedAt> names(const TomlFields& f, const std::string& key) {
+    std::vector<NamedAt> out;
+    for (const auto& [name, place] : f.texts(key)) out.push_back({name, place});
+    return out;
+  }
+
+  BodyFigures numbers(const TomlFields& f, const std::string& key, const std::string& unit) const {
+    BodyFigures out;
+    out.place = f.place(key);
+    const auto one = [&](const toml::node& node, const std::string& path) {
+      const SourcePlace at = place_of(node.source(), file_);
+      double value = 0;
+      if (const auto* text = node.as_string()) {
+        value = read_quantity(text->get(), unit, path, at);
+      } else if (node.is_number()) {
+        value = node.value<double>().value_or(NAN);
+      } else {
+        throw InputError(at,
+                         path + " is " + described(unit) + ", a list of them, or a table by body");
+      }
+      if (!(value >= (key == "mass" ? 1e-12 : 0)) || value > 1e12) {
+        throw InputError(at, path + " = " + shortest(value) + " is no " + key);
+      }
+      return value;
+    };
+    const toml::node& node = *f.node(key);
+    if (const auto* list = node.as_array()) {
+      for (const toml::node& item : *list) out.values.push_back(one(item, f.path(key)));
+    } else if (const auto* by = node.as_table()) {
+      for (const auto& [name, item] : *by) {
+        out.by_name[std::string(name.str())] =
+            one(item, f.path(key) + "." + std::string(name.str()));
+      }
+    } else {
+      out.values.push_back(one(node, f.path(key)));
+    }
+    return out;
+  }
+
+  void recording(const toml::table& from) {
+    const TomlFields f(
+        from, "recording", file_,
+        {"file", "time", "time_unit", "header_line", "first_row", "decimal_comma", "body", "run",
+         "x", "y", "mass", "radius", "drivers", "scale", "every", "together", "held_out"});
+    f.need("file", "the table of the positions");
+    f.need("time", "the name of the column of times, in seconds");
+    f.need("x", "the name of the column of positions, or one a body");
+    BodyTable t;
+    t.file = (fs::path(file_).parent_path() / f.text("file")).lexically_normal().string();
+    t.place = f.place("file");
+    t.time = {f.text("time"), f.place("time")};
+    constexpr int kMostLines = 1'000'000'000;
+    if (f.has("time_unit")) t.time_unit = number(f, "time_unit", "s", 1e-9);
+    if (f.has("header_line")) {
+      t.layout.header_line = static_cast<int>(f.whole("header_line", 0, kMostLines));
+    }
+    if (f.has("first_row")) {
+      t.layout.first_row = static_cast<int>(f.whole("first_row", 1, kMostLines));
+    }
+    if (f.has("decimal_comma")) t.layout.decimal_comma = f.flag("decimal_comma");
+    if (f.has("body")) t.body = {f.text("body"), f.place("body")};
+    if (f.has("run")) t.run = {f.text("run"), f.place("run")};
+    t.x = names(f, "x");
+    const bool flat = out_.experiment.dimensions == 1;
+    if (f.has("y") && flat) f.refuse("y", "recording.y needs experiment.dimensions = 2");
+    if (!flat) f.need("y", "bodies have two dimensions");
+    if (f.has("y")) t.y = names(f, "y");
+    if (!flat && t.y.size() != t.x.size())
+      f.refuse("y", "recording.y has not as many columns as x");
+    if (t.x.size() > 1 && !t.body.name.empty()) {
+      f.refuse("body", "recording.body goes with one column x; here every column is a body");
+    }
+    const std::size_t most = most_together(out_.experiment.dimensions);
+    if (t.x.size() > most) f.refuse("x", "more than " + std::to_string(most) + " bodies together");
+    if (f.has("mass")) t.mass = numbers(f, "mass", "kg");
+    if (f.has("radius")) t.radius = numbers(f, "radius", "m");
+    if (f.has("drivers")) t.drivers = names(f, "drivers");
+    if (f.has("scale")) t.scale = number(f, "scale", out_.experiment.unit, 1e-12);
+    if (f.has("every")) t.every = static_cast<int>(f.whole("every", 1, 1000000));
+    if (f.has("together")) t.together = f.flag("together");
+    if (f.has("held_out")) t.held_out = f.flag("held_out");
+    out_.tables.push_back(std::move(t));
+  }
+
+  std::string file_;
+  const std::vector<std::string>& laws_;
+  toml::table root_;
+  BodyFile out_;
+};
+
+}  // namespace
+
+BodyFile read_body_file(const std::string& file, const std::vector<std::string>& laws) {
+  return Reader(file, laws).read();
+}
+
+bool is_body_experiment(const std::string& file) {
+  toml::table root;
+  try {
+    root = parse_toml(read_whole(file), file);
+  } catch (const InputError&) {
+    return false;
+  }
+  if (root.contains("tank")) return false;
+  const auto body = root["experiment"]["body"].value<std::string>();
+  if (body == "point") return true;
+  if (!root.contains("baseline")) return false;
+  // What would be said of [baseline] as a part of a tank's experiment is beside the point.
+  if (!body || *body == "lily" || *body == "ball") {
+    throw InputError(place_of(root["baseline"].node()->source(), file),
+                     "[baseline] is of point bodies: say body = \"point\" in [experiment]");
+  }
+  throw unknown_word(place_of(root["experiment"]["body"].node()->source(), file), "experiment.body",
+                     *body, {"lily", "ball", "point"});
+}
+
+}  // namespace lilytank
