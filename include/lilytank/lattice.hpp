@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/report.hpp"
 #include "lilytank/ruleset.hpp"
 
 namespace lilytank {
@@ -133,7 +134,7 @@ struct CheckOptions {
   std::function<void(double done)> progress;
 };
 RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options = {});
-/// The report, ending in a new line.
-std::string check_text(const Ruleset& rules, const RulesetCheck& check);
+/// The report of a check as a document. Provenance is the caller's.
+ReportDocument check_report(const Ruleset& rules, const RulesetCheck& check);
 
 }  // namespace lilytank

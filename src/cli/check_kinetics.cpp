@@ -339,7 +339,8 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
     const std::string dir = options.text("out", usual);
     if (!dir.empty()) make_directory(dir);
     auto counted = input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
-    if (!counted) return {"", 0, true};
+    if (!counted) return {"", "", 0, true};
+    report.dir = dir;
     report.diverged = counted->diverged, report.text = diverged_text(*counted);
     if (report.diverged > 0 && counted->completion.empty()) return report;
     if (!dir.empty())

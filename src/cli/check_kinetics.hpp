@@ -29,6 +29,7 @@ CheckInput check_input(const VerbOptions& options);
 /// What came of --measure, --rates, --kappa and --bngl.
 struct KineticsReport {
   std::string text;
+  std::string dir;   ///< of rates and curves; "": nothing was written
   int diverged = 0;  ///< worlds, which are left out
   bool stopped = false;
 };

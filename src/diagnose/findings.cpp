@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "diagnose/diagnoser.hpp"
 #include "text/number.hpp"
@@ -13,6 +14,19 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double kSame = 4;  // gains that differ by less do not tell effects apart
+
+// A curve's variable before its value.
+std::string place_words(const std::string& variable) {
+  static const std::map<std::string, std::string> kWords = {
+      {"radius", "a distance from the centre of"},
+      {"pair", "a gap between modules of"},
+      {"slip", "a speed through the water of"},
+      {"position", "x ="},
+      {"turn", "a rate of turning of"},
+      {"time", "a time of"}};
+  const auto known = kWords.find(variable);
+  return known == kWords.end() ? variable : known->second;
+}
 
 }  // namespace
 
@@ -93,9 +107,10 @@ void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
   f.to = curve.at[last] + (last + 1 == curve.at.size() ? 0 : half);
   char text[200];
   std::snprintf(text, sizeof text,
-                "strongest %s at %s %.3g %s, where the baseline is off by %.2g +- %.2g %s",
-                curve.direction.c_str(), curve.variable.c_str(), curve.at[peak], curve.unit.c_str(),
-                curve.value[peak], curve.deviation[peak], curve.value_unit.c_str());
+                "strongest %s, at %s %.3g %s, where the baseline is off by %.2g +- %.2g %s",
+                curve.direction.c_str(), place_words(curve.variable).c_str(), curve.at[peak],
+                curve.unit.c_str(), curve.value[peak], curve.deviation[peak],
+                curve.value_unit.c_str());
   f.text = text;
 }
 

@@ -226,15 +226,15 @@ ReportDocument diagnosis_report(const Diagnosis& d) {
                     digits(d.seconds) + " s in all; verdict \"" + name_of(d.verdict) + "\"";
   report.card = card_of(d);
   report.warnings = d.warnings;
-  if (!d.checks.empty()) {
-    report.sections.push_back({"Checks of the recordings", d.checks, {}, {}, false});
-  }
   for (const DiagnosisFinding& f : d.findings) report.sections.push_back(section_of(f));
   if (!d.held_out.empty() && !d.findings.empty()) report.sections.push_back(fit_section(d));
   if (!d.parameters.empty()) report.sections.push_back(parameters_section(d));
   if (!d.ranking.empty()) {
     report.sections.push_back(ranking_section(d));
     report.sections.push_back(detectable_section(d));
+  }
+  if (!d.checks.empty()) {
+    report.sections.push_back({"Checks of the recordings", d.checks, {}, {}, true});
   }
   return report;
 }

@@ -107,6 +107,17 @@ void judge_lattice(const Ruleset& rules, const CheckOptions& options, RulesetChe
                            " in the lattice simulations that reverse rules did not undo");
 }
 
+/// A text's lines.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    lines.push_back(text.substr(at, end - at));
+    at += lines.back().size() + 1;
+  }
+  return lines;
+}
+
 std::string contents(const ReactionNetwork& network, const std::vector<int>& counts) {
   std::string out;
   for (std::size_t k = 0; k < counts.size(); ++k)
@@ -194,23 +205,36 @@ RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options) {
   return check;
 }
 
-std::string check_text(const Ruleset& rules, const RulesetCheck& check) {
-  std::string out = "ruleset " + rules.name + ": " +
-                    many(static_cast<std::int64_t>(rules.rules.size()), "rule", "rules") + "\n";
-  out += species_text(check) + population_text(check) + lattice_text(check);
-  if (check.unrestored.empty())
-    out += "every reverse rule gives back the states that its join found\n";
+ReportDocument check_report(const Ruleset& rules, const RulesetCheck& check) {
+  ReportDocument report;
+  report.title = "Check of ruleset " + rules.name;
+  report.subtitle = many(static_cast<std::int64_t>(rules.rules.size()), "rule", "rules");
+  const bool sound = check.faults.empty();
+  report.card.tone = sound ? ReportTone::good : ReportTone::fault;
+  report.card.verdict =
+      sound ? "no fault found"
+            : many(static_cast<std::int64_t>(check.faults.size()), "fault", "faults") + " found";
+  ReportSection proofs{
+      "Proofs", lines_of(species_text(check) + population_text(check)), {}, {}, false};
+  if (check.unrestored.empty()) {
+    proofs.above.push_back("every reverse rule gives back the states that its join found");
+  }
   if (check.irreversible_size > 0 && check.modules > 0 && check.target_size > 0) {
     const int s = check.irreversible_size, n = check.target_size, m = check.modules;
-    out += "assemblies from " + many(s, "module", "modules") +
-           " on may last: floor(M/s) = " + std::to_string(m / s) +
-           (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) + " = floor(M/n)" +
-           (deadlock_risk(m, s, n) ? ", deadlocks are possible" : "") + "\n";
+    proofs.above.push_back("assemblies from " + many(s, "module", "modules") +
+                           " on may last: floor(M/s) = " + std::to_string(m / s) +
+                           (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) +
+                           " = floor(M/n)" +
+                           (deadlock_risk(m, s, n) ? ", deadlocks are possible" : ""));
   }
-  for (const std::string& note : check.notes) out += "note: " + note + "\n";
-  for (const std::string& fault : check.faults) out += "fault: " + fault + "\n";
-  if (check.faults.empty()) out += "no fault found\n";
-  return out;
+  for (const std::string& note : check.notes) proofs.above.push_back("note: " + note);
+  for (const std::string& fault : check.faults) proofs.above.push_back("fault: " + fault);
+  report.sections.push_back(std::move(proofs));
+  if (!check.lattice.empty()) {
+    report.sections.push_back(
+        {"Lattice simulations", lines_of(lattice_text(check)), {}, {}, false});
+  }
+  return report;
 }
 
 }  // namespace lilytank

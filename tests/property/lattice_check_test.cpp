@@ -114,7 +114,7 @@ TEST(LatticeCheck, EveryPlanOfSmallShapes) {
         EXPECT_TRUE(check.other_finals.empty());
         EXPECT_TRUE(check.population.complete);
         const bool safe = maximal_joins(target, plan).size() > 1 || check.faults.empty();
-        EXPECT_TRUE(safe) << to_text(target) << check_text(rules, check);
+        EXPECT_TRUE(safe) << to_text(target) << report_text(check_report(rules, check));
       }
     }
   }

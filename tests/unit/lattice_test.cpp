@@ -209,10 +209,10 @@ TEST(RulesetCheck, SaysWhatItProved) {
   EXPECT_TRUE(check.faults.empty());
   EXPECT_TRUE(check.target_reached);
   EXPECT_TRUE(check.target_stable);
-  const std::string text = check_text(rules, check);
+  const std::string text = report_text(check_report(rules, check));
   for (const char* words :
-       {"ruleset target: 8 rules", "5 kinds of assembly", "15 modules have", "3 of 3 copies",
-        "no fault found", "2 lattice simulations", "0 illegal"})
+       {"Check of ruleset target: no fault found\n8 rules\n", "5 kinds of assembly",
+        "15 modules have", "3 of 3 copies", "no fault found", "2 lattice simulations", "0 illegal"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
