@@ -11,18 +11,26 @@ namespace lilytank {
 
 /// A kind of assembly: cells and bonds, up to turning, with the modules' ruleset states.
 struct Species {
-  std::string key;      ///< canonical text, equal for equal species
-  int size = 1;         ///< modules
-  bool legal = true;    ///< reachable by the ruleset from single modules
-  bool target = false;  ///< has the target's shape
-  std::string drawing;  ///< rows joined by '/', '#' a module, for reports
+  /// Canonical text, equal for equal species.
+  std::string key;
+  /// Number of modules.
+  int size = 1;
+  /// Reachable by the ruleset from single modules.
+  bool legal = true;
+  /// Whether it has the target's shape, rotated but not mirrored.
+  bool target = false;
+  /// Rows joined by '/', '#' a module, for reports.
+  std::string drawing;
 };
 
 /// All species that a ruleset can make, by applying its rules to single modules until nothing new
 /// comes; `closed` is false where a limit stopped it, and legality is then not judged.
 struct SpeciesTable {
+  /// In the order of discovery.
   std::vector<Species> species;
+  /// Whether the exploration ended by itself: then no other species is reachable.
   bool closed = true;
+  /// Whether a species with this key is in the table.
   bool contains(const std::string& key) const;
 };
 /// `limit` species at most, of `largest` modules at most: for worlds of no more modules than that
@@ -36,14 +44,18 @@ SpeciesTable reachable_species(const Ruleset& rules, int limit = 4096, int large
 /// shape, turned but not mirrored.
 class AssemblyRecord {
  public:
+  /// Begins with single modules and the model's first ruleset. `model` must outlive the record.
   explicit AssemblyRecord(const Model& model);
   /// Call after every step (cheap where nothing changed). A ruleset change starts a new table of
   /// legal species, which holds what stood at that moment as well; a change of the target's shape
   /// starts the count of copies anew.
   void observe(const World& world);
-  int copies() const { return copies_; }  ///< of the target, standing now
+  /// Copies of the target that stand now.
+  int copies() const { return copies_; }
+  /// Largest number of copies that stood at one time.
   int most_copies() const { return most_copies_; }
-  int possible_copies() const { return possible_; }  ///< floor(modules / target size)
+  /// Largest number of copies that the modules can form.
+  int possible_copies() const { return possible_; }
   /// Time at which the number of standing copies first reached 1, 2, ... (s).
   const std::vector<double>& completion_times() const { return completion_; }
   /// Standing assemblies by size; [0] unused.
@@ -52,15 +64,17 @@ class AssemblyRecord {
   std::int64_t illegal() const { return illegal_; }
   /// Standing count of each species ever seen, by key.
   const std::map<std::string, int>& standing() const { return standing_; }
+  /// All species that ever stood, by key.
   const std::map<std::string, Species>& seen() const { return seen_; }
   /// [modules] 1 where the module is part of a standing copy.
   const std::vector<std::uint8_t>& complete() const { return complete_; }
   /// How often each rule fired: [ruleset][rule].
   const std::vector<std::vector<std::int64_t>>& firings() const { return firings_; }
-  /// Counters as text and back, for checkpoints: restore() makes a new record go on where the one
-  /// that wrote the text stood, and counts what stands from the world. Throws InputError if the
-  /// text is not of a record of this model.
+  /// The counters as text, for checkpoints.
   std::string to_text() const;
+  /// Inverse of to_text() on a new record of the same model: counters continue where the writer
+  /// stood, and what stands is counted from `world`. Throws InputError if the text is not of a
+  /// record of this model.
   void restore(const std::string& text, const World& world);
 
  private:

@@ -26,53 +26,82 @@ namespace lilytank {
 
 /// A parameter that is looked for.
 struct FitParameter {
+  /// Dotted scenario path, or the camera's (emulator.hpp), and its SI unit.
   std::string path, unit;
-  double low = 0, high = 1;  ///< bounds: within them worlds are stable
+  /// Bounds, inclusive: simulations within them are stable.
+  double low = 0, high = 1;
+  /// Whether fitted on a logarithmic scale; then low > 0.
   bool logarithmic = false;
-  bool nuisance = false;  ///< fitted along, not told: the camera's noise
+  /// Nuisance parameter: fitted with the others but not reported, such as the camera's noise.
+  bool nuisance = false;
+  /// From the parameter's unit to the fitted scale: the logarithm, or the value itself.
   double to_scale(double value) const;
+  /// Inverse of to_scale().
   double from_scale(double value) const;
 };
 /// The paper's five of Lilies: K_v, K_F, sigma_stoch, D_linear, D_angular; of balls the drag
 /// coefficient in place of K_F, and no D_angular.
 std::vector<FitParameter> standard_parameters(BodyKind body);
 
+/// What is compared between recordings and simulations.
 enum class CalibrationObjective : std::uint8_t {
-  summary,       ///< distance of motion summaries by their covariance
-  msd_weighted,  ///< distance of MSDs by their covariance
-  msd,           ///< Eq. 9
+  /// Distance of motion summaries by their covariance.
+  summary,
+  /// Distance of MSDs by their covariance.
+  msd_weighted,
+  msd,  ///< Eq. 9
 };
-CalibrationObjective objective_named(const std::string& word);  ///< throws InputError
+/// From "summary", "msd_weighted" or "msd". Throws InputError on another word.
+CalibrationObjective objective_named(const std::string& word);
 std::string name_of(CalibrationObjective objective);
 
+/// Where the flow field of the simulations comes from.
 enum class CalibrationFlow : std::uint8_t {
-  smooth,  ///< from the experiment's balls, with its errors (the scenario's, where it has no balls)
-  paper,   ///< from the balls by Eq. 3
+  /// From the experiment's balls, with its errors (the scenario's, where it has no balls).
+  smooth,
+  paper,     ///< from the balls by Eq. 3
   scenario,  ///< the scenario's own
 };
-CalibrationFlow flow_named(const std::string& word);  ///< throws InputError
+/// From "smooth", "paper" or "scenario". Throws InputError on another word.
+CalibrationFlow flow_named(const std::string& word);
 std::string name_of(CalibrationFlow flow);
 
+/// Settings of a calibration. The defaults are those whose coverage docs/calibration.md reports.
 struct CalibrationOptions {
   BodyKind body = BodyKind::lily;
   CalibrationObjective objective = CalibrationObjective::summary;
   CalibrationFlow flow = CalibrationFlow::smooth;
-  std::vector<FitParameter> parameters;  ///< empty: the standard ones
-  std::vector<double> start;             ///< of the search; empty: the scenario's values
-  int hold_out = 0;                      ///< recordings held out beside those that say so: the last
+  /// Empty: standard_parameters(body).
+  std::vector<FitParameter> parameters;
+  /// Where the search begins, one value per parameter; empty: the scenario's values.
+  std::vector<double> start;
+  /// Number of recordings, from the last, to hold out beside those that are marked as held out.
+  int hold_out = 0;
   /// The search: its name for reports, and how it is made from a space, a start and a seed.
   std::string search_name = "cma-es";
-  int search_particles = 0, search_iterations = 0;  ///< of a swarm
-  std::int64_t search_budget = 1500;                ///< evaluations, of other searches
-  int flow_draws = 24;                              ///< of the flow's error; 0: the flow is exact
-  int round = 120, last_round = 240;  ///< simulations of a round, and of the last model
+  /// Of a swarm; 0 for other searches.
+  int search_particles = 0, search_iterations = 0;
+  /// Budget of other searches, evaluations.
+  std::int64_t search_budget = 1500;
+  /// Draws of the flow's error that the intervals include; 0: the flow counts as exact.
+  int flow_draws = 24;
+  /// Simulations of a round, and of the last model.
+  int round = 120, last_round = 240;
+  /// Upper bound on the rounds in which the local model follows its answer.
   int most_rounds = 8;
-  int replicates = 200;  ///< experiments simulated for the intervals
-  int comparisons = 24;  ///< experiments simulated for Eq. 9 before and after
+  /// Experiments simulated for the intervals.
+  int replicates = 200;
+  /// Experiments simulated for Eq. 9 before and after.
+  int comparisons = 24;
+  /// Key of every random number of the calibration.
   std::uint64_t seed = 1;
-  std::string out;  ///< directory; empty: nothing is kept
+  /// Directory; empty: nothing is kept.
+  std::string out;
+  /// Replace the files of another calibration in `out`.
   bool force = false;
+  /// Simulations at a time; 0: one per core. The result does not depend on it.
   int threads = 0;
+  /// Set by a signal: running simulations are abandoned, finished ones stay in `out`.
   const std::atomic<bool>* stop = nullptr;
   /// Called by one thread at a time with the share done of one stage and what it is.
   std::function<void(double done, const std::string& stage)> progress;
@@ -81,15 +110,20 @@ struct CalibrationOptions {
 /// What was found of one parameter.
 struct CalibratedParameter {
   FitParameter parameter;
-  double start = 0;     ///< the scenario's
-  double searched = 0;  ///< the search's answer
+  /// The scenario's value.
+  double start = 0;
+  /// The search's answer.
+  double searched = 0;
   /// What all compared numbers say, without its bias, within the bounds; and, of what they leave
   /// open, the value that makes the MSD most like the recorded one (objective `summary`, flow from
   /// balls).
   double middle = 0, estimate = 0;
-  double low = 0, high = 0;  ///< 95 %
-  double deviation = 0;      ///< standard error, on the fitted scale
-  double bias = 0;           ///< that was taken off, on the fitted scale
+  /// 95 % interval, bias-corrected.
+  double low = 0, high = 0;
+  /// Standard error, on the fitted scale.
+  double deviation = 0;
+  /// Bias that the estimate was corrected for, on the fitted scale.
+  double bias = 0;
   /// The profile: values, and how much the misfit rises when the parameter is held there.
   std::vector<double> profile_value, profile_rise;
 };
@@ -97,18 +131,26 @@ struct CalibratedParameter {
 /// One number of the compared ones: observed, expected at the estimate, and how far apart.
 struct ComparedNumber {
   SummaryEntry entry;
+  /// In the statistic's own unit; `deviation` is the standard deviation in one experiment.
   double observed = 0, expected = 0, deviation = 0;
+  /// Standardised residual.
   double z() const { return deviation > 0 ? (observed - expected) / deviation : 0; }
 };
 
 /// One local model on the way to the answer.
 struct LocalRound {
-  std::string name;     ///< "rough model 1": of pieces; "local model 1": of whole experiments
-  int simulations = 0;  ///< that it rests on
-  double moved = 0;     ///< of its answer from its centre, in deviations of the simulated points
+  /// "rough model 1": of pieces; "local model 1": of whole experiments.
+  std::string name;
+  /// Simulations that it rests on.
+  int simulations = 0;
+  /// Distance of the answer from the centre of the simulated points, in their standard deviations.
+  double moved = 0;
+  /// Value of the objective at that answer.
   double misfit = 0;
-  bool at_reach = false;         ///< the answer is as far off as it was allowed to be
-  std::vector<double> estimate;  ///< of every parameter
+  /// The answer lies on the bound of its reach: the next round is centred there.
+  bool at_reach = false;
+  /// Its answer, one value per parameter.
+  std::vector<double> estimate;
 };
 
 /// Eq. 9 of a set of recordings, m^2. Every value is the mean over random halves of the recordings'
@@ -118,34 +160,50 @@ struct LocalRound {
 /// more alike than those of two, and `after` is as large with probability `equals_p`. Where an
 /// experiment diverged, `before` or `after` is infinite and the last two are NaN.
 struct MsdFit {
-  std::string recordings;  ///< "training", "held out"
-  int pieces = 0;          ///< in all
-  double seconds = 0;      ///< of a piece, and the longest lag
+  /// Which recordings: "training" or "held out".
+  std::string recordings;
+  /// Pieces of all these recordings.
+  int pieces = 0;
+  /// Length of a piece, and the longest lag, s.
+  double seconds = 0;
   double before = 0, after = 0, floor = 0, equals = 0, equals_p = 1;
-  std::vector<double> lag, real, simulated_before, simulated_after;  ///< s and m^2
+  /// Mean MSD (m^2) over lag (s): recorded, simulated with the scenario's values and with the
+  /// estimates.
+  std::vector<double> lag, real, simulated_before, simulated_after;
 };
 
+/// The estimate, its uncertainty and what supports it.
 struct CalibrationResult {
   std::string name, objective, flow, search_name;
   BodyKind body = BodyKind::lily;
+  /// Recordings that were fitted, and bodies in them.
   int recordings = 0, bodies = 0;
-  double seconds = 0;                           ///< recorded, all recordings together
-  double dt = 0;                                ///< s
-  std::vector<CalibratedParameter> parameters;  ///< nuisances at the end
-  std::vector<double> correlation;              ///< of estimates, [i * parameters + j]
-  double misfit = 0, misfit_p = 1;              ///< at the estimate; probability of a larger one
+  /// Recorded time of all recordings, s.
+  double seconds = 0;
+  /// Time step of the simulations, s.
+  double dt = 0;
+  /// In the order of the options, nuisance parameters last.
+  std::vector<CalibratedParameter> parameters;
+  /// Correlation of the estimates i and j, [i * parameters + j].
+  std::vector<double> correlation;
+  /// Misfit at the estimate, and the probability of a larger one under the model.
+  double misfit = 0, misfit_p = 1;
+  /// Every compared statistic, in the order of its summary.
   std::vector<ComparedNumber> numbers;
   std::vector<MsdFit> msd;
   std::vector<std::string> warnings;
-  std::vector<IterationRecord> history;  ///< of the search
+  /// Of the global search.
+  std::vector<IterationRecord> history;
   std::vector<LocalRound> rounds_taken;
-  int rounds = 0, simulations = 0;  ///< of whole experiments
+  /// Rounds of local models, and simulations of whole experiments in them.
+  int rounds = 0, simulations = 0;
   /// A map of mean velocities of the recordings, and of as many simulated ones [paper, Fig. 7].
   VelocityMap real_velocity, simulated_velocity;
   double tank_radius = 0.3;
-  std::string flow_csv;  ///< the extracted flow; empty where the scenario's is used
-  /// Of experiments simulated at the estimate and estimated like the data, [replicate][parameter],
-  /// without bias, on the fitted scale.
+  /// The extracted flow; empty where the scenario's is used.
+  std::string flow_csv;
+  /// [replicate][parameter] Estimates from experiments that were simulated at the estimate,
+  /// bias-corrected, on the fitted scale.
   std::vector<std::vector<double>> replicate_estimates;
 };
 
@@ -161,10 +219,12 @@ struct CalibrationSetup;
 /// simulation at a point.
 class CalibrationSearch {
  public:
+  /// Prepares the experiment as calibrate() does. Throws InputError like it.
   CalibrationSearch(const Experiment& experiment, const CalibrationOptions& options);
   explicit CalibrationSearch(CalibrationSetup setup);
   ~CalibrationSearch();
   CalibrationSearch(CalibrationSearch&&) noexcept;
+  /// One axis per parameter, on its bounds.
   const SearchSpace& space() const;
   /// Infinite where the world diverges.
   double value(const Trial& trial) const;
@@ -176,6 +236,7 @@ class CalibrationSearch {
 
 /// The report, without its provenance.
 ReportDocument calibration_report(const CalibrationResult& calibration);
+/// The same document as text.
 std::string calibration_text(const CalibrationResult& calibration);
 /// Writes calibration.txt (the report), calibration.json, calibrated.toml (an overlay that `run`
 /// takes), history.csv, rounds.csv, intervals.csv, correlation.csv, profiles.csv, numbers.csv, and

@@ -10,21 +10,28 @@ namespace lilytank {
 
 /// Bins of equal width over low .. high; the last one holds `high`.
 struct Bins {
+  /// In the unit of the binned quantity.
   double low = 0, high = 1;
   int count = 50;
+  /// Width of a bin.
   double width() const { return (high - low) / count; }
+  /// Centre of a bin, 0 <= bin < count.
   double middle(int bin) const { return low + (bin + 0.5) * width(); }
   /// -1 beyond the ends.
   int of(double value) const;
 };
 
+/// Scalars of a smoothed track that have a distribution. Outward and around refer to the tank's
+/// centre.
 enum class Quantity : std::uint8_t {
-  speed,            ///< m/s
-  velocity_x,       ///< m/s
-  velocity_y,       ///< m/s
-  velocity_out,     ///< m/s, away from the tank's centre
-  velocity_around,  ///< m/s, about the tank's centre, counter-clockwise
-  spin,             ///< rad/s
+  speed,       ///< m/s
+  velocity_x,  ///< m/s
+  velocity_y,  ///< m/s
+  /// Away from the tank's centre, m/s.
+  velocity_out,
+  /// About the tank's centre, counter-clockwise, m/s.
+  velocity_around,
+  spin,  ///< rad/s
 };
 
 /// Probability density of a quantity (1 over its unit). Values beyond the bins count as samples.
@@ -51,30 +58,42 @@ BodySums nearest_distance(const SmoothRecording& recording);
 
 /// When two bodies touch.
 struct ContactRule {
-  double size = 0.035;      ///< m, side of squares or diameter of discs
-  bool squares = true;      ///< else discs; squares need headings
-  double touching = 0.001;  ///< m, gap at which a contact begins
-  double apart = 0.002;     ///< m, gap above which it ends
+  /// Side of squares or diameter of discs, m.
+  double size = 0.035;
+  /// Else discs; squares need headings.
+  bool squares = true;
+  /// Gap at which a contact begins, m.
+  double touching = 0.001;
+  double apart = 0.002;  ///< m, gap above which it ends
 };
+/// Contacts between bodies of a recording.
 struct Contacts {
-  /// Of all contacts that were seen to begin; not observed to the end where a body is lost or the
+  /// Duration of every contact that was seen to begin; censored where a body is lost or the
   /// recording ends.
   std::vector<Duration> durations;
-  BodySums begun;     ///< contacts begun by a body, a second (one bin): a contact counts for both
-  BodySums touching;  ///< share of the time in which a body touches at least one other (one bin)
+  /// Contacts begun by a body, a second (one bin): a contact counts for both.
+  BodySums begun;
+  /// Share of the time in which a body touches at least one other (one bin).
+  BodySums touching;
 };
 /// The gap between two squares is the largest one along the axes of either.
 Contacts find_contacts(const SmoothRecording& recording, const ContactRule& rule);
 
 /// Mean velocity by place: cells as in FlowField.
 struct VelocityMap {
+  /// Cells along one side.
   int cells = 0;
-  double extent = 0;                  ///< m
-  std::vector<double> vx, vy;         ///< m/s, NaN: no data
-  std::vector<double> se_x, se_y;     ///< standard error over bodies; NaN with fewer than two there
+  /// Half of the map's side, m.
+  double extent = 0;
+  std::vector<double> vx, vy;  ///< m/s, NaN: no data
+  /// Standard error over bodies; NaN with fewer than two there.
+  std::vector<double> se_x, se_y;
   std::vector<std::int64_t> samples;  ///< frames
-  std::vector<int> bodies;            ///< that passed
+  /// Number of bodies that passed the cell.
+  std::vector<int> bodies;
 };
+/// Averages the smoothed velocities of all recordings over cells x cells squares on [-extent,
+/// extent]^2 (m). Frames count once per body; standard errors take bodies as independent.
 VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent);
 
 }  // namespace lilytank

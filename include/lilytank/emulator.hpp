@@ -20,49 +20,67 @@ namespace lilytank {
 
 /// All bodies at one frame of a recording.
 struct BodiesAt {
+  /// Frame of the recording.
   int frame = 0;
+  /// [bodies] In the tank's frame.
   std::vector<Pose> pose;
+  /// [bodies] From local polynomials over the frames around.
   std::vector<Twist> twist;
 };
 
 /// What of a recording is imitated.
 struct RecordingShape {
+  /// Name of the recording.
   std::string name;
+  /// Kind of the simulated bodies.
   BodyKind body = BodyKind::lily;
-  int bodies = 0;  ///< most that were seen in one frame
+  /// Largest number of bodies seen in one frame: that many are simulated.
+  int bodies = 0;
+  /// Length of the recording, frames.
   int frames = 0;
-  double rate = 30;  ///< frames per second
+  /// Frames per second.
+  double rate = 30;
+  /// Whether the simulated tracks have headings.
   bool headings = true;
+  /// Whether the modules' latches are on.
   bool latches = false;
-  double missing = 0;  ///< share of the frames of a track in which its body was not seen
+  /// Share of the frames of a track in which its body was not seen.
+  double missing = 0;
   /// Where worlds may begin: frames in which all bodies were seen, poses and twists by local
   /// polynomials. Empty: bodies start at random and settle.
   std::vector<BodiesAt> starts;
 };
-/// Bodies seen in each frame.
+/// [frames] Number of bodies seen in each frame.
 std::vector<int> seen_by_frame(const Recording& recording);
-/// `starts` are looked for every `interval` seconds, the first frame first.
+/// The shape of a recording. It looks for `starts` every `interval` seconds, from the first frame
+/// on.
 RecordingShape shape_of(const Recording& recording, double interval = 1);
 
-/// Paths of the camera, which may be varied beside those of the model.
-inline const std::string kPositionNoise = "camera.position_noise";  ///< m
-inline const std::string kHeadingNoise = "camera.heading_noise";    ///< rad
-inline const std::string kLens = "camera.lens";                     ///< 1/m^2, Camera::lens
+/// Standard deviation of a position, m (Camera::position_noise).
+inline const std::string kPositionNoise = "camera.position_noise";
+/// Standard deviation of a heading, rad (Camera::heading_noise).
+inline const std::string kHeadingNoise = "camera.heading_noise";
+/// Radial distortion, 1/m^2 (Camera::lens).
+inline const std::string kLens = "camera.lens";
 /// rad: the camera leans towards +x and +y, from a height of 1 m; from h m it is h times as much.
 inline const std::string kTiltX = "camera.tilt_x", kTiltY = "camera.tilt_y";
-/// Whether a path is the camera's.
+/// Whether a path begins with "camera.".
 bool of_camera(const std::string& path);
 /// A number that an emulator can vary: one of the camera's, or model_parameter(). Throws
 /// InputError.
 ModelParameter emulator_parameter(const std::string& path);
 
+/// Settings of the simulations, apart from the parameters that vary.
 struct EmulatorOptions {
   /// Draw the gusts' wrench on a module from its moments instead of point by point: three times
   /// faster, but the variance of some short displacements is 1 % off, which calibration can see.
   bool moment_matched = true;
-  double settle = 20;            ///< s before the first frame, where bodies start at random
-  double position_noise = 3e-4;  ///< m, unless it is a parameter
-  double heading_noise = 0.01;   ///< rad, likewise
+  /// Simulated time before the first frame if bodies start at random, s.
+  double settle = 20;
+  /// Standard deviation of positions, m, unless kPositionNoise is among the parameters.
+  double position_noise = 3e-4;
+  /// Standard deviation of headings, rad, unless kHeadingNoise is among the parameters.
+  double heading_noise = 0.01;
 };
 
 /// Simulates an experiment at any values of a list of parameters. Constant once made, so it may be
@@ -74,8 +92,11 @@ class Emulator {
   Emulator(Model model, std::vector<std::string> paths, std::vector<RecordingShape> shapes,
            const EmulatorOptions& options = {});
 
+  /// In the order of the values that record() and piece() take.
   const std::vector<std::string>& paths() const { return paths_; }
+  /// In the order of the recordings of record().
   const std::vector<RecordingShape>& shapes() const { return shapes_; }
+  /// The model before values are set. Per-point gusts are moment-matched if the options say so.
   const Model& model() const { return model_; }
 
   /// The whole experiment: one recording a shape, begun where the recording began. Nothing if a

@@ -1,4 +1,4 @@
-// What is wrong with a user's input, in one line that says where and what would be right.
+// Errors in a user's input: one line that names the place, the value and the nearest valid word.
 #pragma once
 #include <span>
 #include <stdexcept>
@@ -7,27 +7,36 @@
 
 namespace lilytank {
 
-/// A place in a user's file; line and column count from 1, 0 means unknown.
+/// A place in a user's file. Lines and columns count from 1; 0 means unknown.
 struct SourcePlace {
+  /// Path as the user gave it.
   std::string file;
+  /// From 1; 0: unknown.
   int line = 0;
+  /// From 1; 0: unknown.
   int column = 0;
-  /// "tank.toml:14:3", or as much of it as is known.
+  /// "tank.toml:14:3"; "tank.toml:14" without a column, "tank.toml" without a line.
   std::string text() const;
 };
 
-/// Input that cannot be used. The program prints what() as one line and exits with 2.
+/// Input that cannot be used. Readers of files and functions that check a user's settings throw it;
+/// misuse of the library by its caller is std::invalid_argument. The program prints what() as one
+/// line and exits with 2.
 class InputError : public std::runtime_error {
  public:
+  /// An error without a place, for values that no file holds.
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
+  /// what() is "file:line:column: message".
   InputError(const SourcePlace& place, const std::string& message)
       : std::runtime_error(place.text() + ": " + message) {}
 };
 
-/// The candidate nearest to `word` by edits (insert, delete, replace, swap), or empty if none is
-/// within a third of the longer one's length.
+/// The candidate with the least edit distance to `word` (insert, delete, replace, swap of
+/// neighbours: Damerau and Levenshtein); the first of equal ones. Empty if none is within a third
+/// of the longer word's length.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
-/// " - did you mean 'K_F'?" or, where nothing is near, the empty string.
+
+/// " - did you mean 'K_F'?", to append to a message. Empty if no candidate is near.
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace lilytank

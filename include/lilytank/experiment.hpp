@@ -12,17 +12,26 @@ namespace lilytank {
 
 /// A [[recording]] of an experiment file.
 struct RecordingSource {
-  std::string file;  ///< path, from the working directory
+  /// Path, relative to the working directory.
+  std::string file;
+  /// Format, units, checks and treatment of this recording.
   RecordingOptions options;
-  SourcePlace place;  ///< where the experiment file names it
+  /// Where the experiment file names it.
+  SourcePlace place;
 };
 
+/// An experiment file with all that it names.
 struct Experiment {
+  /// From [experiment], or the file's name.
   std::string name;
-  Scenario base;  ///< what the scenario's keys say; base.model holds the tank and the bodies
+  /// What the scenario's keys set; base.model holds the tank and the bodies.
+  Scenario base;
+  /// All [[recording]] tables, read or not.
   std::vector<RecordingSource> sources;
-  std::vector<Recording> recordings;  ///< of the sources that were wanted, in their order
-  std::vector<Finding> findings;      ///< of these
+  /// The recordings that were wanted, in the order of `sources`.
+  std::vector<Recording> recordings;
+  /// Findings of their checks, in the same order.
+  std::vector<Finding> findings;
 };
 
 /// Reads an experiment: files laid over each other as scenarios are (later wins; recordings of a

@@ -8,9 +8,13 @@ namespace lilytank {
 /// A running hash (FNV-1a, 64 bits) of the first `length` bytes of a file. Any changed byte changes
 /// it.
 struct FileDigest {
-  std::int64_t length = 0;                   ///< bytes
-  std::uint64_t value = 0xcbf29ce484222325;  ///< of all of them
-  std::vector<std::uint64_t> blocks;         ///< the value after each full kDigestBlock bytes
+  /// Bytes hashed.
+  std::int64_t length = 0;
+  /// Hash of all of them; FNV's offset basis for none.
+  std::uint64_t value = 0xcbf29ce484222325;
+  /// The value after each full kDigestBlock bytes.
+  std::vector<std::uint64_t> blocks;
+  /// Equal lengths and hashes.
   bool operator==(const FileDigest&) const = default;
 };
 

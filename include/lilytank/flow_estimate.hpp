@@ -27,15 +27,22 @@ namespace lilytank {
 
 /// What is known of the balls and the tank beforehand.
 struct BallPhysics {
-  double mass = 0.0131;            ///< kg
-  double radius = 0.015;           ///< m
-  double drag_area = 7e-4;         ///< m^2 [paper, section 3.2]
-  double drag_coefficient = 0.47;  ///< C of Eq. 2, of a sphere [paper, section 3.2]
-  double rho = 1000;               ///< kg/m^3
-  double draws = 10;               ///< independent gusts that a ball averages over (model)
-  double gust_interval = kTick;    ///< s, for which a gust and a random force are held
-  double damping = 0.4034671;      ///< 1/s, -ln(1 - D_linear)
-  double tank_radius = 0.30;       ///< m
+  /// Mass of a ball, kg.
+  double mass = 0.0131;
+  /// Radius of a ball, m.
+  double radius = 0.015;
+  double drag_area = 7e-4;  ///< m^2 [paper, section 3.2]
+  /// C of Eq. 2, of a sphere [paper, section 3.2].
+  double drag_coefficient = 0.47;
+  /// Density of the water, kg/m^3.
+  double rho = 1000;
+  /// Independent gusts that a ball averages over (model).
+  double draws = 10;
+  /// For which a gust and a random force are held, s.
+  double gust_interval = kTick;
+  double damping = 0.4034671;  ///< 1/s, -ln(1 - D_linear)
+  /// Inner radius of the tank, m.
+  double tank_radius = 0.30;
   /// 1/m: acceleration is this times |w| w, w the water's velocity relative to the ball.
   double drag_rate() const { return 0.5 * rho * drag_area * drag_coefficient / mass; }
 };
@@ -46,12 +53,17 @@ BallPhysics ball_physics(const Model& model);
 /// The same of a scenario: a coefficient that its files set is taken, whatever it is.
 BallPhysics ball_physics(const Scenario& scenario);
 
+/// Settings of both estimators.
 struct FlowOptions {
-  int cells = 50;  ///< along a side of the grid over the tank
+  /// Along a side of the grid over the tank.
+  int cells = 50;
   SmoothingOptions smoothing{SmoothingMethod::polynomial, 0.3, 3};  ///< of Eq. 3
-  int least_samples = 20;      ///< frames; a cell with fewer is filled
-  double significance = 0.05;  ///< of normality in a cell, and rate of false discoveries
-  int draws = 0;  ///< fields from the posterior, for whoever uses the flow (smooth only)
+  /// Frames; a cell with fewer is filled.
+  int least_samples = 20;
+  /// Level of the normality tests in the cells, and rate of false discoveries over all cells.
+  double significance = 0.05;
+  /// Fields from the posterior, for whoever uses the flow (smooth only).
+  int draws = 0;
 };
 
 /// One field's difference from another, cell by cell, m/s.
@@ -59,39 +71,57 @@ using FlowDifference = std::vector<FlowSample>;
 
 /// One cell of an estimate. Errors are standard errors.
 struct FlowCell {
-  FlowSample flow;        ///< m/s; where not measured, filled from the cells around
-  FlowSample error;       ///< m/s; NaN where unknown
-  int samples = 0;        ///< frames (paper) or momentum balances (smooth) in this cell
-  int stays = 0;          ///< visits of balls that count as independent (paper only)
-  bool measured = false;  ///< false: without enough data, filled
-  /// Of all frames as if they were independent, which is how Fig. 3 may be read (paper only).
+  /// m/s; where not measured, filled from the cells around.
+  FlowSample flow;
+  FlowSample error;  ///< m/s; NaN where unknown
+  /// Frames (paper) or momentum balances (smooth) in this cell.
+  int samples = 0;
+  /// Visits of balls that count as independent (paper only).
+  int stays = 0;
+  /// False: without enough data, filled.
+  bool measured = false;
+  /// Normality of all frames as if they were independent, one reading of Fig. 3 (paper only).
   NormalityTest all_x, all_y;
-  NormalityTest normal_x, normal_y;  ///< of one sample a stay (paper only)
+  /// Normality of one sample per stay (paper only).
+  NormalityTest normal_x, normal_y;
 };
 
 /// What moves the balls besides the mean flow, each with its standard error.
 struct NoiseBudget {
-  double tracking = 0, tracking_error = 0;      ///< m, of a measured position per axis
-  double stochastic = 0, stochastic_error = 0;  ///< N, sigma_stoch of a draw per gust interval
-  double gusts = 0, gusts_error = 0;            ///< m/s, mean deviation over the measured cells
+  /// Standard deviation of a measured position per axis, m.
+  double tracking = 0, tracking_error = 0;
+  /// Standard deviation sigma_stoch of the random force, N, one draw per gust interval.
+  double stochastic = 0, stochastic_error = 0;
+  /// Mean deviation over the measured cells, m/s.
+  double gusts = 0, gusts_error = 0;
 };
 
+/// An estimated field with its errors. Cells lie as in FlowField.
 struct FlowEstimate {
   std::string name;  ///< "paper" or "smooth"
   int cells = 0;
-  double extent = 0;                 ///< m, the grid covers [-extent, extent]^2
-  std::vector<FlowCell> cell;        ///< iy * cells + ix, as in FlowField
+  /// The grid covers [-extent, extent]^2, m.
+  double extent = 0;
+  /// Iy * cells + ix, as in FlowField.
+  std::vector<FlowCell> cell;
   std::optional<NoiseBudget> noise;  ///< smooth only
   /// Draws from the posterior of mean and deviation together, less the estimate: fields that the
   /// data and their smoothness allow as well. Zero outside the tank.
   std::vector<FlowDifference> draws;
-  double thinning = 0;    ///< s between samples of a track that count as independent (paper only)
-  double smoothness = 0;  ///< effective number of free values of the mean field (smooth only)
-  std::int64_t samples = 0, dropped = 0;  ///< used, and left out because of a contact or the wall
-  std::string filter;                     ///< what was done to the tracks, one sentence
+  /// s between samples of a track that count as independent (paper only).
+  double thinning = 0;
+  /// Effective number of free values of the mean field (smooth only).
+  double smoothness = 0;
+  /// Used, and left out because of a contact or the wall.
+  std::int64_t samples = 0, dropped = 0;
+  /// What was done to the tracks, one sentence.
+  std::string filter;
+  /// Centre of cell i, m.
   double x(int i) const { return (i % cells + 0.5) * 2 * extent / cells - extent; }
+  /// Centre of cell i, m.
   double y(int i) const { return (i / cells + 0.5) * 2 * extent / cells - extent; }
-  int measured() const;  ///< number of measured cells
+  /// Number of measured cells.
+  int measured() const;
 };
 
 /// Eq. 3 on smoothed tracks. `recordings` are of balls; others are ignored. Throws InputError if
@@ -114,6 +144,7 @@ FlowField field_of(const FlowEstimate& estimate, Interpolation interpolation);
 /// with or without `measured`; cells that are not in it (or not measured) are NaN.
 struct FlowTruth {
   int cells = 0;
+  /// [cells * cells] As in FlowField; NaN: not known.
   std::vector<FlowSample> sample;
 };
 /// Throws InputError with file, line and column, and if a row is not of a `cells` x `cells` grid.
@@ -122,12 +153,19 @@ FlowTruth read_flow_truth(const std::string& file, int cells);
 /// Differences of an estimate from a truth, over cells that are in both.
 struct FlowError {
   int cells = 0;
-  double mean_rms = 0;        ///< m/s per axis
-  double mean_radial = 0;     ///< m/s, average of the difference outwards
-  double mean_around = 0;     ///< m/s, ... counter-clockwise
-  double deviation_rms = 0;   ///< m/s per axis
-  double deviation_bias = 0;  ///< m/s
-  double mean_coverage = 0;   ///< share of differences within 1.96 standard errors
+  /// Root mean square error of mu per axis, m/s.
+  double mean_rms = 0;
+  /// Average of the difference outwards, m/s.
+  double mean_radial = 0;
+  /// Average of the difference counter-clockwise, m/s.
+  double mean_around = 0;
+  /// Root mean square error of sigma per axis, m/s.
+  double deviation_rms = 0;
+  /// Mean error of sigma, m/s.
+  double deviation_bias = 0;
+  /// Fraction of differences of mu within 1.96 standard errors; 0.95 is nominal.
+  double mean_coverage = 0;
+  /// Fraction of differences of sigma within 1.96 standard errors.
   double deviation_coverage = 0;
 };
 /// Over the measured cells, or over all.

@@ -9,8 +9,10 @@
 
 namespace lilytank {
 
-/// One cell's velocity statistics, m/s, before K_v. Sigma is the deviation per axis, >= 0.
+/// Velocity statistics of one cell, m/s, before K_v.
 struct FlowSample {
+  /// Mean mu and standard deviation sigma >= 0 over time, per axis. The axes are taken as
+  /// independent [paper, Eq. 4].
   double mu_x = 0, mu_y = 0, sigma_x = 0, sigma_y = 0;
 };
 
@@ -20,6 +22,8 @@ struct alignas(64) FlowRow {
   float v[4][4] = {};
 };
 
+/// How values between cell centres are read: bilinear from the four nearest, or those of the
+/// nearest cell, as in the paper.
 enum class Interpolation { bilinear, nearest };
 
 /// Mean and deviation of the water velocity on cells x cells squares over [-extent, extent]^2.
@@ -27,6 +31,7 @@ enum class Interpolation { bilinear, nearest };
 /// cells; cells are stored row by row, iy * cells + ix. Constant once made.
 class FlowField {
  public:
+  /// No field: at() must not be called.
   FlowField() = default;
   /// Takes `cells` * `cells` samples; `measured[i]` = false marks a cell without data, which is
   /// then filled from its neighbours (the mean of its neighbours, solved for all such cells at
@@ -38,9 +43,12 @@ class FlowField {
   /// Mean and deviation at a point (m). Beyond the outermost cell centres the edge is held.
   FlowSample at(double x, double y) const;
 
+  /// Cells along one side of the grid.
   int cells() const { return cells_; }
-  double extent() const { return extent_; }  ///< m
+  /// Half of the grid's side, m.
+  double extent() const { return extent_; }
   Interpolation interpolation() const { return interpolation_; }
+  /// [cells * cells] with filled cells.
   const std::vector<FlowSample>& samples() const { return samples_; }
   /// Whether cell i came from data (true) or was filled (false).
   const std::vector<bool>& measured() const { return measured_; }
@@ -62,23 +70,32 @@ class FlowField {
 /// The same field with mean and deviation multiplied by a factor >= 0.
 FlowField scaled(const FlowField& field, double factor);
 
-/// Settings of the built-in tank.
+/// Settings of the built-in flow, an analytic form fitted to the published figures of the paper's
+/// tank: no measured data.
 struct AnalyticTank {
-  double radius = 0.30;    ///< m
-  double pump_power = 69;  ///< percent of a pump's full flow (9 l/min)
-  double water_level =
-      -0.08;  ///< m, from the tank's upper border: lower water, stronger surface flow
+  /// m
+  double radius = 0.30;
+  /// Percent of a pump's full flow (9 l/min).
+  double pump_power = 69;
+  /// Height of the water below the tank's upper border, m, negative. Lower water has a stronger
+  /// surface flow.
+  double water_level = -0.08;
+  /// Inlets around the wall, evenly spaced.
   int inlets = 7;
-  double inlet_angle = 0.2617993877991494;  ///< rad, each inlet's turn from the radius (15 degrees)
+  /// Angle of each inlet from the radius, rad (15 degrees).
+  double inlet_angle = 0.2617993877991494;
+  /// Cells along one side of the field's grid.
   int cells = 50;
   /// Surface flow relative to that at 69 % and -8 cm: proportional to pump power, and 15 % more
-  /// for each centimetre that the water is lower; none where the level is within 1.3 cm of the
+  /// for each centimetre that the water is lower; 0 where the level is within 1.3 cm of the
   /// tank's upper border.
   double strength() const;
 };
 
-/// The flow that ships: a swirl with its peak near 13 cm, an inflow and `inlets` streams, with
-/// gusts. More pump power turns faster and pushes further in [trends of the paper's Fig. 4].
+/// The built-in flow: a swirl of 0.23 m/s at its peak 13 cm from the centre, an inflow of a third
+/// of that, a stream from each inlet, and gusts of 0.14 .. 0.19 m/s per axis, for a radius of 0.3 m
+/// and strength() = 1. The inflow grows with the square of strength(), the rest linearly [trends of
+/// the paper's Fig. 4]. Other radii scale lengths.
 FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation);
 
 /// Reads `ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps,measured`, one row a cell,

@@ -21,6 +21,7 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
                            const BallPhysics& physics, const FlowOptions& options,
                            std::uint64_t seed, int run);
 
+/// An extracted flow with its uncertainty, as a family of fields. Constant once made.
 class FlowMaps {
  public:
   /// A flow that is known, or taken to be.
@@ -32,6 +33,7 @@ class FlowMaps {
 
   /// The extracted field less its mean error.
   const std::shared_ptr<const FlowField>& best() const { return field_; }
+  /// Whether draw() differs from best().
   bool uncertain() const { return !open_.empty(); }
   /// A field that could be the true one: the best and a normal combination of what is open, draw
   /// `run`.

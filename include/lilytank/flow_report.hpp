@@ -15,19 +15,25 @@ namespace lilytank {
 /// What was switched off or changed in synthetic recordings, and how far estimates then are from
 /// the field that was simulated.
 struct FlowBiasRow {
-  std::string what;       ///< "as recorded", "no tracking noise", ...
+  /// "as recorded", "no tracking noise", ...
+  std::string what;
   std::string estimator;  ///< "paper" or "smooth"
   FlowError error;        ///< over the measured cells
-  std::string missing;    ///< why there is no error, as too little data; empty: there is one
+  /// Why there is no error, as too little data; empty: there is one.
+  std::string missing;
 };
 
+/// What `lilytank flow` writes.
 struct FlowReport {
   std::string name;
   BallPhysics ball;
   FlowOptions options;
+  /// In the order of the report; their names differ.
   std::vector<FlowEstimate> estimates;
+  /// Known field to compare with, and the file that it was read from.
   std::optional<FlowTruth> truth;
   std::string truth_file;
+  /// Empty if biases were not measured.
   std::vector<FlowBiasRow> bias;
 };
 

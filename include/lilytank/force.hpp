@@ -15,57 +15,85 @@ namespace lilytank {
 class FlowField;
 struct Model;
 
-/// A number that a user may set: its name in scenario files, unit, default and bounds (inclusive).
+/// A number that a user may set. Scenario files name it forces.<term>.<name>.
 struct Parameter {
+  /// Key in scenario files.
   std::string_view name;
-  std::string_view unit;  ///< SI, "1" for none
-  double standard;        ///< the default
+  /// SI; "1" if dimensionless.
+  std::string_view unit;
+  /// The default.
+  double standard;
+  /// Bounds, inclusive. Values outside are refused when a scenario is read.
   double low, high;
-  std::string_view meaning;  ///< one sentence
-  bool whole = false;        ///< integers only
+  /// One sentence, with the source of the default.
+  std::string_view meaning;
+  /// Integers only.
+  bool whole = false;
 };
 
 /// Poses and twists of all bodies that water touches, structure of arrays, each of length n:
-/// modules first, then balls. Read from a running World or from a smoothed recording.
+/// modules first, then balls. Views of a running World or of a smoothed recording.
 struct Kinematics {
-  std::span<const double> x, y;           ///< m
-  std::span<const double> c, s;           ///< heading
-  std::span<const double> vx, vy;         ///< m/s
-  std::span<const double> omega;          ///< rad/s
-  std::span<const std::uint8_t> covered;  ///< bit f: face f is latched to a neighbour
-  int modules = 0;                        ///< bodies [0, modules) are squares, the rest balls
+  /// Centres, m.
+  std::span<const double> x, y;
+  /// Headings: cosine and sine.
+  std::span<const double> c, s;
+  /// Velocities of the centres, m/s.
+  std::span<const double> vx, vy;
+  /// Angular velocities, rad/s, counter-clockwise.
+  std::span<const double> omega;
+  /// Bit f: face f is latched to a neighbour.
+  std::span<const std::uint8_t> covered;
+  /// Bodies [0, modules) are squares, the rest balls.
+  int modules = 0;
   int size() const { return static_cast<int>(x.size()); }
 };
 
-/// When a force is asked for, and the key of its random draws.
+/// The instant at which forces are evaluated, the key of their random draws, and the water then.
 struct Moment {
-  double time = 0;        ///< s
-  std::int64_t step = 0;  ///< steps of dt since the start
-  std::int64_t gust = 0;  ///< 25 ms intervals since the start: a gust is held for one
+  /// s
+  double time = 0;
+  /// Steps of dt since the start.
+  std::int64_t step = 0;
+  /// Ticks of 25 ms since the start. A gust holds for one.
+  std::int64_t gust = 0;
+  /// Key of all draws (random.hpp).
   std::uint64_t seed = 0;
-  bool gusts = true;                 ///< false: nothing random, and the drag of the mean flow
-  bool expected = false;             ///< beside gusts = false: drag's mean over gusts instead
-  const FlowField* field = nullptr;  ///< the flow now; null: the model's
-  double gain = 1;                   ///< factor on its mean and deviation, beside K_v
-  double gust_gain = 1;              ///< factor on its deviation alone, beside gain
-  /// m/s, [bodies] what terms that stir add to the water's velocity at each body; empty: nothing.
+  /// false: random forces are off, and drag is that of the mean flow.
+  bool gusts = true;
+  /// With gusts = false: drag is its mean over gusts instead, which exceeds that of the mean flow
+  /// because drag is quadratic.
+  bool expected = false;
+  /// The flow now; null: Model::field.
+  const FlowField* field = nullptr;
+  /// Factor on the field's mean and standard deviation, beside K_v.
+  double gain = 1;
+  /// Factor on its standard deviation alone, beside gain.
+  double gust_gain = 1;
+  /// [bodies] What stir() of the terms adds to the water's velocity at each body, m/s; empty:
+  /// nothing.
   std::span<const double> ux, uy;
-  /// rad/s, [bodies] and to its rotation about each body; empty where ux is.
+  /// [bodies] What it adds to the water's rotation about each body, rad/s; empty where ux is.
   std::span<const double> turning;
 };
 
-/// The flow field at that moment.
+/// The flow field at that moment: Moment::field, or the model's.
 const FlowField& field_now(const Model& model, const Moment& now);
 
-/// What terms that stir do to the water.
+/// Changes of the water by terms that stir. They start from no change and accumulate.
 struct Stirring {
-  double gain = 1;            ///< factor on the field's mean and deviation
-  std::span<double> ux, uy;   ///< m/s, [bodies] added to the water's velocity at a body
-  std::span<double> turning;  ///< rad/s, [bodies] added to its rotation there, half of its curl
-  double gust_gain = 1;       ///< factor on the field's deviation alone
+  /// Factor on the field's mean and standard deviation; terms multiply it.
+  double gain = 1;
+  /// [bodies] Added to the water's velocity at a body, m/s.
+  std::span<double> ux, uy;
+  /// [bodies] Added to the water's rotation there, rad/s: half of the curl of (ux, uy).
+  std::span<double> turning;
+  /// Factor on the field's standard deviation alone.
+  double gust_gain = 1;
 };
 
-/// Factors on twists at the end of a step; 1 leaves them alone.
+/// Factors on linear and angular velocity at the end of a step; 1 leaves them unchanged. Those of
+/// all terms multiply.
 struct Decay {
   double linear = 1, angular = 1;
 };
@@ -74,9 +102,13 @@ struct Decay {
 class ForceTerm {
  public:
   virtual ~ForceTerm() = default;
-  virtual std::string_view name() const = 0;      ///< key in scenario files: forces.<name>
-  virtual std::string_view summary() const = 0;   ///< one sentence
-  virtual std::string_view equation() const = 0;  ///< plain text, with its source
+  /// Key in scenario files: forces.<name>.
+  virtual std::string_view name() const = 0;
+  /// One sentence, for `lilytank forces`.
+  virtual std::string_view summary() const = 0;
+  /// The law as plain text, with its source.
+  virtual std::string_view equation() const = 0;
+  /// Constant for a term; defines its scenario keys, checks and documentation.
   virtual std::span<const Parameter> parameters() const = 0;
   /// Why these values, each within its bounds, make no sense together or in this model:
   /// "<parameter>: <reason>". Empty: they do.
@@ -122,11 +154,13 @@ class ForceTerm {
 
 /// A term that is switched on, with its parameters' values.
 struct ActiveForce {
+  /// Lives as long as the program.
   const ForceTerm* term = nullptr;
+  /// In the order of term->parameters().
   std::vector<double> p;
 };
 
-/// Every term there is, in the order in which they are added.
+/// Every term there is, in the order in which they are added (src/forces/library.cpp).
 std::span<const ForceTerm* const> force_library();
 /// The term of that name, or null.
 const ForceTerm* find_force(std::string_view name);

@@ -18,30 +18,47 @@ namespace lilytank {
 
 /// Two species by Species::key, a <= b.
 struct SpeciesPair {
+  /// Keys in ascending order.
   std::string a, b;
   friend auto operator<=>(const SpeciesPair&, const SpeciesPair&) = default;
 };
 
 /// What was counted in worlds; tables of several worlds add up.
 struct RateTable {
+  /// Encounters of two species.
   struct Meeting {
-    std::int64_t dockings = 0;                  ///< latches between two assemblies of these species
-    double exposure = 0;                        ///< s, of pairs: n_a n_b dt, or n (n-1)/2 dt
-    std::map<std::string, std::int64_t> links;  ///< by rule
+    /// Latches between two assemblies of these species.
+    std::int64_t dockings = 0;
+    /// Time of pairs, s: n_a n_b dt, or n (n - 1) / 2 dt for a species with itself.
+    double exposure = 0;
+    /// Links that followed, by the rule's name.
+    std::map<std::string, std::int64_t> links;
   };
+  /// Changes within assemblies of one species.
   struct Standing {
-    double exposure = 0;                          ///< s, of assemblies
-    std::map<std::string, std::int64_t> changes;  ///< unlinks and updates by rule
+    /// Time of assemblies, s: n dt.
+    double exposure = 0;
+    /// Unlinks and updates, by the rule's name.
+    std::map<std::string, std::int64_t> changes;
   };
+  /// Simulation runs that were counted.
   int worlds = 0;
-  double seconds = 0;  ///< simulated, of all worlds
+  /// Simulated time of all runs, s.
+  double seconds = 0;
+  /// By pair of species.
   std::map<SpeciesPair, Meeting> meetings;
+  /// By Species::key.
   std::map<std::string, Standing> standing;
-  std::int64_t evaluations = 0;  ///< of standing bonds; -1 where they were not counted
+  /// Evaluations of standing bonds; -1 where they were not counted.
+  std::int64_t evaluations = 0;
+  /// Time that bonds stood, summed over bonds, s.
   double bond_seconds = 0;
-  std::int64_t contacts = 0;  ///< new latches that were decided, and how long that took
+  /// New latches that were decided, by a link or a release.
+  std::int64_t contacts = 0;
+  /// Time that new latches waited for a decision, summed, s.
   double contact_seconds = 0;
 
+  /// Adds counts and exposures.
   void add(const RateTable& other);
 };
 /// CSV `kind,rule,a,b,events,exposure_s`; keys have blanks for commas. Reads back the same.
@@ -52,6 +69,7 @@ RateTable rate_table_from(const std::string& text, const std::string& file);
 /// Follows the events of one world from its start. An assembly is what bonds connect.
 class RateRecord {
  public:
+  /// Begins with single modules. `rules` must outlive the record.
   RateRecord(const Ruleset& rules, int modules);
   /// Time passes (s) up to `time`, then the event happens.
   void observe(const Event& event, double time);
@@ -89,10 +107,13 @@ class RateRecord {
   double contact_seconds_ = 0;
 };
 
-/// A world's counts and when its copies first stood.
+/// Counts of one simulation run, and when its copies first stood.
 struct MeasuredWorld {
+  /// Up to the end of the run.
   RateTable rates;
-  std::vector<double> completion;  ///< s
+  /// When 1, 2, ... copies first stood, s.
+  std::vector<double> completion;
+  /// Ended early, by the signal or by a divergence; the counts are valid up to then.
   bool stopped = false, diverged = false;
 };
 /// Runs one world of `model` (which must have one ruleset) for `duration` (s).
@@ -101,6 +122,8 @@ MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double durat
 /// A measured world as text, to be kept: the table with rows `scenario` (its identity) and `copy`
 /// (k, time). Reads back the same; throws InputError, also if it is of another scenario.
 std::string to_csv(const MeasuredWorld& world, std::uint64_t identity);
+/// Inverse of to_csv(). Throws InputError with line and column, also if the text is of another
+/// identity.
 MeasuredWorld measured_world_from(const std::string& text, const std::string& file,
                                   std::uint64_t identity);
 /// The counts of a stored run up to its end, from its events.csv and summary.json. Throws
@@ -113,11 +136,16 @@ inline constexpr double kStandardFaceRate = 7.7e-4, kStandardEvaluationRate = 0.
 
 /// A ruleset's reactions with their rates.
 struct Kinetics {
+  /// Species and reactions, explored from single modules.
   ReactionNetwork network;
-  std::vector<double> rate;        ///< 1/s, by reaction: of one pair of assemblies, or of one
-  std::vector<std::int64_t> seen;  ///< how often it was counted
-  double evaluation_rate = 0;      ///< 1/s, of a bond; where it was not counted, the standard one
-  double face_rate = 0;            ///< 1/s, links of one pair of faces that fit, over all reactions
+  /// Rate constants, 1/s, by reaction: of one pair of assemblies, or of one assembly.
+  std::vector<double> rate;
+  /// Events that each constant rests on.
+  std::vector<std::int64_t> seen;
+  /// Evaluations of a bond, 1/s; kStandardEvaluationRate where they were not counted.
+  double evaluation_rate = 0;
+  /// Links of one pair of faces that fit, 1/s, averaged over all reactions.
+  double face_rate = 0;
 };
 /// Links: counts over exposure, drawn towards face_rate times places by the weight of one event, so
 /// that what was never seen has a rate, too. Unlinks: p times the evaluation rate times places.
@@ -126,21 +154,30 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules);
 /// The same from two numbers, for tests and where nothing was measured.
 Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
 
+/// One run of the well-mixed model.
 struct GillespieOptions {
+  /// Single modules at the start.
   int modules = 15;
-  double duration = 14400;  ///< s
+  /// End of the run, s.
+  double duration = 14400;
+  /// Key of the draws (Stream::gillespie).
   std::uint64_t seed = 1;
 };
+/// Its outcome.
 struct GillespieResult {
-  std::vector<double> completion;  ///< s, when 1, 2, ... copies first stood
-  std::vector<int> counts;         ///< of each species at the end
+  /// When 1, 2, ... copies first stood, s.
+  std::vector<double> completion;
+  /// Assemblies of each species of the network at the end.
+  std::vector<int> counts;
+  /// Copies of the target at the end.
   int copies = 0;
+  /// Reactions that fired.
   std::int64_t reactions = 0;
 };
 /// Reactions by Gillespie's direct method, from single modules. Draws depend on the seed and the
 /// number of reactions so far only.
 GillespieResult run_gillespie(const Kinetics& kinetics, const GillespieOptions& options);
-/// What rates are used and how often they were seen, a line a reaction.
+/// One line per reaction: rule, species, rate constant and number of events.
 std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics);
 
 /// The rules for KaSim (Kappa 4) and BioNetGen: one agent with its control state, its connector l_n
@@ -148,6 +185,7 @@ std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics);
 /// left out: two modules join wherever they are, and what would overlap is not seen. Rates are of a
 /// pair of faces and of a bond (1/s).
 std::string to_kappa(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
+/// The same for BioNetGen.
 std::string to_bngl(const Ruleset& rules, double face_rate, double evaluation_rate, int modules);
 
 }  // namespace lilytank

@@ -21,10 +21,13 @@ namespace lilytank {
 
 /// One thing that can happen to one assembly or to a pair of them.
 struct Reaction {
+  /// Index into Ruleset::rules.
   int rule = -1;
   RuleKind kind = RuleKind::link;
-  std::vector<int> from;  ///< one species (unlink, update, closing a loop) or two
-  std::vector<int> to;    ///< rising
+  /// One species (unlink, update, closing a loop) or two.
+  std::vector<int> from;
+  /// Species that result, by index, ascending.
+  std::vector<int> to;
   /// Pairs of faces, or bonds, at which it happens, of one pair or assembly. A half: either module
   /// of two with equal labels may take the first of two right sides, each in half of the cases.
   double places = 1;
@@ -32,23 +35,31 @@ struct Reaction {
 
 /// What a ruleset makes of single modules.
 struct ReactionNetwork {
-  std::vector<Species> species;  ///< [0]: a single module, (0,0)
+  /// [0] is a single module with label (0,0).
+  std::vector<Species> species;
+  /// In the order of exploration.
   std::vector<Reaction> reactions;
   /// Joins that fit on the lattice but that no straight way leads to (see
   /// src/synthesis/steric.hpp); `to` is empty where nothing else makes what they would make.
   std::vector<Reaction> blocked;
   /// Indices of rules whose unlinking does not give back what their link rule needs, and how.
   std::map<int, std::string> unrestored;
-  bool closed = true;  ///< false: a limit was met and there is more
+  /// Whether the exploration ended by itself; false: a limit stopped it and there is more.
+  bool closed = true;
   /// Index by Species::key, -1 if it is not there.
   int find(const std::string& key) const;
 };
 
+/// What is explored, and how far.
 struct NetworkOptions {
-  bool never = false;   ///< rules with p = 0 fire, too
-  bool sterics = true;  ///< leave joins out that no straight way leads to
-  int limit = 4096;     ///< species
-  int largest = 64;     ///< modules of one assembly
+  /// Whether rules with p = 0 fire, too.
+  bool never = false;
+  /// Leave joins out that no straight way leads to.
+  bool sterics = true;
+  /// Most species to explore.
+  int limit = 4096;
+  /// Most modules of one assembly.
+  int largest = 64;
 };
 /// Explores from single modules. The state that each unlink rule leaves is checked against its link
 /// rule on the way, whatever its p.
@@ -56,15 +67,24 @@ ReactionNetwork reaction_network(const Ruleset& rules, const NetworkOptions& opt
 
 /// A set of states of M modules that, once entered, is never left.
 struct EndState {
-  std::vector<int> counts;  ///< of each species of the network, in one of the set's states
-  int states = 1;           ///< in the set; 1: nothing happens any more
-  int copies = 0;           ///< the most that a state of the set has
-  int fewest_copies = 0;    ///< the least
+  /// Assemblies of each species of the network, in one of the set's states.
+  std::vector<int> counts;
+  /// States in the set; 1: nothing happens any more.
+  int states = 1;
+  /// Most copies in any state of the set.
+  int copies = 0;
+  /// Fewest copies in any state of the set.
+  int fewest_copies = 0;
 };
+/// All states of a population of modules, and where they end.
 struct PopulationGraph {
-  bool complete = true;     ///< false: more states than the limit, nothing is proved
-  std::int64_t states = 0;  ///< that can be reached
-  int possible = 0;         ///< copies: floor(M / n)
+  /// False: more states than the limit, nothing is proved.
+  bool complete = true;
+  /// Number of states that can be reached.
+  std::int64_t states = 0;
+  /// Largest number of copies: floor(M / n).
+  int possible = 0;
+  /// All sets of states that are never left.
   std::vector<EndState> ends;
   /// Ends in which some copy is always missing.
   std::vector<EndState> deadlocks() const;
@@ -85,27 +105,41 @@ bool deadlock_risk(int modules, int irreversible_size, int target_size);
 /// in b copies and k assemblies that last.
 bool serial_deadlock(int modules, int irreversible_size, int target_size);
 
+/// One run of the Monte Carlo.
 struct LatticeOptions {
   int modules = 15;
-  std::int64_t attempts = 100000;  ///< meetings of two assemblies; ends before that at full yield
-  double evaluations = 0.2;        ///< of every bond, per attempt, on average (at most 1)
+  /// Meetings of two assemblies; ends before that at full yield.
+  std::int64_t attempts = 100000;
+  /// Mean number of evaluations of every bond per attempt, at most 1.
+  double evaluations = 0.2;
   std::uint64_t seed = 1;
-  bool to_the_end = false;  ///< goes on at full yield
+  /// Whether it goes on after full yield, up to `attempts`.
+  bool to_the_end = false;
   const std::atomic<bool>* stop = nullptr;
 };
 /// What a lattice world came to.
 struct LatticeResult {
+  /// Encounters that were tried.
   std::int64_t attempts = 0;
+  /// Rules that fired, and latches that no rule made a bond.
   std::int64_t links = 0, unlinks = 0, refusals = 0;
-  std::int64_t blocked = 0;       ///< meetings that could not be, as no way led there
-  std::int64_t crowded = 0;       ///< meetings in which cells would have overlapped
-  std::int64_t illegal = 0;       ///< appearances of assemblies that the network does not know
-  std::string first_illegal;      ///< drawing
-  std::int64_t double_bonds = 0;  ///< meetings that made more than one bond (closures)
-  std::int64_t restored = 0, unrestored = 0;  ///< joins that were undone on a copy, and compared
+  /// Encounters refused because no straight path leads to the docked pose.
+  std::int64_t blocked = 0;
+  /// Encounters refused because cells would have overlapped.
+  std::int64_t crowded = 0;
+  /// Appearances of assemblies that the network does not know.
+  std::int64_t illegal = 0;
+  /// Drawing of the first of these.
+  std::string first_illegal;
+  /// Meetings that made more than one bond (closures).
+  std::int64_t double_bonds = 0;
+  /// Joins that were undone on a copy, and compared.
+  std::int64_t restored = 0, unrestored = 0;
+  /// Copies of the target at the end, and the most that the modules can form.
   int copies = 0, possible = 0;
-  std::vector<std::int64_t> completion;  ///< attempts until 1, 2, ... copies stood
-  std::map<std::string, int> standing;   ///< by species' drawing
+  /// Attempts until 1, 2, ... copies stood.
+  std::vector<std::int64_t> completion;
+  std::map<std::string, int> standing;  ///< by species' drawing
 };
 /// Monte Carlo: two assemblies, a free face of a module of each, and if there is room they meet
 /// there; all pairs of faces that then touch latch and are evaluated in random order, until each is
@@ -118,21 +152,28 @@ struct RulesetCheck {
   ReactionNetwork network;     ///< of the rules that can fire
   PopulationGraph population;  ///< only if modules > 0
   int modules = 0, target_size = 0;
+  /// first_irreversible_size() of the network.
   int irreversible_size = 0;
-  bool target_reached = false;    ///< some species has the target's shape
-  bool target_stable = false;     ///< no species of that shape can be taken apart
-  std::vector<int> other_finals;  ///< species of the target's size or more with another shape
+  /// Some species has the target's shape.
+  bool target_reached = false;
+  /// No species of that shape can be taken apart.
+  bool target_stable = false;
+  /// Species of the target's size or more with another shape.
+  std::vector<int> other_finals;
   std::map<int, std::string> unrestored;
   std::vector<LatticeResult> lattice;
   /// Sentences, one a fault; empty: proved as far as `notes` say.
   std::vector<std::string> faults, notes;
 };
+/// What `lilytank check` computes.
 struct CheckOptions {
   int modules = 15;
+  /// Monte Carlo runs, with seeds derived from lattice.seed; 0: none.
   int lattice_runs = 0;
   LatticeOptions lattice;
   std::function<void(double done)> progress;
 };
+/// Runs every check that the options ask for. A ruleset with faults is a result, not an error.
 RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options = {});
 /// The report of a check as a document. Provenance is the caller's.
 ReportDocument check_report(const Ruleset& rules, const RulesetCheck& check);

@@ -9,56 +9,73 @@
 
 namespace lilytank {
 
-/// A point or vector in the tank, metres (or N, m/s): x to the right, y up, seen from above.
+/// A point or vector in the tank's plane, seen from above: x to the right, y up, the tank's centre
+/// at the origin. SI: m, m/s or N.
 using Vec2 = Eigen::Vector2d;
 
+/// The ratio of a circle's circumference to its diameter, to the nearest double.
 constexpr double kPi = 3.14159265358979323846;
 
-/// A heading as a unit vector: cos and sin of the counter-clockwise angle from +x.
+/// A heading as a unit vector. Rotations compose by products alone, without an angle that could
+/// need trigonometric functions or wrap.
 struct Rot {
+  /// Cosine and sine of the counter-clockwise angle from +x.
   double c = 1, s = 0;
 };
 
-/// Where a body is: position of its centre (m) and heading.
+/// Position and heading of a body.
 struct Pose {
+  /// The body's centre, m.
   double x = 0, y = 0;
+  /// Heading of the body's +x axis.
   Rot r;
 };
 
-/// How a body moves: velocity of its centre (m/s) and spin (rad/s, counter-clockwise).
+/// Velocity of a body.
 struct Twist {
-  double vx = 0, vy = 0, omega = 0;
+  /// Velocity of the centre, m/s, in the tank's frame.
+  double vx = 0, vy = 0;
+  /// Angular velocity, rad/s, counter-clockwise.
+  double omega = 0;
 };
 
-/// What pushes a body: force on its centre (N) and torque (N m, counter-clockwise).
+/// Force and torque on a body.
 struct Wrench {
-  double fx = 0, fy = 0, torque = 0;
+  /// Force that acts at the body's centre, N, in the tank's frame.
+  double fx = 0, fy = 0;
+  /// Torque about the centre, N m, counter-clockwise.
+  double torque = 0;
 };
 
+/// A vector from the body's frame to the tank's.
 inline Vec2 rotate(Rot r, const Vec2& v) {
   return {r.c * v.x() - r.s * v.y(), r.s * v.x() + r.c * v.y()};
 }
+/// A vector from the tank's frame to the body's; inverse of rotate().
 inline Vec2 unrotate(Rot r, const Vec2& v) {
   return {r.c * v.x() + r.s * v.y(), r.c * v.y() - r.s * v.x()};
 }
-/// The rotation by a and then by b.
+/// The rotation by a and then by b; the angles add. Rounding lets the length drift from 1:
+/// renormalised() takes it back.
 inline Rot compose(Rot a, Rot b) {
   return {a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
 }
-/// The rotation that takes heading `from` to heading `to`.
+/// The rotation that takes heading `from` to heading `to`; the angles subtract.
 inline Rot between(Rot from, Rot to) {
   return {from.c * to.c + from.s * to.s, from.c * to.s - from.s * to.c};
 }
-/// A quarter turn k times (any k), exact.
+/// k quarter turns counter-clockwise (any k, negative ones too), exact: no rounding.
 inline Rot quarter(int k) {
   constexpr double c[4] = {1, 0, -1, 0}, s[4] = {0, 1, 0, -1};
   return {c[k & 3], s[k & 3]};
 }
-/// Takes rounding off a rotation: one Newton step towards length 1.
+/// Removes rounding from a rotation: one Newton step of 1 / sqrt(c^2 + s^2) from 1. An error d of
+/// the length becomes 1.5 d^2.
 inline Rot renormalised(Rot r) {
   const double k = 1.5 - 0.5 * (r.c * r.c + r.s * r.s);
   return {r.c * k, r.s * k};
 }
+/// The z component of a x b: positive if b lies counter-clockwise of a.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

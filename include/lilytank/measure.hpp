@@ -10,15 +10,24 @@
 
 namespace lilytank {
 
+/// How many simulations, of what length, kept where.
 struct MeasureOptions {
+  /// Number of simulation runs.
   int worlds = 20;
-  std::uint64_t seed = 1;      ///< world k has derived_seed(seed, k)
-  double duration = 14400;     ///< s, of each world
-  int threads = 0;             ///< 0: one a core
-  std::string out;             ///< directory, made if absent, for world-<seed>-<k>.csv; empty: none
-  std::uint64_t identity = 0;  ///< of what decides a world; files of another one are refused
-  const std::atomic<bool>* stop = nullptr;    ///< set by a signal: running worlds are abandoned
-  std::function<void(double done)> progress;  ///< share of worlds, called by one thread at a time
+  /// Run k has derived_seed(seed, k).
+  std::uint64_t seed = 1;
+  /// Simulated time of each run, s.
+  double duration = 14400;
+  /// Runs at a time; 0: one per core.
+  int threads = 0;
+  /// Directory, made if absent, for world-<seed>-<k>.csv; empty: none.
+  std::string out;
+  /// Hash of everything that decides a run. Files in `out` of another identity are refused.
+  std::uint64_t identity = 0;
+  /// Set by a signal: running worlds are abandoned.
+  const std::atomic<bool>* stop = nullptr;
+  /// Fraction of the runs done; called by one thread at a time.
+  std::function<void(double done)> progress;
 };
 /// The worlds in their order, those that are in `out` already read from there; the result does not
 /// depend on threads or interruptions. Stopped worlds have `stopped` set. Throws InputError.

@@ -23,6 +23,7 @@ Recording as_recording(const Trajectory& trajectory, BodyKind body);
 
 /// A curve's sums, kept by body. Tracks that share an id in one recording are one body.
 struct BodySums {
+  /// Bins of the curve: the length of a body's row.
   int bins = 0;
   std::vector<double> sum, weight;   ///< [body * bins + bin]
   std::vector<std::int64_t> tracks;  ///< [bin] tracks that add to it
@@ -33,9 +34,11 @@ struct BodySums {
 
 /// Which instants count as the start of a displacement.
 enum class Origins : std::uint8_t {
-  first,  ///< each track's first frame, of tracks that begin within a second of the recording's
-          ///< begin [paper, Eq. 8]
-  all,    ///< every frame: less noise, for motion that has settled
+  /// Each track's first frame, of tracks that begin within a second of the recording's begin
+  /// [paper, Eq. 8].
+  first,
+  /// Every frame: less noise, for motion that has settled.
+  all,
 };
 
 /// Squared displacements (m^2) at lags in seconds, rising. A lag between two frames is interpolated
@@ -53,13 +56,17 @@ BodySums spin_products(const SmoothRecording& recording, const std::vector<doubl
 
 /// How bands are made.
 struct Bootstrap {
+  /// Fixes the resampling (Stream::bootstrap).
   std::uint64_t seed = 1;
   int resamples = 1000;
+  /// Two-sided coverage of bands and intervals.
   double level = 0.95;
-  bool relative = false;  ///< divide each curve by its own first bin
+  /// Whether each curve is divided by its own first bin.
+  bool relative = false;
 };
 /// A curve with its pointwise band. Bins without data are NaN. One body gives no band (infinite).
 struct CurveEstimate {
+  /// [bins] Value and ends of the band, in the curve's unit.
   std::vector<double> value, low, high;
 };
 /// Ratio of the sums over all bodies; NaN where there is no weight.
@@ -77,10 +84,13 @@ Estimate ratio_functional(const BodySums& sums,
 
 /// Mean squared displacement by lag.
 struct MsdCurve {
-  std::vector<double> lag;           ///< s
-  std::vector<double> msd;           ///< m^2, mean over bodies and origins
-  std::vector<std::int64_t> count;   ///< displacements in each mean
-  std::vector<std::int64_t> tracks;  ///< that have such displacements
+  /// Lags, s.
+  std::vector<double> lag;
+  /// Mean over bodies and origins, m^2.
+  std::vector<double> msd;
+  std::vector<std::int64_t> count;  ///< displacements in each mean
+  /// That have such displacements.
+  std::vector<std::int64_t> tracks;
 };
 /// MSD of all bodies at the given lags (in frames, >= 0). A lag that no track is long enough for
 /// has count 0 and msd 0.
@@ -90,7 +100,8 @@ MsdCurve mean_squared_displacement(const Recording& recording, const std::vector
 /// Motion between two lags read as diffusion: MSD = 4 D lag + a constant, as measurement noise
 /// adds.
 struct Diffusion {
-  Estimate D;               ///< m^2/s; NaN where no lags were found
+  /// m^2/s; NaN where no lags were found.
+  Estimate D;
   double from = 0, to = 0;  ///< s, lags that were fitted
 };
 /// D from the widest range of lags (by their ratio, at least 2) in which the MSD's local exponent

@@ -11,9 +11,13 @@ namespace lilytank {
 
 /// A number of a Model, as the table of scenario keys has it.
 struct ModelParameter {
-  std::string path;          ///< "forces.face_drag.K_F"
-  std::string unit;          ///< SI, "1" for none
-  double low = 0, high = 0;  ///< inclusive
+  /// Dotted path: "forces.face_drag.K_F".
+  std::string path;
+  /// SI; "1" if dimensionless.
+  std::string unit;
+  /// Bounds, inclusive.
+  double low = 0, high = 0;
+  /// One sentence from the table of keys.
   std::string meaning;
 };
 

@@ -7,9 +7,11 @@ namespace lilytank {
 
 /// A normal distribution with the samples' own mean and deviation against their steps.
 struct NormalityTest {
+  /// Number of samples.
   int samples = 0;
   double mean = 0, deviation = 0;  ///< deviation with n - 1
-  double distance = 0;             ///< largest difference of the two distribution functions
+  /// Largest difference of the two distribution functions.
+  double distance = 0;
   /// Kolmogorov's probability of at least this distance, for a mean and deviation known beforehand
   /// [Stephens, J. R. Stat. Soc. B 32, 1970]. Far too large here: it almost never rejects.
   double raw_p = 1;

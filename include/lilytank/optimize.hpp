@@ -24,44 +24,62 @@ namespace lilytank {
 /// What is made as small as possible. N copies are possible, the k-th first stood at t_k, K came to
 /// stand within the horizon T: N and T are the world's own.
 enum class Fitness {
-  eq10,                    ///< sum of min(t_k - t_(k-1), T), of a missing copy T: s [paper, Eq. 10]
-  yield_area,              ///< area between N and the number of copies over time: copies * s
-  full_yield_time,         ///< min(t_N, T), whose mean is the restricted mean time to full yield: s
-  full_yield_probability,  ///< 0 where K = N, else 1: its mean is the share of runs without
-  rate_and_yield,          ///< yield_weight (1 - K / N) - rate_weight K / (time to t_N or T)
+  /// Sum of min(t_k - t_(k-1), T), of a missing copy T: s [paper, Eq. 10].
+  eq10,
+  /// Area between N and the number of copies over time: copies * s.
+  yield_area,
+  /// min(t_N, T), whose mean is the restricted mean time to full yield: s.
+  full_yield_time,
+  /// 0 where K = N, else 1: its mean is the share of runs without.
+  full_yield_probability,
+  /// yield_weight (1 - K / N) - rate_weight K / (time to t_N or T).
+  rate_and_yield,
 };
 
+/// A fitness with its weights.
 struct FitnessRule {
+  /// What is minimised.
   Fitness fitness = Fitness::full_yield_time;
-  double rate_weight = 600;  ///< s per copy, of rate_and_yield
-  double yield_weight = 1;   ///< of rate_and_yield
+  /// Weight of the rate, s per copy, of rate_and_yield.
+  double rate_weight = 600;
+  /// Weight of the missing fraction, of rate_and_yield.
+  double yield_weight = 1;
 };
 
 /// Fitness of one run from the times (s) at which 1, 2, ... copies first stood.
 double fitness_of(const FitnessRule& rule, const std::vector<double>& completion, int possible,
                   double horizon);
-/// "s", "copies s", "1".
+/// Unit of a fitness: "s", "copies s" or "1".
 std::string fitness_unit(Fitness fitness);
-/// "eq10", ... Throws InputError that names the nearest right word.
+/// From "eq10", ... Throws InputError that names the nearest valid word.
 Fitness fitness_named(const std::string& word);
+/// Inverse of fitness_named().
 std::string name_of(Fitness fitness);
+/// All names, in the order of the enumeration.
 std::vector<std::string> fitness_names();
 
 /// Pump power that is searched along with the parameters.
 enum class Agitation {
   none,
   schedule,  ///< constant in pieces of time
-  feedback,  ///< by the number of finished copies
+  /// By the number of finished copies.
+  feedback,
 };
 
 /// One ruleset of a race.
 struct RaceEntry {
-  std::string ruleset;           ///< its name
-  int round = 1;                 ///< the last that it ran in
-  std::int64_t evaluations = 0;  ///< of all its rounds
-  double best = 0;               ///< mean fitness of its best point, by that round's search
+  /// Name of the ruleset.
+  std::string ruleset;
+  /// The last round in which it ran.
+  int round = 1;
+  /// Evaluations of all its rounds.
+  std::int64_t evaluations = 0;
+  /// Mean fitness of its best point, by that round's search.
+  double best = 0;
+  /// Standard error of `best`, from the values of that point.
   double standard_error = 0;
-  bool kept = false;  ///< it went on to the next round, or won the last
+  /// It went on to the next round, or won the last.
+  bool kept = false;
   /// Mean fitness in the last comparison: of the winner as it was then searched, and of the
   /// scenario's own ruleset at the start.
   std::optional<double> last;
@@ -69,20 +87,32 @@ struct RaceEntry {
 
 /// What a file of an optimisation says.
 struct OptimizationPlan {
+  /// From the file.
   std::string name;
-  std::vector<std::string> scenarios, sets;  ///< where the scenario came from
+  /// Files and --set values of the scenario, as documentation.
+  std::vector<std::string> scenarios, sets;
+  /// Key of the search and of the simulations.
   std::uint64_t seed = 1;
   FitnessRule fitness;
-  double horizon = 0;         ///< s, run.duration at the start
-  int possible = 0;           ///< copies, at the start
-  SearchSpace space;          ///< paths of the scenario, "after." of the second set, "power.1" ...
-  std::vector<double> start;  ///< where the search begins
-  bool hybrid = false;        ///< a second set of probabilities from some number of copies on
+  /// run.duration at the start, s.
+  double horizon = 0;
+  /// Copies that the modules can form at the start.
+  int possible = 0;
+  /// Paths of the scenario, "after." of the second set, "power.1" ...
+  SearchSpace space;
+  /// Where the search begins; one value per axis.
+  std::vector<double> start;
+  /// Whether a second set of probabilities takes effect from some number of copies on.
+  bool hybrid = false;
   Agitation agitation = Agitation::none;
-  int rulesets = 0;         ///< in the race; 0: none is run
-  std::int64_t budget = 0;  ///< evaluations in all
-  std::string method;       ///< "cma_es", "swarm"
-  int replicates = 0;       ///< of the comparison afterwards; 0: none
+  /// Rulesets in the race; 0: no race.
+  int rulesets = 0;
+  /// Evaluations in all.
+  std::int64_t budget = 0;
+  /// "cma_es" or "swarm".
+  std::string method;
+  /// Runs per setting of the comparison afterwards; 0: none.
+  int replicates = 0;
 };
 
 /// A readable optimisation: everything is checked that can be before the first world.
@@ -94,6 +124,7 @@ class Optimization {
                         const std::vector<std::string>& sets = {});
   ~Optimization();
   Optimization(Optimization&&) noexcept;
+  /// What the file says, resolved.
   const OptimizationPlan& plan() const;
   /// The scenario at a point of plan().space, with run.seed = 0.
   Scenario scenario(const std::vector<double>& point) const;
@@ -108,6 +139,7 @@ class Optimization {
                                             const std::string& comment) const;
   /// Equal for optimisations that evaluate the same.
   std::string identity() const;
+  /// Internal to src/optimize.
   struct Source;
   const Source& source() const { return *source_; }
 
@@ -115,24 +147,34 @@ class Optimization {
   std::unique_ptr<const Source> source_;
 };
 
+/// Where the optimisation is kept, and how it runs.
 struct OptimizationOptions {
   std::string out;  ///< directory, made if absent
-  int threads = 0;  ///< worlds at a time; 0: one a core
+  /// Simulations at a time; 0: one per core.
+  int threads = 0;
+  /// Replace the files of another optimisation in `out`.
   bool force = false;
+  /// Set by a signal: running simulations are abandoned, finished ones are kept.
   const std::atomic<bool>* stop = nullptr;
   /// Called by one thread at a time: share done, and words such as "round 2 of 4, best 3100 s".
   std::function<void(double done, const std::string& note)> progress;
 };
 
+/// What was found, and how the search got there.
 struct OptimizationResult {
+  /// By the signal, before the budget was spent.
   bool stopped = false;
+  /// The answer; its mean is of the final selection where there was one.
   Incumbent best;
   std::vector<IterationRecord> history;  ///< of the (last) search
-  bool selected = false;                 ///< the last record is that of its final selection
-  std::vector<RaceEntry> race;           ///< by its rulesets' numbers; empty without one
+  /// The last record is that of its final selection.
+  bool selected = false;
+  /// By its rulesets' numbers; empty without one.
+  std::vector<RaceEntry> race;
   /// Path of the overlay; "" where best.mean is not finite: worlds of every point diverged.
   std::string optimum;
-  std::string compare;  ///< path of the study file that compares; "" if none
+  /// Path of the study file that compares start and optimum; "" if there is none.
+  std::string compare;
   /// Labels of [compare] that it leaves out: their overlays make the optimum's own scenario.
   std::vector<std::string> left_out;
 };

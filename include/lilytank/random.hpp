@@ -12,32 +12,53 @@ namespace lilytank {
 /// What a random number is for. Add new uses at the end: the values are part of every result.
 enum class Stream : std::uint32_t {
   start_pose = 1,  ///< where bodies start
-  gust = 2,        ///< xi of the flow, per drag point or per module
+  /// xi of the flow, per drag point or per module.
+  gust = 2,
   stochastic = 3,  ///< the stochastic force
-  initiative = 4,  ///< does a module begin an exchange in this tick
-  message = 5,     ///< the random number that an initiator sends
-  answer = 6,      ///< which queued message a module answers
-  reenable = 7,    ///< when an unlatched face comes on again
-  evaluation = 8,  ///< the event-driven clock's waiting times
-  first_face = 9,  ///< where a module's round of its faces begins
-  bootstrap = 10,  ///< which runs a resample draws (statistics only, never a world)
-  latin = 11,      ///< where the samples of a latin hypercube lie (studies only)
-  camera = 12,     ///< noise, dropped frames and exchanged bodies of a simulated camera
-  search = 13,     ///< where particles start and are drawn to, samples of a search (never a world)
-  fault = 14,      ///< messages that are lost, latches that fail
-  lattice = 15,    ///< meetings and evaluations of the lattice model (never a world)
-  gillespie = 16,  ///< reactions of the well-mixed model (never a world)
-  calibrate = 17,  ///< where a calibration's simulations lie and begin
-  eddies = 18,     ///< waves of the correlated gusts
-  phase = 19,      ///< of a module's vortex shedding
-  state_noise = 20,  ///< the random force that depends on the state
-  kick = 21,         ///< when and how hard a module is knocked
-  bodies = 22,       ///< pushes and noise of simulated recordings of point bodies
+  /// Does a module begin an exchange in this tick.
+  initiative = 4,
+  /// The random number that an initiator sends.
+  message = 5,
+  /// Which queued message a module answers.
+  answer = 6,
+  /// When an unlatched face comes on again.
+  reenable = 7,
+  /// The event-driven clock's waiting times.
+  evaluation = 8,
+  /// Where a module's round of its faces begins.
+  first_face = 9,
+  /// Which runs a resample draws (statistics only, never a world).
+  bootstrap = 10,
+  /// Where the samples of a latin hypercube lie (studies only).
+  latin = 11,
+  /// Noise, dropped frames and exchanged bodies of a simulated camera.
+  camera = 12,
+  /// Where particles start and are drawn to, samples of a search (never a world).
+  search = 13,
+  /// Messages that are lost, latches that fail.
+  fault = 14,
+  /// Meetings and evaluations of the lattice model (never a world).
+  lattice = 15,
+  /// Reactions of the well-mixed model (never a world).
+  gillespie = 16,
+  /// Where a calibration's simulations lie and begin.
+  calibrate = 17,
+  /// Waves of the correlated gusts.
+  eddies = 18,
+  /// Of a module's vortex shedding.
+  phase = 19,
+  /// The random force that depends on the state.
+  state_noise = 20,
+  /// When and how hard a module is knocked.
+  kick = 21,
+  /// Pushes and noise of simulated recordings of point bodies.
+  bodies = 22,
 };
 
 /// The place of one draw. `step` counts whatever the stream counts by (steps, gusts, ticks; below
 /// 2^56); `body` and `index` are free for the stream's use.
 struct Draw {
+  /// Of the simulation, study or search: the key.
   std::uint64_t seed = 0;
   Stream stream = Stream::start_pose;
   std::int64_t step = 0;
@@ -54,6 +75,7 @@ std::array<double, 2> normal_pair(const Draw& draw);
 
 /// Philox's counter and key for a draw: shared by the scalar and the vector code.
 std::array<std::uint32_t, 4> counter_of(const Draw& draw);
+/// The seed's low and high half.
 std::array<std::uint32_t, 2> key_of(std::uint64_t seed);
 
 /// A seed for run number `run` of a study with this seed.

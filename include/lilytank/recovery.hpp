@@ -12,11 +12,17 @@ namespace lilytank {
 
 /// One interval and the truth.
 struct RecoveryRow {
+  /// Number of the synthetic experiment, from 0.
   int experiment = 0;
+  /// Name of the objective, and dotted path of the parameter.
   std::string objective, parameter;
-  double truth = 0, estimate = 0, low = 0, high = 0;  ///< 95 %
+  /// In the parameter's unit; low .. high is the 95 % interval.
+  double truth = 0, estimate = 0, low = 0, high = 0;
+  /// Bounds of the parameter in the fit.
   double bound_low = 0, bound_high = 0;
+  /// Whether it is fitted on a logarithmic scale.
   bool logarithmic = false;
+  /// Whether the interval holds the truth.
   bool covered() const { return low <= truth && truth <= high; }
   /// Width of the interval and, of one that misses the truth, forty times by how much: least, on
   /// average, for intervals that are honest and narrow. As a share of the bounds, by factors where
@@ -24,16 +30,24 @@ struct RecoveryRow {
   double interval_score() const;
 };
 
+/// The synthetic experiments and how each is calibrated.
 struct RecoveryOptions {
+  /// Number of synthetic experiments.
   int experiments = 10;
-  int recordings = 3;                                  ///< of Lilies in an experiment
-  double seconds = 600;                                ///< of a recording
-  double rate = 30;                                    ///< frames per second
-  double position_noise = 3e-4, heading_noise = 0.01;  ///< m, rad
-  int balls = 0;  ///< of as many recordings of balls; 0: the flow is taken as known
+  /// Recordings of Lilies in an experiment.
+  int recordings = 3;
+  /// Length of a recording, s.
+  double seconds = 600;
+  /// Frames per second.
+  double rate = 30;
+  /// Standard deviations of the camera's errors, m and rad.
+  double position_noise = 3e-4, heading_noise = 0.01;
+  /// Balls in each of as many recordings of balls; 0: the flow is known.
+  int balls = 0;
   std::vector<CalibrationObjective> objectives{CalibrationObjective::summary,
                                                CalibrationObjective::msd};
-  CalibrationOptions calibration;  ///< of each; its objective, flow and directory are set
+  /// Settings of each calibration; objective, flow and directory are set by recover().
+  CalibrationOptions calibration;
   /// Called with all rows so far when an experiment is done; may be empty.
   std::function<void(const std::vector<RecoveryRow>&)> done;
 };

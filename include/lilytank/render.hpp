@@ -16,14 +16,18 @@
 
 namespace lilytank {
 
+/// How the mean flow is drawn below the bodies.
 enum class FlowStyle { none, arrows, streamlines };
 
 /// How a frame looks.
 struct FrameStyle {
-  int size = 1080;  ///< pixels, height of the picture; the width is 16/9 of it
+  /// Pixels, height of the picture; the width is 16/9 of it.
+  int size = 1080;
   FlowStyle flow = FlowStyle::streamlines;
-  double trail = 4;    ///< s of path drawn behind each body, 0: none
-  bool labels = true;  ///< l_a and the last engaged connector on each module
+  /// Length of the path drawn behind each body, s; 0: none.
+  double trail = 4;
+  /// l_a and the last engaged connector on each module.
+  bool labels = true;
 };
 
 /// Frame at a time (s), poses interpolated between stored ones, as .png or .svg by the file's
@@ -31,11 +35,16 @@ struct FrameStyle {
 void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
                 const std::string& file);
 
+/// Which part of a run is filmed, and how fast.
 struct FilmOptions {
-  double from = 0, to = -1;  ///< s, to < 0: the end
-  double fps = 30;           ///< frames per second of the film
-  double speed = 0;          ///< simulated seconds per second of film; 0: by `length`
-  double length = 60;        ///< s of film
+  /// Simulated time that is filmed, s; to < 0: up to the end.
+  double from = 0, to = -1;
+  /// Frames per second of the film.
+  double fps = 30;
+  /// Simulated seconds per second of film; 0: by `length`.
+  double speed = 0;
+  /// Duration of the film, s, if `speed` is 0.
+  double length = 60;
   FrameStyle style;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done)> progress;
@@ -52,13 +61,18 @@ void draw_stills(const StoredRun& run, const FilmOptions& options, const std::st
 
 /// One curve of a plot; `low` and `high`, where given, are drawn as a band.
 struct Curve {
+  /// Entry in the legend.
   std::string name;
+  /// [points] In data coordinates; `low` and `high` may be empty.
   std::vector<double> x, y, low, high;
-  bool steps = false;  ///< stairs instead of a line
+  /// Whether values hold until the next x, as in a step function.
+  bool steps = false;
   bool markers = false;
-  std::vector<double> marks;  ///< x of short upright strokes on the curve, such as censored times
-  bool bars = false;          ///< `low` and `high` as bars at the points instead of a band
-  bool line = true;           ///< false: markers alone
+  /// x of short upright strokes on the curve, such as censored times.
+  std::vector<double> marks;
+  /// `low` and `high` as bars at the points instead of a band.
+  bool bars = false;
+  bool line = true;  ///< false: markers alone
   /// 0 .. 1: a colour from dark to light, for a number that curves are told apart by; NaN: one of
   /// the curve's own, by its place.
   double shade = NAN;
@@ -66,24 +80,32 @@ struct Curve {
 /// A plot with axes, ticks, grid and legend, fit for a paper; .png, .svg or .pdf by the ending.
 struct Plot {
   std::string title, x_label, y_label;
-  std::string legend_title;  ///< what the curves' names are values of, as "pump power"; or empty
+  /// What the curves' names are values of, as "pump power"; or empty.
+  std::string legend_title;
   std::vector<Curve> curves;
+  /// Logarithmic axes; points that are not positive are left out.
   bool log_x = false, log_y = false;
-  bool zero_line = false;        ///< a thin line at y = 0
-  double y_low = 0, y_high = 0;  ///< equal: from the data
-  double x_low = 0, x_high = 0;  ///< equal: from the data
+  /// Whether to draw a thin line at y = 0.
+  bool zero_line = false;
+  /// Range of the y axis; equal: from the data.
+  double y_low = 0, y_high = 0;
+  /// Range of the x axis; equal: from the data.
+  double x_low = 0, x_high = 0;
   /// Names of the values 0, 1, ... of y, the first at the top, instead of numbers.
   std::vector<std::string> y_names;
   int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
+/// Writes .png, .svg or .pdf by the ending. Throws InputError if the file cannot be written.
 void draw_plot(const Plot& plot, const std::string& file);
 
 /// Plots on one page, `columns` in a row, each as large as it says.
 struct PlotPage {
   std::vector<Plot> plots;
   int columns = 1;
-  std::string title;  ///< above them all
+  /// Above all plots.#2
+  std::string title;
 };
+/// As draw_plot().
 void draw_plots(const PlotPage& page, const std::string& file);
 
 /// Colours for numbers: from dark to light, or from blue over white at 0 to red.
@@ -94,17 +116,24 @@ enum class ColourScale { rising, diverging };
 struct MapPanel {
   std::string title;
   int cells = 0;
-  double extent = 0;  ///< m
+  /// Half of the side that the panel covers, m.
+  double extent = 0;
   std::vector<double> values;
-  std::string label;  ///< beside the colour bar, as "mean speed (m/s)"
+  /// Beside the colour bar, as "mean speed (m/s)".
+  std::string label;
   ColourScale scale = ColourScale::rising;
-  double low = 0, high = 0;  ///< of the colour bar; equal: from the data (diverging: about 0)
+  /// Range of the colour bar; equal: from the data (diverging: symmetric about 0).
+  double low = 0, high = 0;
   /// Values are then 0, 1, ...: the classes of these names, with a legend instead of a bar.
   std::vector<std::string> classes;
-  std::vector<bool> hatched;             ///< cells to mark, as filled or doubtful; may be empty
-  std::vector<double> arrow_x, arrow_y;  ///< a vector a cell, NaN: none; may be empty
-  std::string arrow_unit = "m/s";        ///< beside the arrow that shows the scale
-  std::string no_data;  ///< what grey cells are, for a legend of classes; empty: not named
+  /// Cells to mark, as filled or doubtful; may be empty.
+  std::vector<bool> hatched;
+  /// A vector a cell, NaN: none; may be empty.
+  std::vector<double> arrow_x, arrow_y;
+  /// Beside the arrow that shows the scale.
+  std::string arrow_unit = "m/s";
+  /// What grey cells are, for a legend of classes; empty: not named.
+  std::string no_data;
 };
 /// Maps of one tank side by side, `columns` in a row; panels of a row with equal scales share a
 /// colour bar.
@@ -113,7 +142,8 @@ struct Map {
   double tank_radius = 0;  ///< m, drawn as a circle
   int columns = 1;
   std::vector<MapPanel> panels;
-  int panel_size = 340;  ///< pixels, of one map (PNG: twice that)
+  /// Pixels, of one map (PNG: twice that).
+  int panel_size = 340;
   /// What hatched cells are, told below the panels if there are any; empty: not told.
   std::string hatching;
 };
@@ -156,7 +186,8 @@ std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDoc
 
 /// A map of an extracted flow, and the name of its files without ending.
 struct FlowMap {
-  std::string name;     ///< of its files, without ending
+  /// Of its files, without ending.
+  std::string name;
   std::string caption;  ///< what a reader sees in it
   Map map;
 };

@@ -20,22 +20,33 @@ namespace lilytank {
 
 /// One side of a rule: control state and hop, (0,0) for an isolated module.
 struct Label {
-  int state = 0;  ///< l_a, 0..255
-  int hop = 0;    ///< l_h, 0..4
+  /// Control state l_a, 0..255.
+  int state = 0;
+  /// Hop l_h, 0..4.
+  int hop = 0;
   friend bool operator==(const Label&, const Label&) = default;
 };
 
+/// What a rule does to the connection. Labels before it on the left, after it on the right.
 enum class RuleKind {
-  link,    ///< (a,h) (b,h') -> (c,i)-(d,j): a new latch becomes a bond
-  unlink,  ///< (a,h)-(b,h') -> (c,i) (d,j): a bond is released
-  update,  ///< (a,h)-(b,h') -> (c,i)-(d,j): labels change on a standing bond
+  /// (a,h) (b,h') -> (c,i)-(d,j): a new latch becomes a bond.
+  link,
+  /// (a,h)-(b,h') -> (c,i) (d,j): a bond is released.
+  unlink,
+  /// (a,h)-(b,h') -> (c,i)-(d,j): labels change on a standing bond.
+  update,
 };
 
+/// A rewriting rule on the labels of two modules that hold each other.
 struct Rule {
-  std::string name;  ///< as in `rules.<name>.p`
+  /// As in the scenario key rules.<name>.p.
+  std::string name;
   RuleKind kind = RuleKind::link;
+  /// Labels of both modules, left and right side. Either module may be the first.
   std::array<Label, 2> before, after;
-  double p = 1;  ///< probability per evaluation
+  /// Probability per evaluation, 0 .. 1. Rules with the same left side must not sum to more than 1.
+  double p = 1;
+  /// Where the file defines it, for messages.
   SourcePlace where;
 };
 
@@ -46,12 +57,15 @@ struct Cell {
   friend auto operator<=>(const Cell&, const Cell&) = default;
 };
 
-/// A set of rules, all modules' firmware, and the shape that it is meant to build.
+/// The rules that all modules follow, and the shape that they are meant to build.
 struct Ruleset {
   std::string name;
+  /// In the file's order, which decides how rules with the same left side divide [0,1).
   std::vector<Rule> rules;
-  std::vector<Cell> target;  ///< one-sided: turned copies count, mirrored ones do not; may be empty
-  std::string file;          ///< where it was read from
+  /// Cells of the target; may be empty. One-sided: rotated copies count, mirrored ones do not.
+  std::vector<Cell> target;
+  /// Path of the file that it was read from; empty if it was made by a program.
+  std::string file;
 };
 
 /// Hop of an engaged connector: 1 + ((connector - last) mod 4), or 0 for last < 0 (isolated).
@@ -61,16 +75,19 @@ int last_after(int connector, int hop);
 /// The right-hand hop of a reverse rule that undoes a join made at left-hand hop h.
 int reverse_hop(int hop);
 
-/// The rule that fires when `initiator` and `responder` have exchanged labels over a connection,
-/// with the initiator's random number u in (0,1): rules with this left side and kind in the file's
-/// order share [0,1) by their probabilities. `swapped` says that the rule's first label is the
-/// responder's; for equal labels the initiator comes first.
+/// Outcome of an evaluation.
 struct Match {
-  int rule = -1;  ///< index, -1: no rule fires
+  /// Index into Ruleset::rules; -1: no rule fires.
+  int rule = -1;
+  /// The rule's first label is the responder's. For equal labels the initiator comes first.
   bool swapped = false;
-  bool applicable = false;  ///< some rule has this left side, whether or not u let it fire
+  /// Some rule has this left side, whether or not u let it fire.
+  bool applicable = false;
 };
-/// `standing`: the connection is a bond already (unlink and update rules), else a new latch (link).
+/// The rule that fires when `initiator` and `responder` have exchanged labels over a connection,
+/// with the initiator's random number u in (0,1). Rules with this left side and kind divide [0,1)
+/// by their probabilities in the file's order; none fires if u lies beyond their sum. `standing`:
+/// the connection is a bond already (unlink and update rules), else a new latch (link rules).
 Match match(const Ruleset& rules, Label initiator, Label responder, bool standing, double u);
 
 /// The labels that final joins leave, a pair a join: those of link rules whose labels no link or
@@ -93,7 +110,9 @@ int finished_copies(const std::vector<std::array<int, 2>>& joins, int modules, L
 /// Reads the text format described in scenarios/rulesets/README.md. Throws InputError with file,
 /// line, column, the offending word and what was expected.
 Ruleset parse_ruleset(const std::string& text, const std::string& file);
+/// parse_ruleset() of a file's content. Throws InputError also if the file cannot be read.
 Ruleset read_ruleset(const std::string& file);
+
 /// Copies of the target that so many modules can make; 0 without a target.
 int possible_copies(const Ruleset& rules, int modules);
 /// How often a link rule fires of all dockings that fire one with its left side, in either order:

@@ -10,23 +10,40 @@
 
 namespace lilytank {
 
+/// Where a run is kept, and how it is interrupted.
 struct RunOptions {
-  std::string out;     ///< directory, made if absent; empty: nothing is written
-  bool force = false;  ///< replace another run's files
-  const std::atomic<bool>* stop = nullptr;  ///< set by a signal: finish the step, keep everything
-  std::function<void(double done, double rate)> progress;  ///< share done, simulated s per s
-  double checkpoint_seconds = 20;                          ///< wall time between checkpoints
+  /// Directory, made if absent; empty: nothing is written.
+  std::string out;
+  /// Replace another run's files.
+  bool force = false;
+  /// Set by a signal: the run ends after the current step with a checkpoint; a later call continues
+  /// it.
+  const std::atomic<bool>* stop = nullptr;
+  /// Called at most five times a second: fraction of the duration done, and simulated seconds per
+  /// second of wall time.
+  std::function<void(double done, double rate)> progress;
+  /// Wall time between checkpoints, s. A kill loses no more than this.
+  double checkpoint_seconds = 20;
 };
 
+/// How a run ended.
 struct RunResult {
+  /// ok, diverged (`divergence` says why) or stopped.
   RunStatus status = RunStatus::ok;
-  double time = 0;                ///< s, simulated
-  double wall = 0;                ///< s, of this call
-  std::uint64_t fingerprint = 0;  ///< of the final state
+  /// Simulated time reached, s.
+  double time = 0;
+  /// Wall time of this call, s.
+  double wall = 0;
+  /// Fingerprint of the final state: equal for equal scenarios and seeds.
+  std::uint64_t fingerprint = 0;
+  /// Copies of the target that stand at the end, and the most that the modules can form.
   int copies = 0, possible = 0;
-  std::vector<double> completion_times;  ///< s
+  /// When 1, 2, ... copies first stood, s.
+  std::vector<double> completion_times;
+  /// As AssemblyRecord::illegal().
   std::int64_t illegal = 0;
   Divergence divergence;
+  /// Whether the call continued an interrupted run, or found it finished and did nothing.
   bool resumed = false, already_complete = false;
 };
 
@@ -37,11 +54,14 @@ RunResult run(const Scenario& scenario, const RunOptions& options);
 /// What `lilytank run` left in a directory, for rendering and analysis.
 struct StoredRun {
   Scenario scenario;
+  /// Empty if the scenario stores no poses.
   Trajectory trajectory;
   /// Rows of metrics.csv: time (s), copies standing, assemblies by size.
   std::vector<double> metrics_time;
   std::vector<int> metrics_copies;
 };
+/// Reads a run. Throws InputError if the directory holds none, a file is damaged, or the scenario
+/// was changed since the run began.
 StoredRun load_run(const std::string& dir);
 /// The report of a finished run as a document: copies, assemblies, rules. Provenance is the
 /// caller's. Throws InputError if a file of the run cannot be read.

@@ -24,15 +24,19 @@ namespace lilytank {
 
 /// One searched parameter, in its own unit. Points never leave [low, high].
 struct SearchAxis {
-  std::string name;          ///< letters, digits, '_', '.' and '-'; no two alike
+  /// Letters, digits, '_', '.' and '-'; no two alike.
+  std::string name;
   double low = 0, high = 1;  ///< low < high
-  bool logarithmic = false;  ///< searched on a log scale; then low > 0
+  /// Searched on a log scale; then low > 0.
+  bool logarithmic = false;
 };
+/// The box that is searched.
 using SearchSpace = std::vector<SearchAxis>;
 
 /// One evaluation that is wanted.
 struct Trial {
-  std::vector<double> point;  ///< one value an axis, in its unit
+  /// One value an axis, in its unit.
+  std::vector<double> point;
   /// Tells repeated evaluations of a point apart; the caller makes a seed of it. Under common
   /// random numbers the k-th evaluation of every point has replicate k (from 0), and a final
   /// selection goes on with the first one that no candidate had; otherwise every trial of a search
@@ -42,18 +46,22 @@ struct Trial {
 
 /// The point that a search would answer with now.
 struct Incumbent {
-  std::vector<double> point;  ///< empty before the first iteration is over
-  double mean = 0;            ///< of its values; +infinity if one of them was not finite
-  double standard_error = 0;  ///< of the mean, from its own values; NaN with fewer than two
-  int evaluations = 0;        ///< how many values
+  /// Empty before the first iteration is over.
+  std::vector<double> point;
+  /// Mean of its values; +infinity if one of them was not finite.
+  double mean = 0;
+  /// Standard error of the mean, from its own values; NaN with fewer than two.
+  double standard_error = 0;
+  int evaluations = 0;  ///< how many values
 };
 
 /// How an iteration ended: one row of history.csv and one point of a convergence plot (Fig. 6a).
 struct IterationRecord {
-  int iteration = 0;               ///< from 1
-  std::int64_t evaluations = 0;    ///< told so far
-  double best = 0;                 ///< the incumbent's mean
-  double median = 0, worst = 0;    ///< of the means of this iteration's new points
+  int iteration = 0;             ///< from 1
+  std::int64_t evaluations = 0;  ///< told so far
+  double best = 0;               ///< the incumbent's mean
+  /// Of the means of this iteration's new points.
+  double median = 0, worst = 0;
   std::vector<double> best_point;  ///< the incumbent
   /// Of the swarm: root mean square distance of the particles from their centre. Of CMA-ES: sigma
   /// times the root of the mean eigenvalue. Both as a share of the axes' (log) ranges.
@@ -70,6 +78,7 @@ class Search {
   /// The values of the trials of ask(), in their order; lower is better. A value that is not finite
   /// is worse than every number. Throws std::logic_error on another count of values.
   virtual void tell(std::span<const double> values) = 0;
+  /// The answer if the search ended now.
   virtual Incumbent best() const = 0;
   /// One record for each iteration that is over.
   virtual const std::vector<IterationRecord>& history() const = 0;
@@ -79,6 +88,7 @@ class Search {
   /// into whole iterations may end a little below it.
   virtual std::int64_t evaluations() const = 0;
   virtual std::int64_t budget() const = 0;
+  /// The box, as given.
   virtual const SearchSpace& space() const = 0;
   /// The whole state as text, with a magic word, a version and a hash; space, options, seed and
   /// trials that were asked for and not yet told included.
@@ -89,9 +99,10 @@ class Search {
 
 /// Whose best positions a particle looks at, its own always included.
 enum class Neighbourhood {
-  global,       ///< all
-  ring,         ///< one on each side
-  von_neumann,  ///< four, on a lattice of about as many rows as columns, wound as a helix
+  global,  ///< all
+  ring,    ///< one on each side
+  /// Four, on a lattice of about as many rows as columns, wound as a helix.
+  von_neumann,
 };
 
 /// What is done about noise, with the same budget under every rule.
@@ -109,9 +120,12 @@ enum class NoiseRule {
 
 /// What happens to a particle that would leave the box; its position is put on the bound.
 enum class AtBound {
-  stop,     ///< the velocity along that axis becomes 0
-  reflect,  ///< it turns round, and the position is mirrored at the bound
-  keep,     ///< it stays as it is (the authors of the paper)
+  /// The velocity along that axis becomes 0.
+  stop,
+  /// It turns round, and the position is mirrored at the bound.
+  reflect,
+  /// It stays as it is (the authors of the paper).
+  keep,
 };
 
 /// Particle swarm optimisation, Eqs. 6a and 6b of the paper, each particle at once with the others
@@ -124,16 +138,20 @@ struct SwarmOptions {
   double personal = 0.5287;              ///< w_p
   double neighbour = 3.1913;             ///< w_n
   Neighbourhood neighbourhood = Neighbourhood::global;
-  double velocity_limit = 0.3;  ///< of |v| an iteration, as a share of an axis' (log) range
+  /// Bound on |v| per iteration, as a fraction of an axis' (log) range.
+  double velocity_limit = 0.3;
   AtBound at_bound = AtBound::stop;
-  /// Of a particle an iteration: the budget is particles * iterations * this + final_evaluations.
+  /// Evaluations per particle and iteration: the budget is particles * iterations * evaluations +
+  /// final_evaluations.
   int evaluations = 2;
   NoiseRule noise = NoiseRule::ocba;
-  int ocba_stages = 4;  ///< of an iteration, after the new positions' first evaluations
+  /// Stages of an iteration after the new positions' first evaluations.
+  int ocba_stages = 4;
   /// After the last iteration so many more are shared out by OCBA among the leading personal bests,
   /// whose earlier values do not count any more: a point leads a search by luck, too. 0, or at
   /// least 4.
   int final_evaluations = 0;
+  /// The k-th evaluation of every point shares its random numbers (Trial::replicate).
   bool common_random_numbers = false;
   /// Where the first particles start, as far as given; the others start uniformly at random.
   std::vector<std::vector<double>> starts;
@@ -146,14 +164,18 @@ struct SwarmOptions {
 /// population [Auger and Hansen 2005] for as long as the budget lasts.
 struct CmaEsOptions {
   std::int64_t budget = 1000;  ///< trials in all
-  int population = 0;          ///< lambda; 0: 4 + floor(3 ln n) for n axes
-  double sigma = 0.3;          ///< of the first samples, as a share of the ranges
-  std::vector<double> start;   ///< the first mean; empty: the middle of the box
-  int evaluations = 1;         ///< of each sample, at first
+  /// lambda; 0: 4 + floor(3 ln n) for n axes.
+  int population = 0;
+  /// Standard deviation of the first samples, as a fraction of the ranges.
+  double sigma = 0.3;
+  /// The first mean; empty: the middle of the box.
+  std::vector<double> start;
+  int evaluations = 1;  ///< of each sample, at first
   /// Measures by further evaluations how much noise changes the samples' ranks and adapts the
   /// number of evaluations of each, up to `most_evaluations`; beyond that it widens the
   /// distribution [Hansen, Niederberger, Guzzella and Koumoutsakos 2009].
   bool handle_uncertainty = true;
+  /// Upper bound on evaluations per sample.
   int most_evaluations = 16;
   /// Of the budget, kept for the end and shared out by OCBA among the leading samples, the final
   /// mean and the start, if one is given, by new values only. 0, or at least 4.
@@ -164,6 +186,7 @@ struct CmaEsOptions {
 /// The best settings of docs/search.md's measurements for this many evaluations, of which a tenth
 /// go to the final selection: use these, and CMA-ES before the swarm, unless there is a reason.
 SwarmOptions swarm_for(std::int64_t budget, int particles);
+/// The same for CMA-ES.
 CmaEsOptions cma_es_for(std::int64_t budget);
 
 /// Throw InputError on a space or options that make no sense.
@@ -191,9 +214,11 @@ std::vector<int> neighbours_of(Neighbourhood neighbourhood, int particles, int i
 
 /// What is known of one of several candidates.
 struct OcbaCandidate {
-  double mean = 0;       ///< not finite: known to be no candidate
-  double deviation = 0;  ///< standard deviation of one evaluation
-  int evaluations = 0;   ///< that it had
+  /// Not finite: known to be no candidate.
+  double mean = 0;
+  /// Standard deviation of one evaluation.
+  double deviation = 0;
+  int evaluations = 0;  ///< that it had
 };
 /// The evaluations each candidate should have had in all once `extra` more are spent, by Chen's
 /// rule [Chen, Lin, Yuecesan and Chick 2000, Eqs. 4 and 5]: N_i / N_j = ((s_i / d_i) / (s_j /

@@ -20,29 +20,42 @@ namespace lilytank {
 /// because of the stop signal. Called from several threads at once; what it throws ends the search.
 using Objective = std::function<std::optional<double>(const Trial&)>;
 
+/// How far a search has come.
 struct SearchProgress {
-  double done = 0;                    ///< share of the budget
-  std::int64_t evaluations = 0;       ///< so far, all calls together
-  int iteration = 0;                  ///< that are over
-  double best = 0;                    ///< the incumbent's mean; NaN before the first batch
+  /// Fraction of the budget spent.
+  double done = 0;
+  std::int64_t evaluations = 0;  ///< so far, all calls together
+  /// Iterations that are over.
+  int iteration = 0;
+  /// The incumbent's mean; NaN before the first batch.
+  double best = 0;
   double evaluations_per_second = 0;  ///< in this call, of wall time
 };
 
+/// Where a search is kept, and how many evaluations run at once.
 struct SearchRunOptions {
-  std::string dir;  ///< made if absent
+  /// Output directory, made if absent.
+  std::string dir;
   /// Says what is searched: objective, data, settings, in any words. The search's own space,
   /// options and seed are compared anyway. A directory with another search is refused.
   std::string identity;
-  bool force = false;                                   ///< replace another search's files
-  int threads = 0;                                      ///< evaluations at a time; 0: one a core
-  const std::atomic<bool>* stop = nullptr;              ///< set by a signal
-  std::function<void(const SearchProgress&)> progress;  ///< called by one thread at a time
+  /// Replace another search's files.
+  bool force = false;
+  /// Evaluations at a time; 0: one a core.
+  int threads = 0;
+  /// Set by a signal: evaluations under way are abandoned, finished ones are kept.
+  const std::atomic<bool>* stop = nullptr;
+  /// Called by one thread at a time.
+  std::function<void(const SearchProgress&)> progress;
 };
 
+/// The search after the call.
 struct SearchRunResult {
   std::unique_ptr<Search> search;  ///< as far as it came
-  bool stopped = false;            ///< by the signal, before its budget was spent
-  std::int64_t evaluated = 0;      ///< trials evaluated in this call
+  /// By the signal, before its budget was spent.
+  bool stopped = false;
+  /// Trials evaluated in this call.
+  std::int64_t evaluated = 0;
 };
 
 /// Carries `search`, new from make_swarm or make_cma_es, to its end, or goes on where an earlier

@@ -20,25 +20,35 @@
 
 namespace lilytank {
 
+/// See the top of this file.
 enum class SmoothingMethod : std::uint8_t { kalman, polynomial };
 
 /// How a coordinate moves and how well it was seen. Units are those of the coordinate: m, or rad.
 struct MotionModel {
-  double noise = 0;         ///< deviation of one measurement
-  double acceleration = 0;  ///< deviation of the lasting acceleration along one axis, per s^2
-  double memory = 0;        ///< s, in which that falls to 1/e; at least two frames
-  double jolts = 0;  ///< deviation of the velocity's change by forces too short to be seen as an
-                     ///< acceleration, in one second: per s^(3/2)
+  /// Deviation of one measurement.
+  double noise = 0;
+  /// Deviation of the lasting acceleration along one axis, per s^2.
+  double acceleration = 0;
+  /// s, in which that falls to 1/e; at least two frames.
+  double memory = 0;
+  /// Deviation of the velocity's change by forces too short to be seen as an acceleration, in one
+  /// second: per s^(3/2).
+  double jolts = 0;
+  /// Log-likelihood of the samples under the fitted model; comparable only between models of the
+  /// same samples.
   double log_likelihood = 0;
-  std::int64_t samples = 0;  ///< frames that the estimate rests on; 0: it was given, or there is
-                             ///< nothing to estimate from
+  /// Frames that the estimate rests on; 0: it was given, or there is nothing to estimate from.
+  std::int64_t samples = 0;
 };
 
+/// Choice of the smoother. Noise levels that are 0 are estimated from the tracks.
 struct SmoothingOptions {
   SmoothingMethod method = SmoothingMethod::kalman;
-  double window = 0.3;  ///< s, full width of the polynomial's window; at least degree + 2 frames
-  int degree = 3;       ///< of the polynomial, 2 .. 5
-  double noise = 0;     ///< m, of a measured position; 0: estimated
+  /// s, full width of the polynomial's window; at least degree + 2 frames.
+  double window = 0.3;
+  int degree = 3;  ///< of the polynomial, 2 .. 5
+  /// m, of a measured position; 0: estimated.
+  double noise = 0;
   double heading_noise = 0;  ///< rad; 0: estimated
 };
 
@@ -50,11 +60,15 @@ struct SmoothingOptions {
 /// one side).
 struct SmoothTrack {
   std::int64_t id = 0;
-  int first = 0;                               ///< frame, as in the track
-  std::vector<std::uint8_t> seen;              ///< 1: the frame has a measurement
-  std::vector<double> x, y, vx, vy, ax, ay;    ///< m, m/s, m/s^2
-  std::vector<double> sd_x, sd_v, sd_a;        ///< deviation of the error along one axis
-  std::vector<double> theta, spin, spin_rate;  ///< rad, rad/s, rad/s^2; empty without headings
+  int first = 0;  ///< frame, as in the track
+  /// 1: the frame has a measurement.
+  std::vector<std::uint8_t> seen;
+  std::vector<double> x, y, vx, vy, ax, ay;  ///< m, m/s, m/s^2
+  /// Deviation of the error along one axis.
+  std::vector<double> sd_x, sd_v, sd_a;
+  /// rad, rad/s, rad/s^2; empty without headings.
+  std::vector<double> theta, spin, spin_rate;
+  /// Standard deviations of the errors of these, rad, rad/s, rad/s^2.
   std::vector<double> sd_theta, sd_spin, sd_spin_rate;
   int frames() const { return static_cast<int>(x.size()); }
 };
@@ -65,6 +79,7 @@ struct SmoothRecording {
   MotionModel position;  ///< of x and y
   MotionModel heading;
   SmoothingOptions options;
+  /// In the recording's order.
   std::vector<SmoothTrack> tracks;
 };
 
@@ -75,6 +90,7 @@ SmoothRecording smooth(const Recording& recording, const SmoothingOptions& optio
 /// from pieces spread over them where there are more than some 20,000. `noise` > 0 is kept. Tracks
 /// of fewer than eight frames are left out; with none that is longer, everything is 0.
 MotionModel fit_position(const Recording& recording, double noise = 0);
+/// The same for headings, rad.
 MotionModel fit_heading(const Recording& recording, double noise = 0);
 
 /// What a smoother does to a motion of one frequency, far from ends and gaps: the amplitude of the
@@ -84,7 +100,8 @@ struct TransferFunction {
   std::vector<double> frequency;                         ///< Hz, 0 .. rate / 2
   std::vector<double> position, velocity, acceleration;  ///< 1: unchanged
   double position_cutoff = 0, velocity_cutoff = 0,
-         acceleration_cutoff = 0;  ///< Hz, where it first falls below 1/sqrt(2); rate / 2 if never
+         /// Hz, where it first falls below 1/sqrt(2); rate / 2 if never.
+      acceleration_cutoff = 0;
   double position_noise_gain = 0, velocity_noise_gain = 0,
          acceleration_noise_gain = 0;  ///< 1, 1/s, 1/s^2
 };

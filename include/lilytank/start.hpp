@@ -13,21 +13,24 @@ namespace lilytank {
 /// bound that holds in every later step. Poses rounded to 0.1 mm and 1 mrad stay below it.
 constexpr double kStartTolerance = 0.5e-3;
 
-/// The paper's tank with 15 Lilies, the baseline forces and the analytic flow; no ruleset.
+/// The paper's tank with 15 Lilies, the baseline forces at their defaults and the analytic flow
+/// with bilinear interpolation; no ruleset, so latched modules stay together.
 Model standard_model();
 
-/// The state at step 0: poses drawn from the seed as Model::start says, at rest, nothing latched.
-/// Throws InputError if the bodies do not fit.
+/// The state at step 0: poses as Model::start sets them, at rest, nothing latched. Random layouts
+/// draw from Stream::start_pose of the seed; a body tries 20 000 places. Throws InputError if the
+/// bodies do not fit, or if Layout::poses has another number of poses than bodies.
 State initial_state(const Model& model, std::uint64_t seed);
 
-/// All bodies at rest at `poses` (one for each body, modules first), nothing latched. Nothing is
-/// checked: the poses may overlap.
+/// All bodies at rest at `poses` (one for each body, modules first), nothing latched. Without
+/// poses, all lie at the origin. Overlaps are not checked: see deepest_overlap().
 State state_of_poses(const Model& model, const std::vector<Pose>& poses, std::uint64_t seed);
 
-/// The deepest overlap of bodies of different assemblies, or of a body and the wall.
+/// The deepest overlap of bodies of different assemblies, or of a body and the wall. Computed
+/// from corners and projections, independently of the contact solver.
 Overlap deepest_overlap(const Model& model, const State& state);
 
-/// "module 3" or "ball 0" for a body's number.
+/// "module 3" or "ball 0" for a body's number: balls count from 0 again.
 std::string body_name(const Model& model, int body);
 
 /// "module 3 and module 5 overlap by 35 mm at the start, more than 0.5 mm"; empty if the overlap is

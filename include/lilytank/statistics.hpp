@@ -36,11 +36,13 @@ struct Duration {
 /// that is undefined, Clopper and Pearson's for no event in at_risk[i]; where nobody is left,
 /// 0 .. the upper end before.
 struct Survival {
+  /// Times (s), ascending, and the curve with its interval from there on.
   std::vector<double> time, survival, low, high;
   std::vector<std::int64_t> at_risk;           ///< just before time[i]
   std::vector<std::int64_t> events, censored;  ///< at time[i]
   std::vector<double> variance;                ///< Greenwood's, of survival[i]
 };
+/// Durations in any order. An empty list gives an empty curve.
 Survival kaplan_meier(std::vector<Duration> durations, double level = 0.95);
 
 /// Area under the survival curve to `horizon` (s): the mean of min(T, horizon), with its normal
@@ -51,8 +53,10 @@ Estimate restricted_mean(const Survival& curve, double horizon, double level = 0
 
 /// A test of significance; `degrees` 0 says that the data could not tell anything.
 struct TestResult {
+  /// Value of the statistic under the test's law.
   double statistic = 0;
   double degrees = 0;
+  /// Probability of a statistic at least as large under the null hypothesis.
   double p = 1;
 };
 /// Log-rank test that groups have one survival curve [Mantel, Cancer Chemother. Rep. 50, 1966]:

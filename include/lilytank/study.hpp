@@ -26,43 +26,56 @@ void for_each_world(int count, int threads, const std::function<void(int)>& work
 /// most this. A decision after m replicates looks at replicates 0 .. m-1 of its setting and at
 /// nothing else.
 struct StoppingRule {
+  /// As in is_metric(): "copies", "time_2", ...
   std::string metric;
   double half_width = 0;  ///< in the metric's unit
   int min = 0, max = 0;   ///< replicates
-  int round = 0;          ///< replicates between decisions
+  /// Replicates between decisions.
+  int round = 0;
 };
 
 /// One combination of the axes' values.
 struct Setting {
-  std::string label;  ///< "count=15, p_e", for legends
+  /// "count=15, p_e", for legends.
+  std::string label;
   /// The axes' values as in table.csv: "0.3", "p_e". Numbers are in the unit of the scenario's key,
   /// whatever unit the study file gives them in: SI, but % for flow.pump_power.
   std::vector<std::string> texts;
-  std::vector<double> values;  ///< the same as numbers; of words and overlays the position
-  double duration = 0;         ///< s
-  std::uint64_t identity = 0;  ///< of the resolved scenario, with run.seed = 0
+  /// The same as numbers; for words and overlays, their position in the study file.
+  std::vector<double> values;
+  /// Simulated time of a run, s.
+  double duration = 0;
+  /// Hash of the resolved scenario with run.seed = 0.
+  std::uint64_t identity = 0;
 };
 
 /// All that decides what is run and how the table looks. It is stored as study.toml.
 struct StudyPlan {
+  /// From the study file.
   std::string name;
-  std::vector<std::string> scenarios, sets;  ///< where it came from, for the reader
+  /// Files and --set values of the scenario, as documentation.
+  std::vector<std::string> scenarios, sets;
+  /// Key of the replicates' seeds.
   std::uint64_t seed = 1;
-  int replicates = 0;                ///< of each setting; with a stopping rule the most
-  std::optional<StoppingRule> stop;  ///< without one the number is fixed
-  /// Worlds are left once all possible copies stand and no rule can change them. Rows are the same
-  /// as without it, but for what a world might still have come to that is not to come: divergence
-  /// and illegal assemblies. Not stored: it does not tell studies apart.
+  /// Replicates of each setting; with a stopping rule, the upper bound.
+  int replicates = 0;
+  /// Without a stopping rule the number of replicates is fixed.
+  std::optional<StoppingRule> stop;
+  /// Ends a run once all possible copies stand and no rule can change them. Rows are the same as
+  /// without it, except that a later divergence or illegal assembly is not seen. Not stored: it
+  /// does not distinguish studies.
   bool until_settled = false;
-  std::vector<std::string> axes;  ///< names: dotted paths, or those of overlay axes
-  std::vector<Setting> settings;  ///< the last axis changes fastest
+  /// Names: dotted paths, or those of overlay axes.
+  std::vector<std::string> axes;
+  /// The last axis changes fastest.
+  std::vector<Setting> settings;
 
-  /// s, the longest duration.
+  /// The longest duration of a setting, s.
   double horizon() const;
   /// Equal for studies that do the same runs, up to how many replicates of each.
   std::uint64_t identity() const;
-  /// Of a replicate, the same for all settings (common random numbers). Below 2^59, so that
-  /// `lilytank run --seed` takes it.
+  /// Seed of a replicate, the same for all settings (common random numbers). Below 2^59, the bound
+  /// of `lilytank run --seed`.
   std::uint64_t seed_of(int replicate) const;
   /// 16 hex digits: a function of the setting's identity and the seed.
   std::string id_of(int setting, int replicate) const;
@@ -76,6 +89,7 @@ class Study {
   explicit Study(const std::string& file, const std::vector<std::string>& sets = {});
   ~Study();
   Study(Study&&) noexcept;
+  /// What the file says, resolved.
   const StudyPlan& plan() const;
   /// Builds a setting's scenario anew, with run.seed = 0. Throws InputError if files have changed
   /// since the study was read.
@@ -90,42 +104,61 @@ class Study {
 
 /// A part of a study: runs whose id leaves `index` when divided by `count`.
 struct Shard {
-  int index = 0;  ///< from 0; the user's "1/5" is 0
+  /// From 0; the user's "1/5" is 0.
+  int index = 0;
   int count = 1;
-  std::string origin;  ///< what it was taken from: "--shard", "SLURM_ARRAY_TASK_ID"
+  /// What it was taken from: "--shard", "SLURM_ARRAY_TASK_ID".
+  std::string origin;
+  /// Whether a run belongs to this shard.
   bool holds(const std::string& id) const;
 };
-/// "2/5". Throws InputError.
+/// From "2/5". Throws InputError unless 1 <= 2 <= 5.
 Shard shard_from(const std::string& text);
 /// Of a Slurm job array, an MPI launcher or srun, or the whole. `variable` looks up the
 /// environment, null where there is none. Throws InputError if what it finds makes no sense.
 Shard shard_of_environment(const std::function<const char*(const char*)>& variable);
 
+/// How far a call of run_study() has come.
 struct StudyProgress {
-  double done = 0;               ///< share of the simulated time that is to be done now
-  int runs = 0, failed = 0;      ///< of this call
-  int left = 0;                  ///< runs that are to be done now
-  double worlds_per_second = 0;  ///< of wall time, in this call
-  double hours_per_second = 0;   ///< simulated h per s of wall time
+  /// Share of the simulated time that is to be done now.
+  double done = 0;
+  /// Runs finished in this call, and those of them that diverged.
+  int runs = 0, failed = 0;
+  /// Runs still to do in this call.
+  int left = 0;
+  /// Runs per second of wall time, in this call.
+  double worlds_per_second = 0;
+  /// Simulated hours per second of wall time.
+  double hours_per_second = 0;
 };
 
+/// Where a study is kept, and which part of it runs here.
 struct StudyOptions {
   std::string out;  ///< directory, made if absent
   Shard shard;
-  int threads = 0;                          ///< 0: one a core
-  bool force = false;                       ///< replace another study's files
-  const std::atomic<bool>* stop = nullptr;  ///< set by a signal: running worlds are abandoned
+  /// Simulations at a time; 0: one per core.
+  int threads = 0;
+  /// Replace another study's files.
+  bool force = false;
+  /// Set by a signal: running worlds are abandoned.
+  const std::atomic<bool>* stop = nullptr;
   /// Called once everything is checked, with how many runs are to be done now, before any is.
   std::function<void(int runs)> begin;
-  std::function<void(const StudyProgress&)> progress;  ///< called by one thread at a time
+  /// Called by one thread at a time.
+  std::function<void(const StudyProgress&)> progress;
 };
 
+/// How a call of run_study() ended.
 struct StudyResult {
-  bool stopped = false;   ///< by the signal
-  bool complete = false;  ///< all runs of all shards are there
-  bool waiting = false;  ///< the stopping rule needs other shards' rows before more can be run here
-  int runs = 0;          ///< of this call
-  int failed = 0;        ///< diverged, of all runs in the directory
+  /// Ended by the stop signal.
+  bool stopped = false;
+  /// All runs of all shards are there.
+  bool complete = false;
+  /// The stopping rule needs other shards' rows before more can be run here.
+  bool waiting = false;
+  int runs = 0;  ///< of this call
+  /// Diverged, of all runs in the directory.
+  int failed = 0;
 };
 
 /// Does what is missing of a study, or of a shard of it. Throws InputError if a world cannot be set
@@ -138,10 +171,13 @@ struct StoredStudy {
   /// The runs that there are. A setting's replicates beyond those that the stopping rule asks for
   /// are left out.
   StudyTable table;
+  /// Replicates of one setting.
   struct Count {
     int done = 0, failed = 0;
-    int wanted = 0;        ///< replicates, as far as is known
-    bool decided = false;  ///< the stopping rule has spoken; always for fixed numbers
+    /// Replicates that the plan or the stopping rule asks for, as far as is known.
+    int wanted = 0;
+    /// The stopping rule has spoken; always for fixed numbers.
+    bool decided = false;
   };
   std::vector<Count> counts;  ///< one a setting
   bool complete = false;
@@ -160,7 +196,7 @@ void write_table(const StoredStudy& study, const std::string& dir);
 
 /// Whether `name` is a metric: copies, full_yield, assembly_rate, time_1, time_2, ...
 bool is_metric(const std::string& name);
-/// "1", "s", "1/s".
+/// Unit of a metric: "1", "s" or "1/s".
 std::string metric_unit(const std::string& name);
 /// A metric of one setting's runs, diverged ones left out, with its 95 % interval. As in
 /// SettingSummary: copies standing at the end; full_yield, of the runs that could make a copy;

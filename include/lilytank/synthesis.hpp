@@ -14,12 +14,17 @@
 
 namespace lilytank {
 
+/// How the order of joins is chosen.
 enum class Algorithm {
-  singleton,  ///< one module at a time, the paper's SingletonR
-  linchpin,   ///< two parts, each one module at a time, are joined last at one bond
-  balanced,   ///< every part is made of two parts as equal as can be
-  plan,       ///< the user's tree and order
+  /// One module at a time, the paper's SingletonR.
+  singleton,
+  /// Two parts, each one module at a time, are joined last at one bond.
+  linchpin,
+  /// Every part is made of two parts as equal as can be.
+  balanced,
+  plan,  ///< the user's tree and order
 };
+/// "singleton", "linchpin", "balanced", "plan".
 const std::vector<std::string>& algorithm_names();
 /// Throws InputError that names the nearest right word.
 Algorithm algorithm_of(const std::string& name);
@@ -63,6 +68,7 @@ std::vector<int> blocked_joins(const Target& target, const Plan& plan);
 /// Contacts of the target that the plan leaves without a bond.
 std::vector<Contact> open_contacts(const Target& target, const Plan& plan);
 
+/// Probabilities of reverse rules, and rules for loops.
 struct EmitOptions {
   /// Probabilities of r1_reverse, r2_reverse, ...; those not given are 0 for maximal joins, and
   /// else 0.01, 0.005 or 0.000025 for joins that make 2, 3, or more modules (after the paper's
@@ -87,6 +93,7 @@ struct Note {
 std::vector<Note> notes_on(const Target& target, const Plan& plan, const Ruleset& rules,
                            int modules);
 
+/// Bounds on the enumeration of plans; beyond them PlanList::complete is false.
 struct PlanLimits {
   std::size_t trees = 1000;   ///< spanning trees
   std::size_t orders = 2000;  ///< per tree and algorithm
@@ -99,6 +106,7 @@ struct PlanList {
   std::vector<Plan> plans;
   bool complete = true;  ///< no limit was met
 };
+/// Deterministic order: by tree, algorithm and order of visiting.
 PlanList all_plans(const Target& target, const PlanLimits& limits = {});
 /// Equal for rulesets that differ only in the naming and order of control states and rules.
 std::uint64_t structure_of(const Ruleset& rules);
@@ -109,16 +117,22 @@ std::string rule_text(const Rule& rule);
 /// What stands after each join, for drawings [paper, Figs. 9 and 11]: a module in a cell of the
 /// target.
 struct StageModule {
-  int cell = 0;          ///< index into Target::cells
-  int label = 0;         ///< l_a
-  int last = -1;         ///< direction of l_n, -1: isolated
-  unsigned bonds = 0;    ///< bit d: bonded towards direction d
+  int cell = 0;   ///< index into Target::cells
+  int label = 0;  ///< l_a
+  /// Direction of l_n, -1: isolated.
+  int last = -1;
+  /// Bit d: bonded towards direction d.
+  unsigned bonds = 0;
   bool engaged = false;  ///< by this stage's join
 };
+/// One drawing of an assembly.
 struct Stage {
-  std::string rule, text;  ///< "r2", "(1,3) (0,0) -> (3,1)-(4,1)"; empty for the first stage
-  std::vector<StageModule> modules;  ///< all placed so far; of the first stage a single module
+  /// "r2", "(1,3) (0,0) -> (3,1)-(4,1)"; empty for the first stage.
+  std::string rule, text;
+  /// All placed so far; of the first stage a single module.
+  std::vector<StageModule> modules;
 };
+/// One stage before the first join and one after each.
 std::vector<Stage> stages_of(const Target& target, const Plan& plan);
 
 }  // namespace lilytank

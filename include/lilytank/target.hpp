@@ -19,11 +19,13 @@ namespace lilytank {
 
 /// Two neighbouring cells, as indices into Target::cells.
 struct Contact {
+  /// a != b; functions that return contacts have a < b.
   int a = 0, b = 0;
   friend bool operator==(const Contact&, const Contact&) = default;
   friend auto operator<=>(const Contact&, const Contact&) = default;
 };
 
+/// A shape to build.
 struct Target {
   std::string name;
   /// In raster order (y falling, then x rising), the least x and y being 0. Connected.
@@ -39,9 +41,10 @@ struct Target {
 inline constexpr int kMostCells = 128;
 
 /// Reads a drawing. Throws InputError with file, line and column: a sign that is no cell or bond,
-/// a bond that joins nothing, numbers that are missing or twice there, cells that do not hang
+/// A bond that joins nothing, numbers that are missing or twice there, cells that do not hang
 /// together (over the drawn bonds, if there are any), too many or fewer than two cells.
 Target parse_target(const std::string& text, const std::string& file);
+/// parse_target() of a file's content. Throws InputError also if it cannot be read.
 Target read_target(const std::string& file);
 /// A target from cells in any order and place. Throws InputError as parse_target does.
 Target target_of(std::vector<Cell> cells, const std::string& name);

@@ -11,23 +11,34 @@
 
 namespace lilytank {
 
-/// What a module shows besides its pose.
+/// State of a module beside its pose, as a frame stores it.
 struct Markings {
-  std::int16_t label = 0;     ///< l_a
-  std::int8_t last = -1;      ///< l_n, -1: isolated
-  std::uint8_t latched = 0;   ///< bit f: face f holds a neighbour
-  std::uint8_t bonded = 0;    ///< bit f: ... by a rule
-  std::uint8_t complete = 0;  ///< 1: part of a finished copy of the target
+  /// Control state l_a.
+  std::int16_t label = 0;
+  /// Connector engaged last, l_n; -1: isolated.
+  std::int8_t last = -1;
+  /// Bit f: face f holds a neighbour.
+  std::uint8_t latched = 0;
+  /// Bit f: face f holds a neighbour by a rule.
+  std::uint8_t bonded = 0;
+  /// 1: the module is part of a standing copy of the target.
+  std::uint8_t complete = 0;
 };
 
 /// Poses of `bodies` bodies at `time.size()` instants, frame by frame: pose of body b in frame f is
 /// at f * bodies + b. Lengths in m, angles in rad, times in s, rising.
 struct Trajectory {
+  /// Bodies in every frame.
   int bodies = 0;
-  int modules = 0;  ///< bodies [0, modules) are squares, the rest balls
+  /// Bodies [0, modules) are squares, the rest balls.
+  int modules = 0;
+  /// [frames] s, ascending.
   std::vector<double> time;
+  /// [frames * bodies] m, m and rad.
   std::vector<float> x, y, theta;
-  std::vector<Markings> markings;  ///< as the poses, balls without; empty for recordings
+  /// [frames * bodies] Default for balls; empty for poses without states.
+  std::vector<Markings> markings;
+  /// Number of frames.
   int frames() const { return static_cast<int>(time.size()); }
 };
 
@@ -35,6 +46,7 @@ struct Trajectory {
 /// takes its numbers of bodies from the first world.
 void append_poses(const World& world, Trajectory& trajectory);
 
+/// none: poses are not stored.
 enum class TrajectoryFormat { none, csv, binary };
 
 /// Appends frames to a file as they come; what was written survives a kill.

@@ -1,4 +1,8 @@
-// A World is a constant Model, a State, and scratch memory; step() is all it does.
+// The simulator: a World is a constant Model, a State, and scratch memory; step() advances it.
+//
+//   const Model model = standard_model();
+//   World world(model, seed);
+//   while (world.time() < 60 && world.step() == RunStatus::ok) record.observe(world);
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,34 +15,44 @@
 
 namespace lilytank {
 
-/// One tank. Not shared between threads; the Model may be. No allocation after the first step.
+/// One simulation. A World may move between threads but not be shared by them; any number of
+/// Worlds may share a Model. No allocation after the first step.
 class World {
  public:
-  /// A new world: initial_state(model, seed). `model` must outlive the world.
+  /// Begins from initial_state(model, seed). `model` must outlive the World. Throws InputError if
+  /// the bodies do not fit.
   World(const Model& model, std::uint64_t seed);
-  /// Goes on from a state of the same model.
+  /// Continues from a state of the same model: step by step the same bits as the simulation that
+  /// the state was copied from.
   World(const Model& model, State state);
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
   ~World();
 
-  /// Goes on from another state of the same model, as a new world would, but allocates nothing.
+  /// Continues from another state of the same model, as a new World would, but allocates nothing:
+  /// for many short simulations in a row.
   void go_on_from(const State& state);
 
-  /// Advances by dt: forces, controllers, velocities and contacts, positions, damping. Returns
-  /// diverged, and does nothing further, once a number is not finite, a body exceeds 20 m/s, or the
-  /// contacts of one step take more work than is allowed (kStalled).
+  /// Advances by dt: forces, controllers, velocities and contacts, positions, damping (the order of
+  /// the model, docs/structure.md). Semi-implicit Euler, first order in dt. Returns diverged, and
+  /// does nothing further, once a number is not finite, a body exceeds 20 m/s, or the
+  /// contacts of one step take more work than is allowed (kStalled). Never throws.
   RunStatus step();
 
+  /// The model given at the start.
   const Model& model() const;
+  /// The state after the last step: a copy is a checkpoint.
   const State& state() const;
-  double time() const;  ///< s
-  /// Poses and twists of all bodies at the end of the last step.
+  /// Simulated time since step 0, s: step * dt.
+  double time() const;
+  /// Poses and twists of all bodies at the end of the last step. The spans follow the
+  /// simulation and stay valid as long as it lives.
   const Kinematics& kinematics() const;
-  /// What happened in the last step, in order.
+  /// Events of the last step, in order. Valid until the next step.
   std::span<const Event> events() const;
   /// Meaningful once step() has returned diverged.
   const Divergence& divergence() const;
+  /// Since this World was made or last set to another state.
   const Tallies& tallies() const;
 
  private:
