@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the recordings of tour.toml: one tank, filmed with balls and with Lilies whose latches are off, and with
-# the effect of tour_truth.toml.
+# the effect of tour/truth.toml.
 #   scenarios/experiments/tour.sh build/lilytank
 set -euo pipefail
 program=$(realpath "${1:?usage: scenarios/experiments/tour.sh LILYTANK}")
@@ -23,8 +23,8 @@ film() {
     gzip -9n > "experiments/tour_$name.csv.gz"
 }
 
-film balls_1 1 4 tank_balls.toml experiments/tour_tank.toml
-film balls_2 2 4 tank_balls.toml experiments/tour_tank.toml
+film balls_1 1 4 tank_balls.toml experiments/tour/tank.toml
+film balls_2 2 4 tank_balls.toml experiments/tour/tank.toml
 for run in 1 2 3; do
-  film "lily_$run" "$((10 + run))" 4 tank_lilies.toml --set module.count=10 experiments/tour_tank.toml experiments/tour_truth.toml
+  film "lily_$run" "$((10 + run))" 4 tank_lilies.toml --set module.count=10 experiments/tour/tank.toml experiments/tour/truth.toml
 done

@@ -311,7 +311,6 @@ void check_kinetics_options(const VerbOptions& options) {
   inputs.push_back(options.text("rates"));
   for (const char* name : {"kappa", "bngl"}) {
     options.spare_inputs(name, options.text(name), inputs);
-    options.spare_existing(name, options.text(name));
   }
   options.spare_each_other({"kappa", "bngl"});
 }

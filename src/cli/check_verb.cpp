@@ -19,9 +19,8 @@ void add_check_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
       "lattice", "simulations of the lattice model (20)", text(), "N")(
-      "attempts", "meetings in each (20000)", text(), "N")(
-      "seed", "of all random numbers (1)", text(), "N")("force", "replace exported files")(
-      "quiet", "no progress");
+      "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
+                                                           text(), "N")("quiet", "no progress");
   add_kinetics_options(options);
 }
 
@@ -101,7 +100,7 @@ int check_verb(const Arguments& arguments) {
     std::cerr << "stopped; finished simulations are kept, and the same command resumes\n";
     return Exit::stopped;
   }
-  if (!kinetics.dir.empty()) write_report(report, kinetics.dir);
+  if (!kinetics.dir.empty() && options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;
 }

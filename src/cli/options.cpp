@@ -152,15 +152,6 @@ void VerbOptions::spare_directory(const std::string& option, const std::string& 
   }
 }
 
-void VerbOptions::spare_existing(const std::string& option, const std::string& file) const {
-  std::error_code ignored;
-  const auto kind = fs::status(file, ignored).type();
-  const bool full = kind == fs::file_type::directory && !fs::is_empty(file, ignored);
-  if (has("force") || (kind != fs::file_type::regular && !full)) return;
-  refuse("--" + option + ": '" + file + "' " + (full ? "is not empty" : "exists") +
-         "; choose another name, or replace it with --force");
-}
-
 void VerbOptions::spare_each_other(const std::vector<std::string>& names) const {
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

@@ -49,9 +49,6 @@ class VerbOptions {
   /// Refuses to write into `dir`, which --`option` asks for, if one of the `inputs` lies there.
   void spare_directory(const std::string& option, const std::string& dir,
                        const std::vector<std::string>& inputs) const;
-  /// Refuses to replace `file`, which --`option` names, or to write into a directory `file` that is
-  /// not empty, unless --force is given. Pipes and devices are written to.
-  void spare_existing(const std::string& option, const std::string& file) const;
   /// Refuses two of these options that name one file.
   void spare_each_other(const std::vector<std::string>& names) const;
   /// An InputError that begins with the verb.

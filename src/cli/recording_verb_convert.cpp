@@ -128,7 +128,6 @@ std::vector<std::string> files_to_write(const VerbOptions& options,
       const bool risky = one_file_a_track(format) && is_among_tracks(input, file, format);
       if (risky) options.spare_inputs("out", input, {input});
     }
-    options.spare_existing("out", file);
     files.push_back(file);
   }
   return files;
@@ -153,7 +152,6 @@ void convert_files(const VerbOptions& options, const std::string& out, Recording
 void convert_run(const VerbOptions& options, const std::string& dir, const std::string& out,
                  RecordingFormat format) {
   options.spare_inputs("out", out, files_of_run(dir));
-  options.spare_existing("out", out);
   const std::string scenario = (fs::path(dir) / run_file::resolved).string();
   const double radius = load_scenario({scenario}, {}).model.tank.radius;
   write_one(filmed(dir, options), out, format, calibration_of(options, radius));
@@ -168,7 +166,6 @@ int recording_convert(const Arguments& arguments) {
       "cuts is missing or has a gap there. The directory of a run is filmed by a camera.");
   add_reading_options(options);
   add_writing_options(options);
-  options.add()("force", "replace files");
   if (!options.parse(arguments)) return Exit::done;
   if (!options.has("out") || options.text("out").empty()) {
     options.refuse("where to? give --out FILE");

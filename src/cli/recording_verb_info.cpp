@@ -204,12 +204,10 @@ int recording_check(const Arguments& arguments) {
                       "and what is done about it. Exit code 2: not usable as it is.");
   add_reading_options(options);
   options.add()("all", "show every finding, not ten of a kind")(
-      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE")(
-      "force", "replace that table");
+      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE");
   if (!options.parse(arguments)) return Exit::done;
   const std::vector<NamedRecording> all = named_recordings(options, options.positional());
   options.spare_inputs("csv", options.text("csv"), files_read(all, options.positional()));
-  options.spare_existing("csv", options.text("csv"));
   std::string csv = "file,line,frame,id,check,treatment,what\n";
   const auto act = [&](const NamedRecording& named, const CheckedRecording& checked) {
     print_findings(checked.findings, options.has("all"));

@@ -113,17 +113,13 @@ int render_verb(const Arguments& arguments) {
       "png", "one frame", text(), "FILE")("svg", "one frame", text(), "FILE")(
       "at", "the frame's time (default: the end)", text(), "TIME")(
       "flow", "none, arrows or streamlines", text(), "WORD")("no-labels", "no states on modules")(
-      "trail", "time of path drawn behind each body (4 s)", text(), "TIME")(
-      "force", "replace files")("quiet", "no progress");
+      "trail", "time of path drawn behind each body (4 s)", text(), "TIME")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
 #ifdef LILYTANK_HAS_RENDER
   if (options.positional().size() != 1) {
     options.refuse("which run? write lilytank render RUN, as out/chain5-seed1");
   }
   for (const char* name : {"png", "svg", "mp4", "gif"}) check_ending(options, name);
-  for (const char* name : {"png", "svg", "mp4", "gif", "stills"}) {
-    options.spare_existing(name, options.text(name));
-  }
   if (options.has("at") && !options.has("png") && !options.has("svg")) {
     options.refuse("--at goes with --png or --svg");
   }

@@ -113,8 +113,7 @@ void add_synthesize_options(VerbOptions& options) {
       "name", "of the ruleset (default: the target's)", text(), "WORD")(
       "out", "file for the rules (default: the terminal)", text(), "FILE")(
       "figure", "the stages of the assembly as .svg, .png or .pdf", text(), "FILE")(
-      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR")(
-      "force", "replace files");
+      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR");
 }
 
 // The library takes a name of one letter for a short option, which has one dash.
@@ -134,9 +133,7 @@ void check_outputs(const VerbOptions& options) {
   for (const char* option : {"tree", "order"}) drawings.push_back(options.text(option));
   for (const char* option : {"out", "figure"}) {
     options.spare_inputs(option, options.text(option), drawings);
-    options.spare_existing(option, options.text(option));
   }
-  options.spare_existing("all", options.text("all"));
   options.spare_each_other({"out", "figure"});
 }
 

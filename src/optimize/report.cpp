@@ -29,7 +29,8 @@ ReportCard card_of(const OptimizationPlan& plan, const OptimizationResult& resul
       {"target", std::to_string(plan.possible) + (plan.possible == 1 ? " copy" : " copies") +
                      " within " + shortest(plan.horizon) + " s"},
       {"search", plan.method + ", " + std::to_string(plan.budget) + " evaluations"}};
-  if (!result.optimum.empty()) card.facts.emplace_back("next", "overlay " + result.optimum);
+  if (!result.optimum.empty())
+    card.facts.emplace_back("next", "simulate with the overlay optimum.toml");
   return card;
 }
 

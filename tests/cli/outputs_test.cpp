@@ -95,9 +95,9 @@ TEST_F(OutputsTest, ARunIsNotOverwrittenByItsFilm) {
             "lilytank recording convert: --out would overwrite 'r/" + own +
                 "', which is read; choose another name");
   }
-  EXPECT_EQ(lilytank_("recording convert r --out r/film.csv").code, 0);
-  EXPECT_EQ(lilytank_("recording convert r --out r/film.csv").code, 2);
-  EXPECT_EQ(lilytank_("recording convert r --out r/film.csv --force").code, 0);
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(lilytank_("recording convert r --out r/film.csv").code, 0);
+  }
 }
 
 TEST_F(OutputsTest, APipeStaysAPipe) {

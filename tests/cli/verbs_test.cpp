@@ -214,14 +214,14 @@ TEST_F(VerbsTest, RenderTellsOfPosesStoredTooSeldom) {
   const std::string run = "run pair.toml --set run.duration=6 --set output.rate=";
   lilytank_(run + "0.5 --out seldom");
   lilytank_(run + "20 --out often");
-  const std::string stills = " --stills s --fps 5 --speed 1 --size 120 --flow none --quiet --force";
+  const std::string stills = " --stills s --fps 5 --speed 1 --size 120 --flow none --quiet";
   const Answer film = lilytank_("render seldom" + stills);
   EXPECT_EQ(film.code, 0);
   EXPECT_TRUE(film.err.starts_with("poses were stored 0.5 times a second; between them one body"))
       << film.err;
   EXPECT_TRUE(film.err.ends_with("(run with --set output.rate=20)\n")) << film.err;
   EXPECT_EQ(lilytank_("render often" + stills).err, "");
-  const std::string frame = "render seldom --png f.png --size 120 --quiet --force --at ";
+  const std::string frame = "render seldom --png f.png --size 120 --quiet --at ";
   EXPECT_EQ(lilytank_(frame + "4").err, "") << "just where poses were stored";
   EXPECT_TRUE(lilytank_(frame + "3").err.starts_with("poses were stored 0.5 times a second"));
 }
