@@ -2,7 +2,7 @@
 # Runs the commands of the documentation: every line of a fenced block that begins with lilytank, in the order
 # of its page, beside a copy of the scenarios. Runs are cut to five minutes of simulated time and pictures are
 # small. A command that takes longer than a few seconds is interrupted, and must then stop as Ctrl-C stops it
-# (exit code 3). A command that reads results below out/ that an interrupted one has not left is skipped.
+# (exit code 3). A command that reads the results of an interrupted or skipped one is skipped.
 #   run.sh LILYTANK SOURCES
 set -euo pipefail
 lilytank=$(realpath "$1") sources=$(realpath "$2")
@@ -38,7 +38,7 @@ shortened() {
   line=${line//other.rules/scenarios/rulesets/chain5.rules}
   case $line in
     'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;
-    'lilytank render '*) line+=' --size 120 --fps 1 --quiet' ;;
+    'lilytank render '*) line="${line/--at 1150/--at 300} --size 120 --fps 1 --quiet" ;;
     'lilytank study slurm '*) ;;
     'lilytank prove --'*) line+=' --worlds 2 --minutes 0.3 --known-flow --budget 1 --quiet' ;;
     'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
@@ -48,30 +48,54 @@ shortened() {
   printf '%s' "$line"
 }
 
-# needs <command>: what it reads below out/, which an interrupted command may not have left.
-needs() {
-  grep -oE '(^| )out/[^ ]+' <<< "${1//--out out\//--out }" | tr -d ' ' || true
+# outputs <command>: what it writes below out/: its --out, --png, --csv, ...; else the directory of its verb.
+outputs() {
+  local named
+  named=$(grep -oE -- '--(out|csv|png|svg|mp4|gif|stills|figure|all)[ =]out/[^ ]+' <<< "$1" | grep -oE 'out/.*' || true)
+  if [[ -n $named || $1 == *' --out '* ]]; then
+    printf '%s\n' "$named"
+    return
+  fi
+  case $1 in
+    'lilytank calibrate '*) echo out/calibrate-tank out/calibrate-tour ;;
+    'lilytank diagnose '*) echo out/diagnose-tank out/diagnose-tour ;;
+    'lilytank flow '*) echo out/flow-tank ;;
+    'lilytank optimize '* | 'lilytank study '*) grep -oE '[A-Za-z0-9_]+\.toml' <<< "$1" | sed 's/\.toml$//; s|^|out/|' ;;
+    'lilytank run '*) grep -oE '[A-Za-z0-9_]+\.toml' <<< "$1" | sed -E 's|(.*)\.toml$|out/\1-seed1|' ;;
+  esac
+}
+
+# inputs <command>: what it reads below out/.
+inputs() {
+  sed -E 's/--(out|csv|png|svg|mp4|gif|stills|figure|all)[ =]out\/[^ ]+//g' <<< "$1" | grep -oE '(^|[ =])out/[^ ]+' |
+    tr -d ' =' || true
+}
+
+# depends <path>: it is, or is within, an output that an interrupted or skipped command owes.
+depends() {
+  local one
+  for one in $owed; do [[ $1 == "$one" || $1 == "$one"/* ]] && return; done
+  return 1
 }
 
 page() {
-  local line code file
+  local line code file owed=
   rm -rf "$work/page"
   mkdir "$work/page"
   cp -r "$sources/scenarios" "$work/page/scenarios"
   cd "$work/page"
   while IFS= read -r line; do
     line=$(shortened "$line")
-    for file in $(needs "$line"); do
-      [[ -e $file ]] && continue
-      ((cut > 0)) || continue
-      skipped=$((skipped + 1))
+    for file in $(inputs "$line"); do
+      depends "$file" || continue
+      skipped=$((skipped + 1)) owed+=" $(outputs "$line" | tr '\n' ' ')"
       continue 2
     done
     code=0
     timeout --preserve-status -s INT -k 200 3 bash -c "exec $line" < /dev/null > "$work/output" 2>&1 || code=$?
     case $code in
       0) done=$((done + 1)) ;;
-      3 | 130) cut=$((cut + 1)) ;;  # 130: a command of a few seconds has no stop of its own
+      3 | 130) cut=$((cut + 1)) owed+=" $(outputs "$line" | tr '\n' ' ')" ;;  # 130: a short command stops at once
       *)
         faults=$((faults + 1))
         printf '%s: exit code %s\n  %s\n' "${1#"$sources"/}" "$code" "$line"
