@@ -10,6 +10,7 @@
 
 #include "lilytank/error.hpp"
 #include "lilytank/math.hpp"
+#include "svg_text.hpp"
 
 namespace lilytank {
 namespace {
@@ -53,7 +54,7 @@ PictureFormat format_of(const std::string& file, std::span<const PictureFormat> 
                    "': its name must end in " + names);
 }
 
-Canvas::Canvas(cairo_surface_t* surface, std::unique_ptr<std::string> sink)
+Canvas::Canvas(cairo_surface_t* surface, std::unique_ptr<Sink> sink)
     : sink_(std::move(sink)), surface_(surface), context_(cairo_create(surface)) {
   if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
     throw InputError(std::string("cannot make the picture: ") +
@@ -74,11 +75,11 @@ Canvas Canvas::raster(int width, int height) {
 }
 
 Canvas Canvas::vector(PictureFormat format, double width, double height) {
-  auto sink = std::make_unique<std::string>();
+  auto sink = std::make_unique<Sink>(format);
   cairo_surface_t* surface =
       format == PictureFormat::pdf
-          ? cairo_pdf_surface_create_for_stream(append, sink.get(), width, height)
-          : cairo_svg_surface_create_for_stream(append, sink.get(), width, height);
+          ? cairo_pdf_surface_create_for_stream(append, &sink->bytes, width, height)
+          : cairo_svg_surface_create_for_stream(append, &sink->bytes, width, height);
   if (format == PictureFormat::svg) {
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
   }
@@ -149,25 +150,24 @@ double Canvas::width_of(const std::string& s, const TextStyle& style) const {
 }
 
 void Canvas::text(double x, double y, const std::string& s, const TextStyle& style) const {
-  font(style);
-  double shift = 0;
-  if (style.align != Align::left) {
-    cairo_text_extents_t box;
-    cairo_text_extents(get(), s.c_str(), &box);
-    shift = style.align == Align::right ? box.x_advance : box.x_advance / 2;
+  const double width = width_of(s, style);
+  const double left = x - (style.align == Align::right    ? width
+                           : style.align == Align::centre ? width / 2
+                                                          : 0);
+  if (sink_ && sink_->format == PictureFormat::svg) {
+    return hold_text_place(*this, left, y, width, s, style, sink_->texts);
   }
   colour(style.colour);
-  cairo_move_to(get(), x - shift, y);
+  cairo_move_to(get(), left, y);
   cairo_show_text(get(), s.c_str());
   cairo_new_path(get());
 }
 
 void Canvas::moving_text(double x, double y, const std::string& s, const TextStyle& style) const {
   constexpr double kDigitHeight = 0.729;  // of DejaVu Sans, in font sizes
-  font(style);
-  cairo_text_extents_t box;
-  cairo_text_extents(get(), s.c_str(), &box);
-  cairo_move_to(get(), x - box.x_advance / 2, y + kDigitHeight / 2 * style.size);
+  const double base = y + kDigitHeight / 2 * style.size;
+  if (sink_) return text(x, base, s, {style.size, style.colour, style.bold, Align::centre});
+  cairo_move_to(get(), x - width_of(s, style) / 2, base);
   cairo_text_path(get(), s.c_str());
   fill(style.colour);
 }
@@ -200,7 +200,8 @@ std::string Canvas::encoded() {
     if (sink_) {
       cairo_surface_finish(surface_.get());
       status = cairo_surface_status(surface_.get());
-      bytes = std::move(*sink_);
+      bytes = std::move(sink_->bytes);
+      if (sink_->format == PictureFormat::svg) bytes = with_texts(bytes, sink_->texts, kFamily);
     } else {
       cairo_surface_flush(surface_.get());
       status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lilytank {
 
@@ -56,10 +57,10 @@ class Canvas {
   /// Adds a full circle to the path, as a figure of its own.
   void circle(double x, double y, double radius) const;
 
-  /// Writes text with its baseline at y.
+  /// Writes text with its baseline at y; in SVG as text that can be selected and searched.
   void text(double x, double y, const std::string& s, const TextStyle& style) const;
-  /// Text as an outline: a little slower, but it may lie between two pixels, so that text on a
-  /// moving body moves with it. The middle of the digits' height is at y.
+  /// Text centred at (x, y), the middle of its digits' height. In a raster an outline: a little
+  /// slower, but it may lie between two pixels, so that text on a moving body moves with it.
   void moving_text(double x, double y, const std::string& s, const TextStyle& style) const;
   /// Width of a text in user units.
   double width_of(const std::string& s, const TextStyle& style) const;
@@ -72,7 +73,14 @@ class Canvas {
   std::string encoded();
 
  private:
-  Canvas(cairo_surface_t* surface, std::unique_ptr<std::string> sink);
+  // Where a vector surface writes to.
+  struct Sink {
+    explicit Sink(PictureFormat f) : format(f) {}
+    PictureFormat format;
+    std::string bytes;
+    std::vector<std::string> texts;  // of an SVG, in the order of drawing
+  };
+  Canvas(cairo_surface_t* surface, std::unique_ptr<Sink> sink);
   void font(const TextStyle& style) const;
   struct SurfaceEnd {
     void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
@@ -80,7 +88,7 @@ class Canvas {
   struct ContextEnd {
     void operator()(cairo_t* c) const { cairo_destroy(c); }
   };
-  std::unique_ptr<std::string> sink_;  // outlives the surface, which writes to it; null: raster
+  std::unique_ptr<Sink> sink_;  // outlives the surface, which writes to it; null: raster
   std::unique_ptr<cairo_surface_t, SurfaceEnd> surface_;
   std::unique_ptr<cairo_t, ContextEnd> context_;
 };

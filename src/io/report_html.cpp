@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "lilytank/report.hpp"
+#include "text/markup.hpp"
 
 namespace lilytank {
 namespace {
@@ -36,29 +37,6 @@ code{overflow-wrap:anywhere}
 @media print{body{max-width:none;padding:0;background:#fff;color:#000}details>*{display:block}
 figure,table,.card{break-inside:avoid}}
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string element(const std::string& name, const std::string& text) {
   return "<" + name + ">" + escaped(text) + "</" + name + ">";

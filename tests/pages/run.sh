@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Opens a report of each kind in headless Chromium at two widths, and fails where something is wider than the
-# page, a picture has no alternative text, or a script stands in it.
+# page, a picture has no alternative text, or a script stands in it. Figures as SVG must be well-formed, have
+# their texts as text, and look like the PNG.
 #   run.sh LILYTANK SOURCES        ends with 77 (skipped) where Chromium is not installed
 set -euo pipefail
 lilytank=$(realpath "$1") sources=$(realpath "$2")
@@ -12,6 +13,14 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 faults=0
+
+# title_of <page>: its title, which scripts have set.
+title_of() {
+  "$chromium" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
+    --disable-background-networking --disable-component-update --disable-sync \
+    --user-data-dir="$work/profile" --virtual-time-budget=5000 --dump-dom "file://$1" 2> /dev/null |
+    grep -o '<title>[^<]*</title>' | sed 's/<[^>]*>//g'
+}
 
 # measure <report> <width>: one line of what a frame of that width shows.
 measure() {
@@ -36,10 +45,7 @@ document.body.append(f);
 JS
     echo '</script>'
   } > "$work/frame.html"
-  "$chromium" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync \
-    --user-data-dir="$work/profile" --virtual-time-budget=5000 --dump-dom "file://$work/frame.html" 2> /dev/null |
-    grep -o '<title>[^<]*</title>' | sed 's/<[^>]*>//g'
+  title_of "$work/frame.html"
 }
 
 # look <name> <report>
@@ -50,6 +56,45 @@ look() {
     printf '%-12s %5s px  %s\n' "$1" "$width" "$seen"
     [[ $seen == 'over 0 bare 0 scripts 0 cards 1 pictures '[1-9]* ]] || faults=$((faults + 1))
   done
+}
+
+# alike <figure, without ending> <text in it>: differing pixels in 1000, from one line or edge to another.
+alike() {
+  local seen
+  {
+    echo '<!doctype html><meta charset="utf-8"><body><script>'
+    printf 'const svg=new TextDecoder().decode(Uint8Array.from(atob("%s"),c=>c.charCodeAt(0)));\n' \
+      "$(base64 -w0 "$1.svg")"
+    printf 'const png="data:image/png;base64,%s",text="%s";\n' "$(base64 -w0 "$1.png")" "$2"
+    cat << 'JS'
+const d=new DOMParser().parseFromString(svg,'image/svg+xml');
+const live=[...d.querySelectorAll('text')].some(e=>e.textContent===text);
+const seen=url=>new Promise((done,fail)=>{
+  const image=new Image();
+  image.onload=()=>done(image),image.onerror=fail,image.src=url;
+});
+const pixels=(image,w,h)=>{
+  const c=document.createElement('canvas');
+  c.width=w,c.height=h;
+  const at=c.getContext('2d');
+  at.drawImage(image,0,0,w,h);
+  return at.getImageData(0,0,w,h).data;
+};
+(async()=>{
+  const drawn=await seen(png),w=drawn.width,h=drawn.height;
+  const a=pixels(drawn,w,h),b=pixels(await seen('data:image/svg+xml,'+encodeURIComponent(svg)),w,h);
+  let differ=0;
+  for(let i=0;i<a.length;i+=4)
+    differ+=Math.abs(a[i]-b[i])+Math.abs(a[i+1]-b[i+1])+Math.abs(a[i+2]-b[i+2])>192;
+  document.title='faults '+d.querySelectorAll('parsererror').length+' text '+live+
+    ' differ '+Math.round(4000*differ/a.length);
+})();
+JS
+    echo '</script>'
+  } > "$work/alike.html"
+  seen=$(title_of "$work/alike.html")
+  printf '%-21s  %s\n' "$1" "$seen"
+  [[ $seen =~ ^'faults 0 text true differ '[0-4]$ ]] || faults=$((faults + 1))
 }
 
 cd "$work"
@@ -81,6 +126,8 @@ look optimum optimum/report.html
 
 "$lilytank" run "$sources/scenarios/chain5.toml" --set run.duration='2 min' --video --quiet --out run > /dev/null 2>&1
 look run run/report.html
+alike run/yield 'time (s)'
+alike flow/flow_smooth 'x (cm)'
 
 ((faults == 0)) || echo "$faults pages are not as they should be"
 exit $((faults > 0))
