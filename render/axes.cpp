@@ -1,4 +1,5 @@
 #include "axes.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +38,7 @@ struct Shortening {
     std::string s;
     if (exponent != 0) s = "×" + power_of_ten(exponent);
     if (offset == 0) return s;
-    char digits[40];
-    std::snprintf(digits, sizeof digits, "%.12g", std::fabs(offset));
-    std::string amount = digits;
+    std::string amount = significant(std::fabs(offset), 12);
     if (const auto e = amount.find('e'); e != std::string::npos) {
       amount = amount.substr(0, e) + "×" + power_of_ten(std::atoi(amount.c_str() + e + 1));
     }
@@ -87,12 +86,6 @@ void linear_ticks(Axis& axis, int wanted, bool whole) {
   axis.note = cut.note();
 }
 
-std::string plain(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 void log_ticks(Axis& axis, int wanted) {
   const double first = std::log10(axis.low), last = std::log10(axis.high);
   const int from = static_cast<int>(std::ceil(first - 1e-9)) - 1;
@@ -112,8 +105,8 @@ void log_ticks(Axis& axis, int wanted) {
           k == 1 ? ((e % every) + every) % every == 0 : between && (k == 2 || k == 5);
       std::string label;
       if (major) {
-        label =
-            short_numbers ? plain(value) : (k > 1 ? std::to_string(k) + "·" : "") + power_of_ten(e);
+        label = short_numbers ? significant(value, 6)
+                              : (k > 1 ? std::to_string(k) + "·" : "") + power_of_ten(e);
       }
       axis.ticks.push_back({value, label, major});
     }

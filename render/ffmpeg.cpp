@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +17,7 @@
 
 #include "lilytank/error.hpp"
 #include "lilytank/render.hpp"
+#include "text/number.hpp"
 
 extern char** environ;
 
@@ -31,12 +31,6 @@ constexpr const char* kNotThere =
 void close_and_forget(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);
   descriptor = -1;
-}
-
-std::string decimal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
 }
 
 // A child inherits none of our descriptors except those it is given.
@@ -90,7 +84,7 @@ std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& ou
                              "-video_size",
                              std::to_string(e.width) + "x" + std::to_string(e.height),
                              "-framerate",
-                             decimal(e.fps),
+                             significant(e.fps, 6),
                              "-i",
                              "pipe:0"};
   const auto add = [&](std::initializer_list<const char*> more) {

@@ -1,13 +1,13 @@
 #include "legend.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "modules.hpp"
 #include "palette.hpp"
 #include "pumps.hpp"
 #include "streamlines.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -120,9 +120,9 @@ void draw_finished(const Canvas& canvas, double x, double y) {
 void draw_flow(const Canvas& canvas, const Model& model, const FlowField& field, double x,
                double y) {
   canvas.text(x, y + 7, "water", kText);
-  char text[80];
-  std::snprintf(text, sizeof text, "mean flow, stronger where faster, up to %.2g m/s",
-                model.flow.K_v * peak_speed(field, model.tank.radius));
+  const std::string text = "mean flow, stronger where faster, up to " +
+                           significant(model.flow.K_v * peak_speed(field, model.tank.radius), 2) +
+                           " m/s";
   for (int i = 0; i < 3; ++i) {
     const double strength = 0.22 + 0.25 * i, top = y - 10 + 10 * i;
     canvas.line(x + 130, top, x + 174, top, faded(palette::stream, strength), 1 + 0.7 * i);

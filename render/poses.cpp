@@ -1,16 +1,14 @@
 #include "poses.hpp"
+#include "text/number.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace lilytank {
 namespace {
 
 std::string seconds(double t) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g s", t);
-  return text;
+  return significant(t, 6) + " s";
 }
 
 void copy_poses(const Trajectory& trajectory, std::size_t frame, std::vector<BodyPose>& poses) {

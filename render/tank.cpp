@@ -6,6 +6,7 @@
 #include "palette.hpp"
 #include "pumps.hpp"
 #include "streamlines.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -178,11 +179,8 @@ void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, 
   for (const double at : {x, end}) {
     canvas.line(at, y - 7, at, y + 7, palette::ink, 3);
   }
-  char text[32];
-  if (length < 1)
-    std::snprintf(text, sizeof text, "%g cm", 100 * length);
-  else
-    std::snprintf(text, sizeof text, "%g m", length);
+  const std::string text =
+      length < 1 ? significant(100 * length, 6) + " cm" : significant(length, 6) + " m";
   canvas.text((x + end) / 2, y - 14, text, {22, palette::ink, false, Align::centre});
 }
 

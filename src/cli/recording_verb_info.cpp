@@ -1,7 +1,6 @@
 // What is in recordings, and what is wrong with them.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 #include "cli/recording_verb.hpp"
@@ -18,12 +17,6 @@ namespace {
 std::string body_word(BodyKind body) {
   constexpr const char* words[] = {"lily", "ball", "point"};
   return words[static_cast<std::size_t>(body)];
-}
-
-std::string with_digits(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
 }
 
 std::string counted(std::size_t count, const std::string& noun) {
@@ -92,20 +85,20 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
   const double share =
       static_cast<double>(n.seen) / (static_cast<double>(n.bodies) * static_cast<double>(r.frames));
   std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
-            << with_digits(r.rate, 6) << " /s, from " << with_digits(r.start, 6) << " s to "
-            << with_digits(r.time(r.frames - 1), 6) << " s"
+            << significant(r.rate, 6) << " /s, from " << significant(r.start, 6) << " s to "
+            << significant(r.time(r.frames - 1), 6) << " s"
             << (checked.frame_step > 1
                     ? "; frame numbers have a common step of " + std::to_string(checked.frame_step)
                     : "")
             << "\n"
             << "  bodies    " << n.bodies << " in " << counted(r.tracks.size(), "track")
-            << ", seen " << with_digits(100 * share, 4) << " % of the time"
+            << ", seen " << significant(100 * share, 4) << " % of the time"
             << (r.has_heading() ? ", with headings" : "") << "\n"
-            << "  places    up to " << with_digits(n.farthest, 4) << " m from the centre";
+            << "  places    up to " << significant(n.farthest, 4) << " m from the centre";
   if (options.in_tank)
     std::cout << " of a tank of radius " << shortest(options.tank_radius) << " m";
-  std::cout << ", median step " << with_digits(1000 * n.typical_step, 3) << " mm ("
-            << with_digits(n.typical_step * r.rate, 3) << " m/s)\n";
+  std::cout << ", median step " << significant(1000 * n.typical_step, 3) << " mm ("
+            << significant(n.typical_step * r.rate, 3) << " m/s)\n";
 }
 
 void print_info(const NamedRecording& named, const CheckedRecording& checked) {

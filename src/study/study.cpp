@@ -2,7 +2,6 @@
 #include "lilytank/study.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "io/scenario_build.hpp"
@@ -59,9 +58,7 @@ std::vector<Choice> choices_of(const StudyAxis& axis, const StudyFile& file, int
     } else {
       value.value = number;
     }
-    char label[32];
-    std::snprintf(label, sizeof label, "%.4g", number);
-    add(range.latin && !range.whole ? label : as_written(value.value), value, "");
+    add(range.latin && !range.whole ? significant(number, 4) : as_written(value.value), value, "");
   }
   return out;
 }
