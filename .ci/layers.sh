@@ -66,7 +66,7 @@ only_in 'src/study/' '#include <(thread|future|mutex|condition_variable|executio
   'threads belong to src/study'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
-only_in 'src/(statistics|tracks)/' '#include <boost/' 'Boost.Math belongs to src/statistics and src/tracks'
+only_in 'src/statistics/quantiles.cpp' '#include <boost/' 'Boost.Math belongs to src/statistics/quantiles.cpp'
 only_in 'src/io/' '#include <toml' 'TOML belongs to src/io'
 only_in 'src/io/' '#include <nlohmann' 'JSON belongs to src/io'
 only_in 'src/io/' '#include <openssl' 'hashes of files belong to src/io'

@@ -16,10 +16,6 @@ struct Estimate {
 /// 0 .. 1.
 Estimate wilson(std::int64_t successes, std::int64_t n, double level = 0.95);
 
-/// The normal number with the probability of a chi-squared one of so many degrees of freedom
-/// [Wilson and Hilferty, PNAS 17, 1931]; of one degree its root.
-double chi_squared_z(double square, int freedom);
-
 /// Events per second from `events` in `exposure` seconds, with Garwood's exact Poisson interval
 /// [Garwood, Biometrika 28, 1936]. No exposure gives 0 .. infinity.
 Estimate poisson_rate(std::int64_t events, double exposure, double level = 0.95);

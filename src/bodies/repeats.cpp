@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bodies/compare.hpp"
-#include "lilytank/statistics.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank::bodies {
 

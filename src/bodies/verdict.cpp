@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bodies/maps.hpp"
+#include "statistics/quantiles.hpp"
 #include "text/number.hpp"
 
 namespace lilytank::bodies {
@@ -93,7 +94,8 @@ Ends ends_of(const Term& t, std::size_t p, double number, double deviation) {
     return t.parameters[p].kind == Kind::positive ? std::exp(number + by * deviation)
                                                   : (number + by * deviation) * t.scale[p];
   };
-  return {end(-1.96), end(1.96)};
+  const double half = normal_half_width();
+  return {end(-half), end(half)};
 }
 
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
@@ -128,7 +130,8 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
 void add_gain(const Comparison& c, const LawTrial& o, const LawTrial& without,
               DiagnosisFinding& f) {
   const Difference d = difference(o.by_block, without.by_block);
-  f.gain = d.value, f.gain_low = d.value - 1.96 * d.error, f.gain_high = d.value + 1.96 * d.error;
+  const double half = normal_half_width() * d.error;
+  f.gain = d.value, f.gain_low = d.value - half, f.gain_high = d.value + half;
   f.z = std::sqrt(2 * std::max(0.0, d.value));
   f.confidence = 1 - std::min(1.0, c.chance(d.value));
 }
@@ -330,7 +333,8 @@ Diagnosis told(const Comparison& c) {
     return d;
   }
   const Difference sure = difference(best.by_block, c.baseline.by_block);
-  d.verdict = sure.value > 1.645 * sure.error ? Verdict::missing : Verdict::undecided;
+  d.verdict =
+      sure.value > normal_quantile(0.95) * sure.error ? Verdict::missing : Verdict::undecided;
   d.findings = findings(c);
   add_fit(c, d);
   // What is found must predict the motion itself, not only its next sample.

@@ -4,6 +4,7 @@
 
 #include "calibrate/design.hpp"
 #include "statistics/linear.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -61,7 +62,7 @@ HonestFit turned_round(const Design& design, const CrossFit& fit, double least) 
   const Matrix root = unit * back;
   return {centre + unit * z, root * line.covariance * root.transpose(),
           line.residuals * root.transpose(),
-          student_95(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
+          student_half_width(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
 }
 
 TurnedBack turned_back(const Design& design, const Eigen::VectorXd& centre, const Prior& prior,

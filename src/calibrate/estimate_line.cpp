@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "statistics/linear.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -18,15 +19,10 @@ void tell_spread(const Line& line, const Matrix& covariance, const Vector& off, 
   Vector x = Vector::Zero(line.inverse.rows());
   x(0) = 1;
   if (x.size() > 1) x.tail(x.size() - 1) = off;
-  out.wide = student_95(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
+  out.wide = student_half_width(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x));
 }
 
 }  // namespace
-
-double student_95(double freedom) {
-  const double z = 1.959964;
-  return z + (z * z * z + z) / (4 * freedom);
-}
 
 Line line_through(const Matrix& off, const Matrix& values) {
   const Eigen::Index n = off.rows(), p = off.isZero(0) ? 0 : off.cols();

@@ -20,9 +20,6 @@ struct Line {
 /// a point.
 Line line_through(const Eigen::MatrixXd& off, const Eigen::MatrixXd& values);
 
-/// Two-sided 95 % point of Student's t [Cornish and Fisher's expansion about the normal].
-double student_95(double freedom);
-
 /// Parameters of data from what the local model takes them for.
 struct Scatter {
   Eigen::VectorXd estimate, deviation;

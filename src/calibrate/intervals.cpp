@@ -8,6 +8,7 @@
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"
+#include "statistics/quantiles.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -72,7 +73,7 @@ Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design
   out.errors.rowwise() -= bias.transpose();
   const auto count = static_cast<double>(n);
   out.covariance = out.errors.transpose() * out.errors / (count - 1);
-  out.wide = student_95(count - 1) * std::sqrt(1 + 1 / count);
+  out.wide = student_half_width(count - 1) * std::sqrt(1 + 1 / count);
   out.middle = answer.fit.point - bias;
   return out;
 }

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "calibrate/design.hpp"
-#include "lilytank/statistics.hpp"
 #include "statistics/linear.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {

@@ -12,6 +12,7 @@
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -252,7 +253,7 @@ StepGain step_gain(const Model& before, const Model& after, const PredictorOptio
   for (const auto& [block, gain] : blocks) of.add(gain);
   // A block or two do not say how much they scatter.
   const double width_of = of.count < 3 ? std::numeric_limits<double>::infinity()
-                                       : 1.96 * std::sqrt(of.variance() * of.count);
+                                       : normal_half_width() * std::sqrt(of.variance() * of.count);
   return {of.sum, of.sum - width_of, of.sum + width_of};
 }
 

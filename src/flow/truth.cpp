@@ -4,6 +4,7 @@
 #include "flow/grid.hpp"
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
+#include "statistics/quantiles.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -11,8 +12,9 @@ namespace {
 
 const std::string kShort = "ix,iy,x_m,y_m,mean_vx_mps,mean_vy_mps,std_vx_mps,std_vy_mps";
 
-// One difference, and whether it lies within 1.96 standard errors.
+// Differences, and how many lie within a 95 % interval (1.96 standard errors).
 struct Tally {
+  double half_width = normal_half_width();
   double squares = 0;
   int count = 0, judged = 0, within = 0;
   void add(double difference, double error) {
@@ -20,7 +22,7 @@ struct Tally {
     ++count;
     if (std::isnan(error)) return;
     ++judged;
-    if (std::fabs(difference) <= 1.96 * error) ++within;
+    if (std::fabs(difference) <= half_width * error) ++within;
   }
   double rms() const { return count > 0 ? std::sqrt(squares / count) : 0; }
   double coverage() const { return judged > 0 ? static_cast<double>(within) / judged : 0; }

@@ -1,10 +1,9 @@
 #include "lilytank/statistics.hpp"
+
+#include "statistics/quantiles.hpp"
 #include "statistics/undefined.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 
@@ -34,7 +33,7 @@ SampleMoments moments_of(const std::vector<double>& values) {
 Estimate wilson(std::int64_t successes, std::int64_t n, double level) {
   assert(0 <= successes && successes <= n && 0 < level && level < 1);
   if (n == 0) return {kUndefined, 0, 1};
-  const double z = boost::math::quantile(boost::math::normal(), (1 + level) / 2);
+  const double z = normal_half_width(level);
   const auto count = static_cast<double>(n), hits = static_cast<double>(successes);
   const double p = hits / count, k = z * z / count;
   const double centre = (p + k / 2) / (1 + k);
@@ -43,20 +42,13 @@ Estimate wilson(std::int64_t successes, std::int64_t n, double level) {
   return {p, successes == 0 ? 0 : centre - half, successes == n ? 1 : centre + half};
 }
 
-double chi_squared_z(double square, int freedom) {
-  if (freedom == 1) return std::sqrt(square);
-  const double part = 2.0 / (9.0 * freedom);
-  return (std::cbrt(square / freedom) - (1 - part)) / std::sqrt(part);
-}
-
 Estimate poisson_rate(std::int64_t events, double exposure, double level) {
   assert(events >= 0 && exposure >= 0 && 0 < level && level < 1);
   if (!(exposure > 0)) return {kUndefined, 0, kInfinity};
   const auto count = static_cast<double>(events);
   const double tail = (1 - level) / 2;
-  using boost::math::chi_squared;
-  const double low = events == 0 ? 0 : quantile(chi_squared(2 * count), tail) / 2;
-  const double high = quantile(complement(chi_squared(2 * count + 2), tail)) / 2;
+  const double low = events == 0 ? 0 : chi_squared_quantile(tail, 2 * count) / 2;
+  const double high = chi_squared_upper_quantile(tail, 2 * count + 2) / 2;
   return {count / exposure, low / exposure, high / exposure};
 }
 
@@ -65,7 +57,7 @@ Estimate mean_interval(const std::vector<double>& values, double level) {
   const SampleMoments m = moments_of(values);
   if (values.size() < 2) return {m.mean, -kInfinity, kInfinity};
   const auto n = static_cast<double>(values.size());
-  const double t = quantile(boost::math::students_t(n - 1), (1 + level) / 2);
+  const double t = student_half_width(n - 1, level);
   const double half = t * std::sqrt(m.variance / n);
   return {m.mean, m.mean - half, m.mean + half};
 }
@@ -94,7 +86,7 @@ PairedComparison compare_pairs(const std::vector<double>& a, const std::vector<d
   if (d.variance > 0) {
     const auto n = static_cast<double>(a.size());
     const double t = std::fabs(d.mean) / std::sqrt(d.variance / n);
-    result.p = std::min(1.0, 2 * cdf(complement(boost::math::students_t(n - 1), t)));
+    result.p = std::min(1.0, student_tail(t, n - 1));
     result.saving = apart / d.variance;
   } else {
     // How often chance alone gives all differences one sign.

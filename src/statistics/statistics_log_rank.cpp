@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include "lilytank/statistics.hpp"
 #include "statistics/linear.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -75,7 +75,7 @@ TestResult log_rank(const std::vector<std::vector<Duration>>& groups) {
   result.degrees = static_cast<double>(solved.rank);
   if (solved.rank == 0) return result;
   result.statistic = std::max(0.0, excess.events.dot(solved.x));
-  result.p = cdf(complement(boost::math::chi_squared(result.degrees), result.statistic));
+  result.p = chi_squared_tail(result.statistic, result.degrees);
   return result;
 }
 

@@ -1,18 +1,13 @@
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "lilytank/statistics.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
-
-double two_sided_normal(double level) {
-  assert(0 < level && level < 1);
-  return boost::math::quantile(boost::math::normal(), (1 + level) / 2);
-}
 
 // Greenwood's sum of d / (n (n - d)) as it grows along the curve.
 double greenwood_term(std::int64_t events, std::int64_t at_risk) {
@@ -38,7 +33,7 @@ Estimate survival_interval(double survival, double greenwood, std::int64_t at_ri
 Survival kaplan_meier(std::vector<Duration> durations, double level) {
   std::sort(durations.begin(), durations.end(),
             [](const Duration& a, const Duration& b) { return a.time < b.time; });
-  const double z = two_sided_normal(level), tail = (1 - level) / 2;
+  const double z = normal_half_width(level), tail = (1 - level) / 2;
   Survival curve;
   Estimate now{1, 0, 1};
   double greenwood = 0;
@@ -67,7 +62,7 @@ Survival kaplan_meier(std::vector<Duration> durations, double level) {
 
 Estimate restricted_mean(const Survival& curve, double horizon, double level) {
   assert(horizon >= 0);
-  const double z = two_sided_normal(level);
+  const double z = normal_half_width(level);
   if (curve.time.empty()) return {std::numeric_limits<double>::quiet_NaN(), 0, horizon};
   const auto used = static_cast<std::size_t>(
       std::upper_bound(curve.time.begin(), curve.time.end(), horizon) - curve.time.begin());

@@ -1,12 +1,11 @@
 // Curves and bands from sums over bodies.
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
 
 #include "lilytank/metrics.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/quantiles.hpp"
 #include "statistics/undefined.hpp"
 
 namespace lilytank {
@@ -84,10 +83,7 @@ double quantile_of(Values& values, double q) {
 
 // How much wider the interval of n bodies is than their resamples.
 double widening(int n, double level) {
-  const double q = (1 + level) / 2;
-  const double t = quantile(boost::math::students_t(n - 1.0), q);
-  const double z = quantile(boost::math::normal(), q);
-  return std::sqrt(n / (n - 1.0)) * t / z;
+  return std::sqrt(n / (n - 1.0)) * student_half_width(n - 1.0, level) / normal_half_width(level);
 }
 
 // The interval about `value` from its resamples, of which those that are NaN are left out.

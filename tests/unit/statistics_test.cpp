@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/quantiles.hpp"
 #include "support/samples.hpp"
 
 namespace lilytank {
@@ -214,6 +215,14 @@ int binomial_quantile(int n, double p, double q) {
     if (sum >= q - 1e-12) return k;
   }
   return n;
+}
+
+TEST(Quantiles, HalfWidthsAreThoseOfTables) {
+  EXPECT_NEAR(normal_half_width(), 1.959964, 1e-6);
+  EXPECT_NEAR(normal_quantile(0.95), 1.644854, 1e-6);
+  EXPECT_NEAR(student_half_width(1), 12.7062, 1e-4);
+  EXPECT_NEAR(student_half_width(3), 3.18245, 1e-5);
+  EXPECT_NEAR(student_half_width(30), 2.04227, 1e-5);
 }
 
 TEST(ChiSquaredZ, HasTheProbabilityOfTheSquare) {
