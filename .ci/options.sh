@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that the table of options on the page of each verb is the program's. A table stands between the lines
 # `<!-- options: VERB -->` and `<!-- end -->`.
-#   options.sh LILYTANK            prints the pages whose tables differ; exit code 1
+#   options.sh LILYTANK            prints the pages with other tables; exit code 1
 #   options.sh --write LILYTANK    writes the tables
 set -euo pipefail
 write=0

@@ -46,7 +46,7 @@ my @ordinary = (
   ['docs/search.md', 'sk and tell'],
   ['bench/README.md', '| kB/world |'],
   # Symbols of equations are the keys' names; columns are the trackers'.
-  ['src/diagnose/model.cpp', '"module.draught"'],
+  ['src/calibrate/fit_conditions.cpp', '"module.draught"'],
   ['src/forces/added_mass.cpp', 'rho side^2 draught'],
   ['src/forces/correlated_gusts.cpp', 'deviation'],
   ['src/forces/face_drag.cpp', 'rho (draught side'],

@@ -5,6 +5,7 @@
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/median.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -51,10 +52,11 @@ Plot curve_plot(const FoundCurve& c, bool tank, bool small) {
     plot.x_low = *first, plot.x_high = *last;
   }
   if (small) plot.width = 460, plot.height = 330;
+  const double half_width = normal_half_width() * scale_of(c);
   const double scale = scale_of(c), untold = kUntold * median(c.deviation);
   Curve nothing{"null, 95 %", c.at, {}, {}, {}}, found{"estimate", c.at, {}, {}, {}};
   for (std::size_t k = 0; k < c.at.size(); ++k) {
-    const double gap = c.deviation[k] > untold ? NAN : 1, band = 1.96 * c.deviation[k] * scale;
+    const double gap = c.deviation[k] > untold ? NAN : 1, band = half_width * c.deviation[k];
     nothing.y.push_back(0 * gap), found.y.push_back(c.value[k] * scale * gap);
     nothing.low.push_back(-band * gap), nothing.high.push_back(band * gap);
   }

@@ -4,11 +4,11 @@
 
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kUsual = 1.959964;   // deviations that a half width is
 constexpr double kFar = 3;            // half widths, where larger errors are drawn
 constexpr double kRoom = 1.2;         // of z, beside the outermost
 constexpr double kBarsApart = 0.009;  // of the axis' length, that bars are apart at least
@@ -129,8 +129,9 @@ Plot errors_plot(const ProofFigures& of) {
   }
   Curve normal;
   normal.name = "as promised";
+  const double half_width = normal_half_width();
   for (double x = -kFar; x <= kFar + 1e-9; x += 0.05) {
-    normal.x.push_back(x), normal.y.push_back(50 * std::erfc(-kUsual * x / std::sqrt(2.0)));
+    normal.x.push_back(x), normal.y.push_back(50 * std::erfc(-half_width * x / std::sqrt(2.0)));
   }
   plot.curves.push_back(std::move(normal));
   return plot;

@@ -202,6 +202,8 @@ struct CalibrationResult {
   double tank_radius = 0.3;
   /// The extracted flow; empty where the scenario's is used.
   std::string flow_csv;
+  /// The experiment's values that the estimates hold for, lines of calibrated.toml.
+  std::string conditions;
   /// [replicate][parameter] Estimates from experiments that were simulated at the estimate,
   /// bias-corrected, on the fitted scale.
   std::vector<std::vector<double>> replicate_estimates;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/fit_conditions.hpp"
 #include "calibrate/stages.hpp"
 #include "lilytank/state.hpp"
 #include "study/claimed_directory.hpp"
@@ -26,6 +27,7 @@ CalibrationResult begun(const CalibrationSetup& setup) {
     p.parameter = setup.parameters[i], p.start = setup.start[i];
     out.parameters.push_back(std::move(p));
   }
+  out.conditions = fit_conditions(setup.model, setup.body, setup.paths());
   return out;
 }
 

@@ -19,10 +19,10 @@ std::string number(double value) {
 std::string overlay(const CalibrationResult& c) {
   std::string out = "# Parameters found from the recordings of " + c.name + " (objective " +
                     c.objective +
-                    "): lay this over a scenario, as in\n"
+                    "): an overlay of a scenario, as in\n"
                     "#   lilytank run scenarios/tank_lilies.toml calibrated.toml\n"
-                    "# 95 % intervals follow each value; they hold for this step and this flow.\n";
-  out += "run.dt = " + shortest(c.dt) + "\n";
+                    "# 95 % intervals follow each estimate; they hold for the other values here.\n";
+  out += c.conditions;
   if (!c.flow_csv.empty()) out += "flow.file = \"flow.csv\"\n";
   for (const CalibratedParameter& p : c.parameters) {
     if (p.parameter.nuisance) continue;

@@ -34,7 +34,8 @@ void add_calibrate_options(VerbOptions& options) {
       "simulations", "of the first local models (120); the last one has twice as many", text(),
       "N")("comparisons", "experiments simulated for Eq. 9 before and after (24)", text(), "N")(
       "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
-      "N")("start", "overlay whose values the search starts from, as calibrated.toml", text(),
+      "N")("start", "overlay with the values at which the search starts, as calibrated.toml",
+           text(),
            "FILE")("set", "a value over the experiment's, as run.dt='5 ms'", list(), "PATH=VALUE")(
       "recover",
       "calibrate N synthetic experiments in this scenario and see whether the intervals "

@@ -63,7 +63,7 @@ BallPhysics physics(const VerbOptions& options, const Experiment& experiment) {
 void add_flow_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("estimator", "paper (Eq. 3), smooth (momentum balance), or both", text(), "WORD")(
-      "truth", "a grid whose flow is known: prints and draws the errors", text(), "GRID.csv")(
+      "truth", "a grid of known flow: prints and draws the errors", text(), "GRID.csv")(
       "bias", "measure the errors on synthetic recordings like these")(
       "out", "directory of the results (default: out/flow-<name>)", text(), "DIR")(
       "set", "a value over the experiment's, as ball.mass='13 g'",

@@ -60,7 +60,7 @@ void add_prove_options(VerbOptions& options) {
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
       "drawn-tank", "draw the tank, too: its pumps, inlets and parameters (the built-in tank)")(
-      "modelled", "experiments whose effect is also fitted and shown (10)", text(), "N")(
+      "modelled", "experiments in which the effect is also fitted and shown (10)", text(), "N")(
       "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
       "seed", "of everything that is drawn (1)", text(), "N")(
       "out", "directory of the results (out/proof)", text(), "DIR")(

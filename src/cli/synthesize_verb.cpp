@@ -105,9 +105,9 @@ void add_synthesize_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("algorithm", "singleton (the default), linchpin, balanced, or plan", text(),
                 "WORD")("tree", "a drawing of the same cells with the bonds to use", text(),
-                        "FILE")("order", "a drawing whose bonds are numbered: the whole plan",
-                                text(), "FILE")(
-      "modules", "how many there will be: warns of deadlocks", text(), "M")(
+                        "FILE")("order", "a drawing with numbered bonds: the whole plan", text(),
+                                "FILE")("modules", "how many there will be: warns of deadlocks",
+                                        text(), "M")(
       "probabilities", "of r1_reverse, r2_reverse, ... as 0.01,0.005; --p for short", text(),
       "LIST")("closures", "rules for the contacts that close a finished loop")(
       "name", "of the ruleset (default: the target's)", text(), "WORD")(

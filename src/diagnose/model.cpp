@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/fit_conditions.hpp"
 #include "diagnose/diagnoser.hpp"
 #include "diagnose/show.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -131,18 +132,11 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
   std::string text = "# Effects that the recordings of " + setup_.name +
                      " support, found by lilytank diagnose. An overlay of a scenario:\n"
                      "#   lilytank run scenarios/tank_lilies.toml missing.toml\n";
-  // Fitted values hold only for the tank and the modules that they were fitted with.
-  const Model& m = setup_.model;
-  for (const auto& [path, value] : std::initializer_list<std::pair<const char*, double>>{
-           {"tank.radius", m.tank.radius},
-           {"module.side", m.module.side},
-           {"module.mass", m.module.mass},
-           {"module.draught", m.module.draught},
-           {"contact.friction", m.contact.friction},
-           {"contact.restitution", m.contact.restitution}}) {
-    text += std::string(path) + " = " + shortest(value) + "\n";
+  std::vector<std::string> fitted;
+  for (const DiagnosisFinding& f : out.findings) {
+    for (const FoundParameter& p : f.parameters) fitted.push_back(p.path);
   }
-  text += "run.dt = " + shortest(setup_.model.dt) + "\n";
+  text += fit_conditions(setup_.model, BodyKind::lily, fitted);
   if (setup_.flow) text += "flow.file = \"flow.csv\"\n";
   for (const MovedParameter& p : out.parameters) {
     text += p.path + " = " + shortest(p.with_effects) + "\n";

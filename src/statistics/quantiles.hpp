@@ -1,5 +1,5 @@
 // Quantiles and tail probabilities of the normal, Student's t and the chi-squared distribution, by
-// Boost.Math.
+// Boost.Math where nothing else is said.
 #pragma once
 
 namespace lilytank {

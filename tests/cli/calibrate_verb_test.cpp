@@ -38,6 +38,9 @@ TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
     EXPECT_GT(lilytank.here.read(std::string("c/") + name + ".svg").size(), 2000u) << name;
   }
 #endif
+  // K_F holds for the immersion depth of the experiment only, which is not the scenario's.
+  EXPECT_NE(lilytank.here.read("c/calibrated.toml").find("module.draught = 0.025\n"),
+            std::string::npos);
   a = lilytank("run '" LILYTANK_SOURCE_DIR
                "/scenarios/tank_lilies.toml' c/calibrated.toml "
                "--set run.duration='1 s' --out r --quiet");
