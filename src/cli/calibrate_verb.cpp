@@ -165,8 +165,16 @@ int calibrate_verb(const Arguments& arguments) {
   CalibrationOptions job = calibration_options(options);
   if (options.has("recover")) return recover_verb(options, std::move(job));
   std::vector<std::string> files = options.positional();
-  if (options.has("start")) files.push_back(options.text("start"));
   const Experiment experiment = load_experiment(files, options.list("set"));
+  if (options.has("start")) {
+    files.push_back(options.text("start"));
+    // Only values of the parameters: a file of another experiment has another tank and other
+    // modules.
+    const Model there = load_experiment(files, options.list("set")).base.model;
+    for (const FitParameter& p : job.parameters) {
+      job.start.push_back(parameter_value(there, p.path));
+    }
+  }
   job.out = options.text(
       "out", (std::filesystem::path("out") / ("calibrate-" + experiment.name)).string());
   if (job.out.empty()) options.refuse("--out is empty");

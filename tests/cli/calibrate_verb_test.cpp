@@ -50,6 +50,17 @@ TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
   EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);
 }
 
+// calibrated.toml of another experiment has that one's modules, which are not those of this one.
+TEST(calibrateVerb, startsFromTheParametersOfAFileAlone) {
+  const Program lilytank;
+  lilytank.here.write("other.toml", "module.draught = 0.03\nflow.K_v = 1.25\n");
+  const Answer a = lilytank(words(kQuick) + "--start other.toml --out c");
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_NE(lilytank.here.read("c/calibrated.toml").find("module.draught = 0.025\n"),
+            std::string::npos);
+  EXPECT_NE(lilytank.here.read("c/intervals.csv").find(",1.25,"), std::string::npos);
+}
+
 TEST(calibrateVerb, killedAtAnyMomentTheSameCommandEndsInTheSameFiles) {
   const Program lilytank;
   auto quick = kQuick;
