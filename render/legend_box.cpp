@@ -24,7 +24,7 @@ bool within(const LegendBox& box, const PagePoint& p) {
 // marker counts as much as a stretch of line: hidden, it is a datum lost.
 std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
   constexpr double kEvery = 5;
-  constexpr std::size_t kMarker = 8;
+  constexpr std::size_t kMarkerWeight = 8;
   std::vector<PagePoint> ink;
   const auto trace = [&](const std::vector<double>& xs, const std::vector<double>& ys, bool steps) {
     PagePoint before{NAN, NAN};
@@ -57,7 +57,7 @@ std::vector<PagePoint> ink_of(const Plot& plot, const PlotArea& area) {
     const std::size_t n = points_of(curve);
     for (std::size_t i = 0; (curve.markers || n == 1) && i < n; ++i) {
       const PagePoint p = page_point(area, curve.x[i], curve.y[i]);
-      if (p.known()) ink.insert(ink.end(), kMarker, p);
+      if (p.known()) ink.insert(ink.end(), kMarkerWeight, p);
     }
     if (curve.line) trace(curve.x, curve.y, curve.steps);
     trace(curve.x, curve.low, curve.steps);

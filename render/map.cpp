@@ -11,7 +11,7 @@ namespace {
 constexpr double kMapPixels = 2;                       // of a PNG, per unit
 constexpr double kLeft = 62, kTop = 40, kBottom = 54;  // room around a panel, units
 constexpr double kKey = 30;                            // below all panels, units
-constexpr double kScale = 116, kClasses = 170,
+constexpr double kScale = 116, kClassLegend = 170,
                  kRightGap = 12;  // to its right: bar, legend, nothing
 
 // The panels on the page, and which of them show a scale.
@@ -39,7 +39,7 @@ MapPage page_of(const Map& map) {
     page.scales[i] = last || !same_scale(map.panels[i], map.panels[i + 1]);
     if (!page.scales[i]) continue;
     double& r = room[i % columns];
-    r = std::max(r, map.panels[i].classes.empty() ? kScale : kClasses);
+    r = std::max(r, map.panels[i].classes.empty() ? kScale : kClassLegend);
   }
   double y = map.title.empty() ? 0 : 34;
   for (std::size_t i = 0; i < n;) {

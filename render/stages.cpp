@@ -12,13 +12,13 @@
 namespace lilytank {
 namespace {
 
-constexpr double kSide = 54, kPitch = 62;        // units, of a module
-constexpr double kCaption = 30, kStageGap = 46;  // above a stage, between two
+constexpr double kSide = 54, kPitch = 62;             // units, of a module
+constexpr double kStageCaption = 30, kStageGap = 46;  // above a stage, between two
 constexpr double kPageMargin = 24, kFoot = 34, kHead = 40;
 constexpr double kWidest = 1290, kHighest = 900;
 constexpr double kHop = 16;  // of the hop numbers from a module's centre
 constexpr std::array<int, 4> kX = {1, 0, -1, 0}, kY = {0, 1, 0, -1};
-const TextStyle kRule{15, palette::ink, true, Align::left};
+const TextStyle kRuleName{15, palette::ink, true, Align::left};
 const TextStyle kSmall{12, palette::muted, false, Align::left};
 
 constexpr char kKey[] = "connector engaged last (hop 1); at the faces: hops; bold: control state";
@@ -36,7 +36,7 @@ Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage
   grid.width = (high.x + 1) * kPitch;
   for (const Stage& stage : stages)
     grid.width = std::max(grid.width, 26 + canvas.width_of(stage.text, kSmall));
-  grid.height = (high.y + 1) * kPitch + kCaption;
+  grid.height = (high.y + 1) * kPitch + kStageCaption;
   const int n = static_cast<int>(stages.size());
   const double across = grid.width + kStageGap;
   if (n * across <= kWidest)
@@ -113,12 +113,12 @@ void draw_stage(const Canvas& canvas, const Target& target, const Stage& stage, 
     return shown;
   }();
   const std::string name = stage.rule.empty() ? "start" : stage.rule;
-  canvas.text(left, top + 16, name, kRule);
-  canvas.text(left + canvas.width_of(name, kRule) + 9, top + 16, text, kSmall);
+  canvas.text(left, top + 16, name, kRuleName);
+  canvas.text(left + canvas.width_of(name, kRuleName) + 9, top + 16, text, kSmall);
   Cell high;
   for (const Cell& cell : target.cells) high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
   const double x0 = left + std::max(0.0, (width - (high.x + 1) * kPitch) / 2) + kPitch / 2;
-  const double y0 = top + kCaption + high.y * kPitch + kPitch / 2;
+  const double y0 = top + kStageCaption + high.y * kPitch + kPitch / 2;
   const auto x = [&](int cell) {
     return x0 + kPitch * target.cells[static_cast<std::size_t>(cell)].x;
   };
@@ -170,7 +170,7 @@ std::string stages_picture(const Target& target, const std::vector<Stage>& stage
     if (grid.columns == 1)
       draw_arrow(canvas, left + grid.width / 2, top + grid.height + kStageGap / 2, true);
     else if (k % grid.columns + 1 < grid.columns)
-      draw_arrow(canvas, left + grid.width + kStageGap / 2, top + (grid.height + kCaption) / 2,
+      draw_arrow(canvas, left + grid.width + kStageGap / 2, top + (grid.height + kStageCaption) / 2,
                  false);
   }
   draw_key(canvas, kPageMargin, height - kPageMargin);

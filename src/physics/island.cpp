@@ -14,10 +14,6 @@ constexpr double kWallShare = 0.3;     // the round wall is smooth: sliding alon
 constexpr double kPushRange = 2e-3;    // m, pairs farther apart are not pushed together
 constexpr double kLongestPush = 2e-3;  // m, per contact and sweep
 
-double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
-
 // Did any point of a mover get farther from its start than promised?
 bool broke_promise(const Mover& m) {
   const double dx = m.pose.x - m.start.x, dy = m.pose.y - m.start.y;

@@ -1,6 +1,7 @@
 // Assemblies that may touch one another or the wall within a step: their motion while contacts are
 // solved, apart from the State until it is known to be good.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "lilytank/model.hpp"
 
 namespace lilytank {
+
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 /// A rigid assembly on its way through a step. Mover 0 of an island is the wall, which nothing
 /// moves.

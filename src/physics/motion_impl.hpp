@@ -16,9 +16,6 @@ namespace lilytank {
 constexpr double kLinkSpare = 3e-4;   // m, pairs that miss by less are watched too
 constexpr double kStraySpare = 4e-3;  // m, straying that the search for neighbours allows for
 
-inline double length(double x, double y) {
-  return std::sqrt(x * x + y * y);
-}
 inline bool within(double x, double y, double radius) {
   return radius > 0 && x * x + y * y < radius * radius;
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr double kSettled = 2.5e-4;  // m, overlap that is left
 constexpr double kMargin = 1e-3;     // m, what is nearer than this may be pushed
 constexpr int kRounds = 30;          // searches for what got in the way
-constexpr int kSweeps = 20;          // sweeps between two searches
+constexpr int kPushes = 20;          // sweeps between two searches
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool Settling::make_room(const Assemblies& assemblies, int slot, IslandBuilder& 
   builder.enter(slot, 0);
   Island& island = builder.island();
   for (int round = 0; round < kRounds; ++round) {
-    if (round > 0) island.push_apart(kSweeps);
+    if (round > 0) island.push_apart(kPushes);
     island.forget_pairs();
     search(assemblies, builder);
     const int count = static_cast<int>(builder.slots().size());

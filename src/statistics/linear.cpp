@@ -1,7 +1,6 @@
 #include "statistics/linear.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -38,14 +37,10 @@ Matrix least_squares(const Matrix& x, const Matrix& y) {
   return x.colPivHouseholderQr().solve(y);
 }
 
-std::optional<Matrix> inverse(const Matrix& a) {
-  const Eigen::FullPivLU<Matrix> lu(a);
-  if (!lu.isInvertible()) return std::nullopt;
-  return lu.inverse();
-}
-
 Matrix floored_inverse(const Matrix& a, double least) {
-  const Eigen::JacobiSVD<Matrix> of(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // A square matrix needs no QR before the rotations.
+  const Eigen::JacobiSVD<Matrix, Eigen::NoQRPreconditioner> of(
+      a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector inverse = of.singularValues().cwiseMax(least).cwiseInverse();
   return of.matrixV() * inverse.asDiagonal() * of.matrixU().transpose();
 }

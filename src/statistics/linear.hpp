@@ -2,7 +2,6 @@
 // it seconds of compiling. Matrices of a fixed small size use Eigen directly.
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 
 namespace lilytank {
 
@@ -21,8 +20,6 @@ Eigen::MatrixXd symmetric_inverse(const Eigen::MatrixXd& a);
 
 /// Coefficients c, [column of x, column of y], that make |x c - y|^2 least [QR with pivots].
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y);
-/// None if `a` is singular to within rounding.
-std::optional<Eigen::MatrixXd> inverse(const Eigen::MatrixXd& a);
 /// The inverse of a square `a` whose singular values below `least` are raised to it.
 Eigen::MatrixXd floored_inverse(const Eigen::MatrixXd& a, double least);
 
