@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "bodies/verdict.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/state.hpp"
-#include "study/claimed_directory.hpp"
 #include "study/kept_rows.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
@@ -151,8 +151,8 @@ class Trials {
 
 std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
   using namespace bodies;
-  const ClaimedDirectory own(options.out, options.force,
-                             {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
+  const JobDirectory own(options.out, options.force,
+                         {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);

@@ -5,8 +5,8 @@
 
 #include "calibrate/fit_conditions.hpp"
 #include "calibrate/stages.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/state.hpp"
-#include "study/claimed_directory.hpp"
 
 namespace lilytank {
 namespace {
@@ -36,8 +36,8 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
                                            const CalibrationOptions& options) try {
   CalibrationSetup setup = set_up(experiment, options);
-  const ClaimedDirectory own(options.out, options.force,
-                             {"calibration", "1 " + hex(setup.identity), calibration_files()});
+  const JobDirectory own(options.out, options.force,
+                         {"calibration", "1 " + hex(setup.identity), calibration_files()});
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();

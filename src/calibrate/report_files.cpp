@@ -3,8 +3,8 @@
 
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"
-#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

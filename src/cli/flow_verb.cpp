@@ -6,9 +6,9 @@
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_report.hpp"
-#include "study/claimed_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -148,7 +148,7 @@ int flow_verb(const Arguments& arguments) {
     report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
   }
   const std::string dir = options.text("out", "out/flow-" + report.name);
-  const ClaimedDirectory own(dir, options.has("force"), {"flow", "map", flow_files()});
+  const JobDirectory own(dir, options.has("force"), {"flow", "map", flow_files()});
   const ReportProvenance origin =
       provenance("flow", arguments, seed_of(options), input_files(options, experiment));
   const auto write = [&] {

@@ -8,8 +8,8 @@
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
-#include "study/claimed_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -47,7 +47,7 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
   if (out.empty()) {
     std::cout << proof_text(proofs) << std::flush;
   } else {
-    const ClaimedDirectory own(out, force, {"proof", "pooled" + hashes, proof_files()});
+    const JobDirectory own(out, force, {"proof", "pooled" + hashes, proof_files()});
     report_proofs(proofs, out);
   }
   return Exit::done;

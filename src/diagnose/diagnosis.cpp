@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnose/diagnoser.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
-#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -136,7 +136,7 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
     out.recordings += 1, out.seconds += r.frames / r.rate;
   }
   if (recordings_at_fault(experiment, out)) {
-    const ClaimedDirectory own(
+    const JobDirectory own(
         options.out, options.force,
         {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
     out.verdict = Verdict::measurement;
@@ -144,8 +144,8 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
   }
   try {
     Diagnoser diagnoser(experiment, options);
-    const ClaimedDirectory own(options.out, options.force,
-                               {"diagnosis", diagnoser.identity(), diagnosis_files()});
+    const JobDirectory own(options.out, options.force,
+                           {"diagnosis", diagnoser.identity(), diagnosis_files()});
     diagnoser.run(out);
   } catch (const Stopped&) {
     return std::nullopt;

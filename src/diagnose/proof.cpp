@@ -8,9 +8,9 @@
 #include "diagnose/sealed.hpp"
 #include "diagnose/yardstick.hpp"
 #include "io/sha256.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
-#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -226,7 +226,7 @@ class Examination {
       };
     }
     Diagnoser diagnoser(open, job);
-    const ClaimedDirectory own(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+    const JobDirectory own(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
     if (options_.sealed) options_.sealed(out_.hash);
     diagnoser.prepare(after(diagnoser));
     rows_ = film_all(diagnoser);

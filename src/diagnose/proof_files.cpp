@@ -9,7 +9,7 @@
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
 #include "io/sha256.hpp"
-#include "study/claimed_directory.hpp"
+#include "jobs/job_directory.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

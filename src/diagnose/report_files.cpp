@@ -2,8 +2,8 @@
 
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/diagnosis.hpp"
-#include "study/claimed_directory.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {

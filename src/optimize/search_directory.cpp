@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/search_run.hpp"
-#include "study/claimed_directory.hpp"
 #include "study/search_store.hpp"
 #include "study/study_directory.hpp"
 

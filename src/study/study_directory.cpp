@@ -11,8 +11,8 @@
 
 #include "io/atomic_file.hpp"
 #include "jobs/directory_lock.hpp"
+#include "jobs/job_directory.hpp"
 #include "jobs/run_directory.hpp"
-#include "study/claimed_directory.hpp"
 #include "study/row_text.hpp"
 #include "study/search_store.hpp"
 #include "study/study_record.hpp"

@@ -1,5 +1,5 @@
 // Directories of results are one job's: nothing of another one is mixed with it or lost unasked.
-#include "study/claimed_directory.hpp"
+#include "jobs/job_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ DirectoryJob job(const std::string& identity) {
 // What claiming `out` is refused for, without the directory's name; "" if it is not.
 std::string refusal(const TemporaryDirectory& here, const DirectoryJob& of, bool force = false) {
   try {
-    const ClaimedDirectory own(here.path("out"), force, of);
+    const JobDirectory own(here.path("out"), force, of);
     return "";
   } catch (const InputError& e) {
     const std::string what = e.what();
@@ -29,7 +29,7 @@ std::string refusal(const TemporaryDirectory& here, const DirectoryJob& of, bool
   }
 }
 
-TEST(ClaimedDirectory, isKeptForTheSameJobAndRefusedToOthers) {
+TEST(JobDirectory, isKeptForTheSameJobAndRefusedToOthers) {
   const TemporaryDirectory here;
   EXPECT_EQ(refusal(here, job("1")), "");
   here.write("out/work/nulls.rows", "kept");
@@ -47,7 +47,7 @@ TEST(ClaimedDirectory, isKeptForTheSameJobAndRefusedToOthers) {
   EXPECT_EQ(here.read("out/diagnosis.txt"), "complete");
 }
 
-TEST(ClaimedDirectory, forceRemovesAllThatTheOtherJobLeftAndNothingElse) {
+TEST(JobDirectory, forceRemovesAllThatTheOtherJobLeftAndNothingElse) {
   const TemporaryDirectory here;
   EXPECT_EQ(refusal(here, job("1")), "");
   for (const char* name : {"work/nulls.rows", "diagnosis.txt", "missing.toml", "notes.md"}) {
@@ -61,7 +61,7 @@ TEST(ClaimedDirectory, forceRemovesAllThatTheOtherJobLeftAndNothingElse) {
   EXPECT_EQ(refusal(here, job("2")), "");
 }
 
-TEST(ClaimedDirectory, filesThatAreNobodysAreNotOverwritten) {
+TEST(JobDirectory, filesThatAreNobodysAreNotOverwritten) {
   const TemporaryDirectory here;
   here.write("out/missing.toml", "mine");
   here.write("out/work/thesis.tex", "mine");
@@ -72,15 +72,15 @@ TEST(ClaimedDirectory, filesThatAreNobodysAreNotOverwritten) {
   EXPECT_TRUE(here.has("out/work/thesis.tex"));
 }
 
-TEST(ClaimedDirectory, isOneProcessAtATime) {
+TEST(JobDirectory, isOneProcessAtATime) {
   const TemporaryDirectory here;
-  const ClaimedDirectory own(here.path("out"), false, job("1"));
-  EXPECT_THROW(ClaimedDirectory(here.path("out"), false, job("1")), InputError);
-  EXPECT_THROW(ClaimedDirectory(here.path("out"), true, job("1")), InputError);
+  const JobDirectory own(here.path("out"), false, job("1"));
+  EXPECT_THROW(JobDirectory(here.path("out"), false, job("1")), InputError);
+  EXPECT_THROW(JobDirectory(here.path("out"), true, job("1")), InputError);
 }
 
 // The lists are not derived from what is written: a file that was forgotten would survive --force.
-TEST(ClaimedDirectory, everyFileThatIsWrittenIsKnown) {
+TEST(JobDirectory, everyFileThatIsWrittenIsKnown) {
   const auto all_in = [](const std::vector<std::string>& written,
                          const std::vector<std::string>& known) {
     for (const std::string& name : written) {

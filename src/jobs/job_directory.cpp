@@ -1,4 +1,4 @@
-#include "study/claimed_directory.hpp"
+#include "jobs/job_directory.hpp"
 
 #include <filesystem>
 
@@ -20,7 +20,7 @@ std::string result_in(const std::string& dir, const DirectoryJob& job) {
 
 }  // namespace
 
-ClaimedDirectory::ClaimedDirectory(const std::string& dir, bool force, const DirectoryJob& job) {
+JobDirectory::JobDirectory(const std::string& dir, bool force, const DirectoryJob& job) {
   if (dir.empty()) return;
   lock_.take(dir);
   const fs::path work = fs::path(dir) / "work", mark = work / "identity";

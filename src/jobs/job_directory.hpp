@@ -15,12 +15,12 @@ struct DirectoryJob {
 };
 
 /// Held until the object goes. A file in `work` tells whose the directory is.
-class ClaimedDirectory {
+class JobDirectory {
  public:
   /// Nothing if `dir` is empty. What another job left, its `work` and its results, is removed with
   /// `force`, and refused without; so are files with names of results that are nobody's. Throws
   /// InputError, also if another process is at work there.
-  ClaimedDirectory(const std::string& dir, bool force, const DirectoryJob& job);
+  JobDirectory(const std::string& dir, bool force, const DirectoryJob& job);
 
  private:
   DirectoryLock lock_;
