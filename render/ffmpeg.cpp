@@ -108,8 +108,10 @@ std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& ou
     c.push_back(references);
     add({"-x264-params", "chroma-qp-offset=-6"});
     add({"-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-colorspace", "bt709",
-         "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f",
-         "mp4"});
+         "-color_primaries", "bt709", "-color_trc", "bt709", "-movflags", "+faststart",
+         "-metadata"});
+    c.push_back("comment=" + e.comment);
+    add({"-f", "mp4"});
   }
   c.push_back("file:" + output);
   return c;

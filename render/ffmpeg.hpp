@@ -15,6 +15,8 @@ struct Encoding {
   /// GIF only: the first frames, spread over the film, from which the palette is made; they are
   /// not shown. ffmpeg would otherwise keep the whole film in memory until it knows all colours.
   int palette_frames = 0;
+  /// MP4 only: stored as the film's comment.
+  std::string comment;
 };
 
 /// Starts ffmpeg (found in PATH), sends it frames, and waits for it. If the object goes away

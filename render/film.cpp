@@ -5,14 +5,19 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "ffmpeg.hpp"
 #include "frame.hpp"
 #include "io/atomic_file.hpp"
 #include "io/temporary_file.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr int kMostPaletteFrames = 24;
 
@@ -71,16 +76,64 @@ double shown_speed(const Schedule& s) {
   return s.frames > 1 ? s.speed : 0;
 }
 
+constexpr const char* kFilmMark = "lilytank film ";
+
+/// Whether a regular file exists and holds a text.
+bool holds(const std::string& file, const std::string& text) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && read_whole(file).find(text) != std::string::npos;
+}
+
+/// What decides every pixel of a film: the run's scenario and poses, and the options.
+std::string mark_of(const StoredRun& run, const FilmOptions& options, const Schedule& when) {
+  const Trajectory& t = run.trajectory;
+  const FrameStyle& style = options.style;
+  Fnv hash;
+  hash.add(hex(run.scenario.identity));
+  hash.add(t.time);
+  for (const auto* values : {&t.x, &t.y, &t.theta}) {
+    hash.add({reinterpret_cast<const char*>(values->data()), values->size() * sizeof(float)});
+  }
+  hash.add(std::array{when.from, when.to, when.step, options.fps, style.trail,
+                      static_cast<double>(style.size), static_cast<double>(style.flow),
+                      static_cast<double>(style.labels)});
+  return kFilmMark + hex(hash.value());
+}
+
+std::string still_name(int frame) {
+  char name[40];
+  std::snprintf(name, sizeof name, "frame_%06d.png", frame);
+  return name;
+}
+
+/// Numbers of the frames in a directory and their files.
+std::map<int, std::string> stills_in(const std::string& dir) {
+  std::map<int, std::string> stills;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(dir, ignored)) {
+    const std::string name = entry.path().filename().string();
+    int frame = 0;
+    const bool still = std::sscanf(name.c_str(), "frame_%d.png", &frame) == 1;
+    if (still && name == still_name(frame)) stills[frame] = entry.path().string();
+  }
+  return stills;
+}
+
 }  // namespace
 
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file) {
   const bool gif = is_gif(file);
   const Schedule when = schedule(run, options);
+  const std::string mark = mark_of(run, options, when);
+  std::error_code ignored;
+  const bool taken = fs::is_regular_file(file, ignored) && !holds(file, mark);
+  if (taken && !options.force) refuse_to_replace(file);
   // H.264 with half-resolution colour needs even sizes.
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size / 2 * 2);
   TemporaryFile unfinished(file);
   const int palette = gif ? std::min(kMostPaletteFrames, when.frames) : 0;
-  Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette}, unfinished.name());
+  Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette, mark},
+                unfinished.name());
   for (int k = 0; k < palette; ++k) {
     if (stopped(options)) return;  // ffmpeg and the file go away
     const double share = palette > 1 ? static_cast<double>(k) / (palette - 1) : 0;
@@ -96,6 +149,10 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
   unfinished.publish();
 }
 
+bool is_film(const std::string& file) {
+  return holds(file, kFilmMark);
+}
+
 std::vector<double> film_times(const StoredRun& run, const FilmOptions& options) {
   const Schedule when = schedule(run, options);
   std::vector<double> times;
@@ -106,12 +163,17 @@ std::vector<double> film_times(const StoredRun& run, const FilmOptions& options)
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
   const Schedule when = schedule(run, options);
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size);
+  // Frames of another film are found before the first one is written.
+  for (const auto& [frame, file] : stills_in(dir)) {
+    if (options.force) {
+      fs::remove(file);
+    } else if (frame >= when.frames || holds_other(file, raster.draw(when.time(frame)).encoded())) {
+      refuse_to_replace(file);
+    }
+  }
   make_directory(dir);
   for (int k = 0; k < when.frames && !stopped(options); ++k) {
-    char name[40];
-    std::snprintf(name, sizeof name, "frame_%06d.png", k);
-    write_atomically((std::filesystem::path(dir) / name).string(),
-                     raster.draw(when.time(k)).encoded());
+    write_atomically((fs::path(dir) / still_name(k)).string(), raster.draw(when.time(k)).encoded());
     report(options, k + 1, when.frames);
   }
 }

@@ -85,15 +85,14 @@ Canvas& FrameRaster::draw(double time) {
   return page_;
 }
 
-void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
-                const std::string& file) {
+std::string frame_picture(const StoredRun& run, double time, const FrameStyle& style,
+                          const std::string& file) {
   constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg};
   const PictureFormat format = format_of(file, kFormats);
   check_time(run.trajectory, time);
   if (format == PictureFormat::png) {
     FrameRaster raster(run, style, 0, style.size);
-    write_atomically(file, raster.draw(time).encoded());
-    return;
+    return std::string(raster.draw(time).encoded());
   }
   FramePainter painter(run, style, 0);
   const double scale = style.size / kPageHeight;
@@ -101,7 +100,12 @@ void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
   cairo_scale(canvas.get(), scale, scale);
   painter.draw_static(canvas, painter.field_at(time));
   painter.draw_moving(canvas, time);
-  write_atomically(file, canvas.encoded());
+  return std::string(canvas.encoded());
+}
+
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
+                const std::string& file) {
+  write_atomically(file, frame_picture(run, time, style, file));
 }
 
 }  // namespace lilytank

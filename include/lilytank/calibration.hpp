@@ -24,6 +24,8 @@
 
 namespace lilytank {
 
+class DirectoryLock;
+
 /// A parameter that is looked for.
 struct FitParameter {
   /// Dotted scenario path, or the camera's (emulator.hpp), and its SI unit.
@@ -99,6 +101,9 @@ struct CalibrationOptions {
   std::string out;
   /// Replace the files of another calibration in `out`.
   bool force = false;
+  /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
+  /// with the call.
+  std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Simulations at a time; 0: one per core. The result does not depend on it.
   int threads = 0;
   /// Set by a signal: running simulations are abandoned, finished ones stay in `out`.

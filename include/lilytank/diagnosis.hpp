@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 
 namespace lilytank {
 
+class DirectoryLock;
+
 struct DiagnosisOptions {
   int hold_out = 1;            ///< recordings kept for showing, where none says held_out: the last
   double minutes = 10;         ///< that it may take on two cores: scales the simulations
@@ -21,6 +24,9 @@ struct DiagnosisOptions {
   std::uint64_t seed = 1;
   std::string out;     ///< directory; empty: nothing is kept
   bool force = false;  ///< replace another diagnosis's files
+  /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
+  /// with the call.
+  std::shared_ptr<const DirectoryLock>* lock = nullptr;
   int threads = 0;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done, const std::string& stage)> progress;

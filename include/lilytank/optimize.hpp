@@ -21,6 +21,8 @@
 
 namespace lilytank {
 
+class DirectoryLock;
+
 /// What is made as small as possible. N copies are possible, the k-th first stood at t_k, K came to
 /// stand within the horizon T: N and T are the world's own.
 enum class Fitness {
@@ -154,6 +156,9 @@ struct OptimizationOptions {
   int threads = 0;
   /// Replace the files of another optimisation in `out`.
   bool force = false;
+  /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
+  /// with the call.
+  std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Set by a signal: running simulations are abandoned, finished ones are kept.
   const std::atomic<bool>* stop = nullptr;
   /// Called by one thread at a time: share done, and words such as "round 2 of 4, best 3100 s".

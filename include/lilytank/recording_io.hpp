@@ -244,5 +244,10 @@ Recording read_recording(const std::string& file, const RecordingOptions& option
 void write_recording(const Recording& recording, const std::string& file,
                      RecordingFormat format = RecordingFormat::tidy,
                      const Calibration& calibration = {});
+/// What write_recording() writes: pairs of path and content. Throws InputError.
+std::vector<std::pair<std::string, std::string>> recording_files(const Recording& recording,
+                                                                 const std::string& file,
+                                                                 RecordingFormat format,
+                                                                 const Calibration& calibration);
 
 }  // namespace lilytank

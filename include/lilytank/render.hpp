@@ -34,6 +34,9 @@ struct FrameStyle {
 /// ending. Throws InputError outside the run or if the file cannot be written.
 void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
                 const std::string& file);
+/// The bytes that draw_frame() writes to `file`.
+std::string frame_picture(const StoredRun& run, double time, const FrameStyle& style,
+                          const std::string& file);
 
 /// Which part of a run is filmed, and how fast.
 struct FilmOptions {
@@ -46,17 +49,24 @@ struct FilmOptions {
   /// Duration of the film, s, if `speed` is 0.
   double length = 60;
   FrameStyle style;
+  /// Replace files that are not this film or its frames.
+  bool force = true;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done)> progress;
 };
 /// Throws InputError if ffmpeg, which films need, is not in PATH: to be asked before long work.
 void require_film_program();
 /// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
-/// the file appears whole or not at all. Throws InputError if ffmpeg is missing or fails.
+/// the file appears whole or not at all. An .mp4 names in its comment the film that it holds, so a
+/// repeated call may replace it. Throws InputError if ffmpeg is missing or fails; unless
+/// `options.force`, also if the file exists and is not this film, before the first frame is drawn.
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file);
+/// Whether a file is an .mp4 that draw_film() wrote. Throws InputError if it cannot be read.
+bool is_film(const std::string& file);
 /// When the film's frames are (s of simulated time). Throws InputError as draw_film.
 std::vector<double> film_times(const StoredRun& run, const FilmOptions& options);
-/// The same frames as numbered PNG files in a directory.
+/// The same frames as numbered PNG files in a directory. Unless `options.force`, throws InputError
+/// if it holds frames of another film; with it, they are removed.
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir);
 
 /// One curve of a plot; `low` and `high`, where given, are drawn as a band.

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "lilytank/assembly_record.hpp"
@@ -10,12 +11,17 @@
 
 namespace lilytank {
 
+class DirectoryLock;
+
 /// Where a run is kept, and how it is interrupted.
 struct RunOptions {
   /// Directory, made if absent; empty: nothing is written.
   std::string out;
   /// Replace another run's files.
   bool force = false;
+  /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
+  /// with the call.
+  std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Set by a signal: the run ends after the current step with a checkpoint; a later call continues
   /// it.
   const std::atomic<bool>* stop = nullptr;

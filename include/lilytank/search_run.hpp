@@ -41,6 +41,8 @@ struct SearchRunOptions {
   std::string identity;
   /// Replace another search's files.
   bool force = false;
+  /// Whether the caller holds the lock of `dir`; a second one in the same process would fail.
+  bool locked = false;
   /// Evaluations at a time; 0: one a core.
   int threads = 0;
   /// Set by a signal: evaluations under way are abandoned, finished ones are kept.

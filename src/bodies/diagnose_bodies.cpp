@@ -151,8 +151,9 @@ class Trials {
 
 std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
   using namespace bodies;
-  const JobDirectory own(options.out, options.force,
-                         {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
+  const auto lock = claim_directory(options.out, options.force,
+                                    {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
+  if (options.lock != nullptr) *options.lock = lock;
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);

@@ -36,8 +36,9 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 std::optional<CalibrationResult> calibrate(const Experiment& experiment,
                                            const CalibrationOptions& options) try {
   CalibrationSetup setup = set_up(experiment, options);
-  const JobDirectory own(options.out, options.force,
-                         {"calibration", "1 " + hex(setup.identity), calibration_files()});
+  const auto lock = claim_directory(
+      options.out, options.force, {"calibration", "1 " + hex(setup.identity), calibration_files()});
+  if (options.lock != nullptr) *options.lock = lock;
   Stages stages(setup);
   CalibrationResult out = begun(setup);
   const FlowMaps maps = stages.flow_maps();

@@ -6,8 +6,7 @@
 #include "cli/options.hpp"
 #include "cli/point_bodies.hpp"
 #include "cli/provenance.hpp"
-#include "io/atomic_file.hpp"
-#include "study/study_directory.hpp"
+#include "jobs/job_directory.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
 #endif
@@ -71,27 +70,14 @@ std::string default_directory(const std::vector<AnalysisSource>& sources) {
   return "out/" + name + "-analysis";
 }
 
-/// The files that an analysis would replace though none wrote them: a directory of an earlier one
-/// is recognised by the columns of its summary.csv.
-std::vector<std::string> files_in_the_way(const Analysis& analysis, const std::string& dir) {
-  namespace fs = std::filesystem;
-  const auto lies_there = [&](const std::string& name) {
-    std::error_code ignored;
-    return fs::exists(fs::path(dir) / name, ignored);
-  };
-  if (lies_there("summary.csv")) {
-    const std::string text = read_whole((fs::path(dir) / "summary.csv").string());
-    if (text.substr(0, text.find('\n')).ends_with(",number,unit,value,low,high")) return {};
-  }
-  std::vector<std::string> files;
-  if (lies_there("report.html")) files.push_back((fs::path(dir) / "report.html").string());
+/// Names of all files that an analysis may leave.
+std::vector<std::string> result_names(const Analysis& analysis) {
+  std::vector<std::string> names{"report.html"}, figures{"msd_all_log"};
   for (const auto& [name, content] : analysis_files(analysis, {})) {
-    const std::string stem = fs::path(name).stem().string();
-    for (const std::string& file : {name, stem + ".png", stem + ".svg"}) {
-      if (lies_there(file)) files.push_back((fs::path(dir) / file).string());
-    }
+    names.push_back(name);
+    figures.push_back(std::filesystem::path(name).stem().string());
   }
-  return files;
+  return with_figures(std::move(names), figures);
 }
 
 void add_analyze_options(VerbOptions& options) {
@@ -135,11 +121,13 @@ int analyze_verb(const Arguments& arguments) {
   const std::string dir = options.text("out", default_directory(sources));
   options.spare_directory("out", dir, files);
   const bool force = options.has("force");
-  if (!force) refuse_foreign(dir, {}, "analysis");
+  const ReportProvenance origin = provenance("analyze", arguments, how.bootstrap.seed, files);
+  check_directory(dir, force, {"analysis", identity_of(origin), {}});
   const Analysis analysis = analyse(sources, how);
-  if (!force) refuse_foreign(dir, files_in_the_way(analysis, dir), "analysis");
+  const auto lock =
+      claim_directory(dir, force, {"analysis", identity_of(origin), result_names(analysis)});
   ReportDocument report = analysis_report(analysis);
-  report.provenance = provenance("analyze", arguments, how.bootstrap.seed, files);
+  report.provenance = origin;
   write_analysis(analysis, report, dir);
 #ifdef LILYTANK_HAS_RENDER
   draw_analysis(analysis, report, dir);

@@ -8,6 +8,7 @@
 #include "cli/provenance.hpp"
 #include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/recovery.hpp"
@@ -112,7 +113,7 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
 }
 
 // --recover: no recordings are read, they are simulated.
-int recover_verb(const VerbOptions& options, CalibrationOptions job) {
+int recover_verb(const VerbOptions& options, const Arguments& arguments, CalibrationOptions job) {
   options.refuse_given({"start", "comparisons", "balls"}, "has no effect with --recover");
   if (job.flow == CalibrationFlow::paper) {
     options.refuse("--flow " + options.text("flow") +
@@ -136,6 +137,10 @@ int recover_verb(const VerbOptions& options, CalibrationOptions job) {
     write_atomically((out / "recovery.csv").string(), recovery_csv(rows));
     write_atomically((out / "recovery.txt").string(), recovery_text(rows));
   };
+  const ReportProvenance origin =
+      provenance("calibrate", arguments, job.seed, options.positional());
+  const auto lock = claim_directory(
+      job.out, job.force, {"recovery", identity_of(origin), {"recovery.csv", "recovery.txt"}});
   const auto rows = recover(scenario, r);
   progress.clear();
   if (!rows) {
@@ -163,7 +168,7 @@ int calibrate_verb(const Arguments& arguments) {
     options.refuse_given({"duration", "recordings"}, "goes with --recover");
   refuse_point_bodies(options.positional());
   CalibrationOptions job = calibration_options(options);
-  if (options.has("recover")) return recover_verb(options, std::move(job));
+  if (options.has("recover")) return recover_verb(options, arguments, std::move(job));
   std::vector<std::string> files = options.positional();
   const Experiment experiment = load_experiment(files, options.list("set"));
   if (options.has("start")) {
@@ -181,6 +186,8 @@ int calibrate_verb(const Arguments& arguments) {
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  std::shared_ptr<const DirectoryLock> lock;  // until the report is written
+  job.lock = &lock;
   const auto found = calibrate(experiment, job);
   progress.clear();
   if (!found) {

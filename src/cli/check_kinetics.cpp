@@ -11,6 +11,7 @@
 #include "lilytank/measure.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/statistics.hpp"
+#include "text/fnv.hpp"
 #include "text/number.hpp"
 #ifdef LILYTANK_HAS_RENDER
 #include "lilytank/render.hpp"
@@ -110,6 +111,14 @@ std::uint64_t identity_of(const Scenario& scenario, const Ruleset& rules) {
   std::uint64_t hash = scenario.identity;
   for (const char c : to_text(rules)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   return hash;
+}
+
+// Of a directory's results: more worlds are added to those of the same rules and scenario.
+std::string identity_of(const CheckInput& input) {
+  if (input.scenario) return hex(identity_of(*input.scenario, input.rules));
+  Fnv hash;
+  hash.add(to_text(input.rules)), hash.add(to_csv(*input.rates));
+  return hex(hash.value());
 }
 
 // Nothing if it was stopped.
@@ -336,15 +345,24 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
   if (input.scenario || input.rates) {
     const std::string usual = input.scenario ? "out/check-" + input.rules.name : "";
     const std::string dir = options.text("out", usual);
-    if (!dir.empty()) make_directory(dir);
+    // Rates that do not suit the rules are refused before a directory is made.
+    if (input.rates) static_cast<void>(kinetics_of(input.rules, *input.rates, input.modules));
+    report.lock = claim_directory(
+        dir, options.has("force"),
+        {"check", identity_of(input),
+         with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
+                      {"yield"})});
     auto counted = input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
-    if (!counted) return {"", "", 0, true};
     report.dir = dir;
+    if (!counted) {
+      report.stopped = true;
+      return report;
+    }
     report.diverged = counted->diverged, report.text = diverged_text(*counted);
     if (report.diverged > 0 && counted->completion.empty()) return report;
+    const Kinetics kinetics = kinetics_of(input.rules, counted->table, input.modules);
     if (!dir.empty())
       write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted->table));
-    const Kinetics kinetics = kinetics_of(input.rules, counted->table, input.modules);
     face_rate = kinetics.face_rate, evaluation_rate = kinetics.evaluation_rate;
     report.text += table_text(counted->table) + kinetics_text(input.rules, kinetics) +
                    run_model(options, input, kinetics, *counted, dir);
@@ -354,7 +372,7 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
     if (options.has(name))
       exports.emplace_back(options.text(name),
                            text(input.rules, face_rate, evaluation_rate, input.modules));
-  write_together(exports);
+  write_results(exports, options.has("force"));
   return report;
 }
 

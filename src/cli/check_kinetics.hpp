@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/options.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/kinetics.hpp"
 #include "lilytank/scenario.hpp"
 
@@ -32,6 +33,7 @@ struct KineticsReport {
   std::string dir;   ///< of rates and curves; "": nothing was written
   int diverged = 0;  ///< worlds, which are left out
   bool stopped = false;
+  std::shared_ptr<const DirectoryLock> lock;  ///< of `dir`, until the last file is written
 };
 /// Does what the options ask for. Throws InputError.
 KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input);

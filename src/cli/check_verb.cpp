@@ -19,8 +19,9 @@ void add_check_options(VerbOptions& options) {
   const auto text = [] { return cxxopts::value<std::string>(); };
   options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
       "lattice", "simulations of the lattice model (20)", text(), "N")(
-      "attempts", "meetings in each (20000)", text(), "N")("seed", "of all random numbers (1)",
-                                                           text(), "N")("quiet", "no progress");
+      "attempts", "meetings in each (20000)", text(), "N")(
+      "seed", "of all random numbers (1)", text(), "N")("force", "replace other results")(
+      "quiet", "no progress");
   add_kinetics_options(options);
 }
 

@@ -75,6 +75,8 @@ int diagnose_verb(const Arguments& arguments) {
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  std::shared_ptr<const DirectoryLock> lock;  // until the report is written
+  job.lock = &lock;
   std::optional<Diagnosis> found;
   std::vector<std::string> inputs = options.positional();
   if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {

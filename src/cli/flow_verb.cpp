@@ -141,16 +141,19 @@ int flow_verb(const Arguments& arguments) {
   if (options.has("truth")) {
     report.truth = read_flow_truth(report.truth_file, report.options.cells);
   }
+  const std::string dir = options.text("out", "out/flow-" + report.name);
+  const ReportProvenance origin =
+      provenance("flow", arguments, seed_of(options), input_files(options, experiment));
+  const DirectoryJob job{"flow", identity_of(origin), flow_files()};
+  const bool force = options.has("force");
+  check_directory(dir, force, job);
   if (word != "smooth") {
     report.estimates.push_back(estimate_paper(experiment.recordings, report.ball, report.options));
   }
   if (word != "paper") {
     report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
   }
-  const std::string dir = options.text("out", "out/flow-" + report.name);
-  const JobDirectory own(dir, options.has("force"), {"flow", "map", flow_files()});
-  const ReportProvenance origin =
-      provenance("flow", arguments, seed_of(options), input_files(options, experiment));
+  const auto lock = claim_directory(dir, force, job);
   const auto write = [&] {
     ReportDocument document = flow_report(report);
     document.provenance = origin;

@@ -124,6 +124,8 @@ int optimize_verb(const Arguments& arguments) {
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
   job.stop = &stop_signal();
   const bool quiet = options.has("quiet");
+  std::shared_ptr<const DirectoryLock> lock;  // until the report is written
+  job.lock = &lock;
   const OptimizationResult result = run_with_progress(what, job, quiet);
   if (result.stopped) {
     std::cerr << "stopped; every evaluation is kept, and the same command goes on\n";

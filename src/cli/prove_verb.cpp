@@ -47,7 +47,7 @@ int tell_together(const std::vector<std::string>& dirs, const std::string& out, 
   if (out.empty()) {
     std::cout << proof_text(proofs) << std::flush;
   } else {
-    const JobDirectory own(out, force, {"proof", "pooled" + hashes, proof_files()});
+    const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
     report_proofs(proofs, out);
   }
   return Exit::done;
@@ -135,6 +135,8 @@ int prove_verb(const Arguments& arguments) {
     std::cout << "ground truth recorded; its SHA-256: " << hash << std::endl;
   };
   job.judged = [&](const Proof& so_far) { keep(so_far, dir); };
+  std::shared_ptr<const DirectoryLock> lock;  // until the report is written
+  job.diagnosis.lock = &lock;
   const auto proof = prove(job);
   progress.clear();
   if (!proof) {

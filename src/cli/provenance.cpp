@@ -54,4 +54,10 @@ ReportProvenance provenance(const std::string& verb, const Arguments& arguments,
   return out;
 }
 
+std::string identity_of(const ReportProvenance& provenance) {
+  std::string text = provenance.command + "\n" + provenance.version + "\n" + provenance.seed;
+  for (const auto& [file, hash] : provenance.inputs) text += "\n" + hash;
+  return sha256(text);
+}
+
 }  // namespace lilytank::cli

@@ -5,6 +5,7 @@
 
 #include "cli/recording_verb.hpp"
 #include "cli/stored_poses.hpp"
+#include "io/atomic_file.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/run.hpp"
@@ -72,15 +73,31 @@ std::string file_in(const std::string& out, const std::string& name, RecordingFo
   return (fs::path(out) / (stem_of(name) + ending)).string();
 }
 
-void write_one(const Recording& recording, const std::string& file, RecordingFormat format,
-               const Calibration& calibration) {
-  const fs::path folder = fs::path(file).parent_path();
-  std::error_code ignored;
-  if (!folder.empty()) fs::create_directories(folder, ignored);
-  write_recording(recording, file, format, calibration);
-  std::cerr << file << ": " << recording.tracks.size() << " tracks, " << recording.frames
-            << " frames\n";
-}
+/// Recordings as they are to be written: all of them, or none.
+class Output {
+ public:
+  void add(const Recording& recording, const std::string& file, RecordingFormat format,
+           const Calibration& calibration) {
+    for (auto& named : recording_files(recording, file, format, calibration)) {
+      files_.push_back(std::move(named));
+    }
+    lines_ += file + ": " + std::to_string(recording.tracks.size()) + " tracks, " +
+              std::to_string(recording.frames) + " frames\n";
+  }
+
+  void write(bool force) const {
+    for (const auto& [file, content] : files_) {
+      const std::string folder = fs::path(file).parent_path().string();
+      if (!folder.empty()) make_directory(folder);
+    }
+    write_results(files_, force);
+    std::cerr << lines_;
+  }
+
+ private:
+  NamedContents files_;
+  std::string lines_;
+};
 
 void add_writing_options(VerbOptions& options) {
   options.add()("out",
@@ -98,7 +115,8 @@ void add_writing_options(VerbOptions& options) {
       "camera",
       "of a run: rate, position_noise, heading_noise, dropped, missed, latency, swaps, "
       "swap_distance, lens, tilt, tilt_direction, height, headings, seed",
-      cxxopts::value<std::vector<std::string>>(), "KEY=VALUE");
+      cxxopts::value<std::vector<std::string>>(),
+      "KEY=VALUE")("force", "replace files of other contents");
 }
 
 /// Whether a file lies where those of single tracks are to be written, and is named as they are.
@@ -136,6 +154,7 @@ std::vector<std::string> files_to_write(const VerbOptions& options,
 void convert_files(const VerbOptions& options, const std::string& out, RecordingFormat format) {
   const std::vector<NamedRecording> all = named_recordings(options, options.positional());
   const std::vector<std::string> files = files_to_write(options, all, out, format);
+  Output output;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const NamedRecording& named = all[i];
     const CheckedRecording checked = check_recording(named.files, named.options);
@@ -144,9 +163,10 @@ void convert_files(const VerbOptions& options, const std::string& out, Recording
       std::cerr << named.name << ": " << checked.findings.size()
                 << " findings; lilytank recording check names them\n";
     }
-    write_one(checked.recording, files[i], format,
-              calibration_of(options, named.options.tank_radius));
+    output.add(checked.recording, files[i], format,
+               calibration_of(options, named.options.tank_radius));
   }
+  output.write(options.has("force"));
 }
 
 void convert_run(const VerbOptions& options, const std::string& dir, const std::string& out,
@@ -154,7 +174,9 @@ void convert_run(const VerbOptions& options, const std::string& dir, const std::
   options.spare_inputs("out", out, files_of_run(dir));
   const std::string scenario = (fs::path(dir) / run_file::resolved).string();
   const double radius = load_scenario({scenario}, {}).model.tank.radius;
-  write_one(filmed(dir, options), out, format, calibration_of(options, radius));
+  Output output;
+  output.add(filmed(dir, options), out, format, calibration_of(options, radius));
+  output.write(options.has("force"));
 }
 
 }  // namespace

@@ -197,7 +197,8 @@ int recording_check(const Arguments& arguments) {
                       "and what is done about it. Exit code 2: not usable as it is.");
   add_reading_options(options);
   options.add()("all", "show every finding, not ten of a kind")(
-      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE");
+      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE")(
+      "force", "replace a file of other contents");
   if (!options.parse(arguments)) return Exit::done;
   const std::vector<NamedRecording> all = named_recordings(options, options.positional());
   options.spare_inputs("csv", options.text("csv"), files_read(all, options.positional()));
@@ -223,7 +224,7 @@ int recording_check(const Arguments& arguments) {
     for (const Finding& finding : checked.findings) csv += csv_row(finding);
   };
   const int code = for_each(all, act);
-  if (options.has("csv")) write_atomically(options.text("csv"), csv);
+  if (options.has("csv")) write_results({{options.text("csv"), csv}}, options.has("force"));
   return code;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/stop_signal.hpp"
 #include "cli/stored_poses.hpp"
+#include "io/atomic_file.hpp"
 #include "io/units.hpp"
 #include "lilytank/render.hpp"
 #endif
@@ -38,6 +39,7 @@ FilmOptions film_options(const VerbOptions& options) {
   film.style.flow = flow_style(options);
   film.style.trail = options.number("trail", film.style.trail, 0, 3600, "s");
   film.style.labels = !options.has("no-labels");
+  film.force = options.has("force");
   if (film.to >= 0 && film.to <= film.from) options.refuse("--to is not after --from");
   return film;
 }
@@ -81,8 +83,9 @@ bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   };
   for (const char* name : {"png", "svg"}) {
     if (!options.has(name)) continue;
-    draw_frame(run, at, film.style, options.text(name));
-    made.push_back(options.text(name));
+    const std::string file = options.text(name);
+    write_results({{file, frame_picture(run, at, film.style, file)}}, film.force);
+    made.push_back(file);
   }
   for (const char* name : {"mp4", "gif"}) {
     if (options.has(name)) films(options.text(name));
@@ -113,7 +116,8 @@ int render_verb(const Arguments& arguments) {
       "png", "one frame", text(), "FILE")("svg", "one frame", text(), "FILE")(
       "at", "the frame's time (default: the end)", text(), "TIME")(
       "flow", "none, arrows or streamlines", text(), "WORD")("no-labels", "no states on modules")(
-      "trail", "time of path drawn behind each body (4 s)", text(), "TIME")("quiet", "no progress");
+      "trail", "time of path drawn behind each body (4 s)", text(), "TIME")(
+      "force", "replace files of other contents")("quiet", "no progress");
   if (!options.parse(arguments)) return Exit::done;
 #ifdef LILYTANK_HAS_RENDER
   if (options.positional().size() != 1) {

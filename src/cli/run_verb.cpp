@@ -44,15 +44,23 @@ void check_video(const VerbOptions& options, const Scenario& scenario) {
 #endif
 }
 
+/// Refuses to replace pictures that no `run --video` made: it draws the film first.
+void check_pictures(const std::string& out) {
+#ifdef LILYTANK_HAS_RENDER
+  if (is_film((fs::path(out) / "video.mp4").string())) return;
+#endif
+  refuse_foreign(out, existing_in(out, pictures_of_run()), "run");
+}
+
 /// Draws video.mp4, then the pictures and the page of the report; false if it was stopped.
-bool draw(const std::string& out, const ReportProvenance& origin, bool quiet) {
+bool draw(const std::string& out, const ReportProvenance& origin, bool force, bool quiet) {
 #ifdef LILYTANK_HAS_RENDER
   const StoredRun stored = load_run(out);
   FilmOptions film;
   film.length = 35, film.style.size = 720;  // 10 MB at most; `lilytank render` draws larger ones
   std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
   Progress progress(quiet);
-  film.stop = &stop_signal();
+  film.force = force, film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
   draw_film(stored, film, (fs::path(out) / "video.mp4").string());
   if (film.stop->load()) return false;
@@ -60,7 +68,8 @@ bool draw(const std::string& out, const ReportProvenance& origin, bool quiet) {
   report.provenance = origin;
   draw_run(stored, report, out);
 #else
-  static_cast<void>(out), static_cast<void>(origin), static_cast<void>(quiet);
+  static_cast<void>(out), static_cast<void>(origin);
+  static_cast<void>(force), static_cast<void>(quiet);
 #endif
   return true;
 }
@@ -101,7 +110,7 @@ void say_time(const RunResult& result, const std::string& out) {
 
 /// `film`: where the numbers come from, if the run is to be drawn.
 int finish(const Scenario& scenario, const RunResult& result, const std::string& out,
-           const std::optional<ReportProvenance>& film, bool quiet) {
+           const std::optional<ReportProvenance>& film, bool force, bool quiet) {
   if (result.status == RunStatus::stopped) {
     std::cerr << "stopped at " << without_rounding(result.time) << " s of "
               << shortest(scenario.duration) << " s; the same command goes on from there\n";
@@ -110,7 +119,7 @@ int finish(const Scenario& scenario, const RunResult& result, const std::string&
   if (!quiet) say_time(result, out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
-  } else if (film && !draw(out, *film, quiet)) {
+  } else if (film && !draw(out, *film, force, quiet)) {
     std::cerr << "stopped while drawing; the same command goes on from there\n";
     return Exit::stopped;
   }
@@ -147,12 +156,15 @@ int run_verb(const Arguments& arguments) {
   job.out = options.text("out", default_out(scenario, options.positional().back()));
   if (job.out.empty()) options.refuse("--out is empty");
   job.force = options.has("force");
+  if (video && !job.force) check_pictures(job.out);
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
   job.stop = &stop_signal();
+  std::shared_ptr<const DirectoryLock> lock;  // until the report is written
+  job.lock = &lock;
   const RunResult result = run_with_progress(scenario, job, quiet);
   std::optional<ReportProvenance> film;
   if (video) film = provenance("run", arguments, scenario.seed, options.positional());
-  return finish(scenario, result, job.out, film, quiet);
+  return finish(scenario, result, job.out, film, job.force, quiet);
 }
 
 }  // namespace lilytank::cli

@@ -80,10 +80,9 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
               int modules) {
   const std::string dir = options.text("all");
   const PlanList list = all_plans(target);
-  std::error_code error;
-  fs::create_directories(dir, error);
-  if (error) options.refuse("--all " + dir + ": " + error.message());
+  make_directory(dir);
   const std::size_t digits = std::to_string(list.plans.size()).size();
+  NamedContents files;
   for (std::size_t k = 0; k < list.plans.size(); ++k) {
     const Plan& plan = list.plans[k];
     std::string number = std::to_string(k + 1);
@@ -91,9 +90,12 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
     Ruleset rules = emit(target, plan, emitting);
     rules.name = target.name + "-" + number;
     const std::string file = (fs::path(dir) / (rules.name + ".rules")).string();
-    write_atomically(file, file_text(plan, rules, notes_on(target, plan, rules, modules)));
-    std::cout << file << "  " << algorithm_names()[static_cast<std::size_t>(plan.algorithm)]
-              << "\n";
+    files.emplace_back(file, file_text(plan, rules, notes_on(target, plan, rules, modules)));
+  }
+  write_results(files, options.has("force"));
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto algorithm = static_cast<std::size_t>(list.plans[k].algorithm);
+    std::cout << files[k].first << "  " << algorithm_names()[algorithm] << "\n";
   }
   std::cout << std::flush;
   std::cerr << list.plans.size() << (list.plans.size() == 1 ? " ruleset" : " rulesets") << " in "
@@ -113,7 +115,8 @@ void add_synthesize_options(VerbOptions& options) {
       "name", "of the ruleset (default: the target's)", text(), "WORD")(
       "out", "file for the rules (default: the terminal)", text(), "FILE")(
       "figure", "the stages of the assembly as .svg, .png or .pdf", text(), "FILE")(
-      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR");
+      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR")(
+      "force", "replace files of other contents");
 }
 
 // The library takes a name of one letter for a short option, which has one dash.
@@ -169,7 +172,7 @@ int synthesize_verb(const Arguments& arguments) {
   if (options.has("out")) files.emplace_back(options.text("out"), text);
   if (options.has("figure"))
     files.emplace_back(options.text("figure"), picture(options, target, plan));
-  write_together(files);
+  write_results(files, options.has("force"));
   if (!options.has("out")) std::cout << text << std::flush;
   for (const Note& note : notes)
     std::cerr << (note.warning ? "warning: " : "note: ") << note.text << "\n";

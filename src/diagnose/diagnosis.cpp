@@ -136,16 +136,18 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
     out.recordings += 1, out.seconds += r.frames / r.rate;
   }
   if (recordings_at_fault(experiment, out)) {
-    const JobDirectory own(
-        options.out, options.force,
-        {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
+    const auto lock =
+        claim_directory(options.out, options.force,
+                        {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
+    if (options.lock != nullptr) *options.lock = lock;
     out.verdict = Verdict::measurement;
     return out;
   }
   try {
     Diagnoser diagnoser(experiment, options);
-    const JobDirectory own(options.out, options.force,
-                           {"diagnosis", diagnoser.identity(), diagnosis_files()});
+    const auto lock = claim_directory(options.out, options.force,
+                                      {"diagnosis", diagnoser.identity(), diagnosis_files()});
+    if (options.lock != nullptr) *options.lock = lock;
     diagnoser.run(out);
   } catch (const Stopped&) {
     return std::nullopt;

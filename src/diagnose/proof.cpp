@@ -226,7 +226,9 @@ class Examination {
       };
     }
     Diagnoser diagnoser(open, job);
-    const JobDirectory own(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+    const auto lock =
+        claim_directory(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+    if (job.lock != nullptr) *job.lock = lock;
     if (options_.sealed) options_.sealed(out_.hash);
     diagnoser.prepare(after(diagnoser));
     rows_ = film_all(diagnoser);

@@ -77,7 +77,24 @@ void write_atomically(const std::string& file, std::string_view content) {
   written(file, content).publish();
 }
 
-void write_together(const NamedContents& files) {
+bool holds_other(const std::string& file, std::string_view content) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) && !is_written_through(file) &&
+         read_whole(file) != content;
+}
+
+void refuse_to_replace(const std::string& file) {
+  throw InputError("'" + file +
+                   "' exists with other contents; choose another name, or --force to replace it");
+}
+
+void write_results(const NamedContents& files, bool force) {
+  const auto check = [&] {
+    for (const auto& [file, content] : files) {
+      if (!force && holds_other(file, content)) refuse_to_replace(file);
+    }
+  };
+  check();
   const HeldSignals held;
   std::vector<TemporaryFile> complete;
   std::set<std::string> directories;  // in one order, so that no two processes wait for each other
@@ -91,7 +108,12 @@ void write_together(const NamedContents& files) {
   }
   std::vector<RenameLock> locks;
   for (const std::string& directory : directories) locks.emplace_back(directory);
+  check();  // another process may have written one meanwhile
   for (TemporaryFile& file : complete) file.publish();
+}
+
+void write_together(const NamedContents& files) {
+  write_results(files, true);
 }
 
 bool create_atomically(const std::string& file, std::string_view content) {

@@ -16,12 +16,22 @@ namespace lilytank {
 /// it is one's or another's, and whole.
 void write_atomically(const std::string& file, std::string_view content);
 
+/// Whether a file cannot be replaced without losing what it holds: a regular file that exists with
+/// other contents than `content`.
+bool holds_other(const std::string& file, std::string_view content);
+/// Throws InputError: a file exists with other contents, and --force replaces it.
+[[noreturn]] void refuse_to_replace(const std::string& file);
+
 using NamedContents = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes files that belong together, pairs of path and content: all are complete before the first
 /// one is renamed, and of several processes that write the same files one leaves all of them.
 /// Throws InputError; unless a renaming failed, no file has changed then.
 void write_together(const NamedContents& files);
+
+/// Writes results by write_together(). Unless `force`, throws InputError, and writes none, if one
+/// of the files exists with other contents: a repeated command writes the same ones.
+void write_results(const NamedContents& files, bool force);
 
 /// Creates a file as write_atomically() does; false, and nothing changes, if it exists, for exactly
 /// one of several processes that try at once succeeds. Throws InputError.

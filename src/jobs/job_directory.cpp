@@ -9,40 +9,94 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first of the job's results that lies there; "" if none does.
-std::string result_in(const std::string& dir, const DirectoryJob& job) {
+std::string with_article(const std::string& kind) {
+  const bool vowel = std::string("aeiou").find(kind.front()) != std::string::npos;
+  return (vowel ? "an " : "a ") + kind;
+}
+
+/// The text of work/identity, "lilytank <kind> <identity>"; "" if there is none.
+std::string job_mark_in(const std::string& dir) {
+  const fs::path mark = fs::path(dir) / "work" / "identity";
   std::error_code ignored;
-  for (const std::string& name : job.results) {
-    if (fs::exists(fs::path(dir) / name, ignored)) return name;
+  return fs::exists(mark, ignored) ? read_whole(mark.string()) : "";
+}
+
+std::string mark_words(const std::string& kind) {
+  return "lilytank " + kind + " ";
+}
+
+/// The first job of another kind whose mark is in `dir`; "" if there is none.
+std::string other_kind_in(const std::string& dir, const std::string& kind) {
+  static const struct {
+    const char *mark, *kind, *begin;
+  } kMarks[] = {{"resolved.toml", "run", ""},
+                {"study.toml", "study", kStudyMark},
+                {"search.state", "search", ""},
+                {"race/identity.txt", "search", ""}};
+  for (const auto& [mark, of, begin] : kMarks) {
+    if (kind == of) continue;
+    for (const std::string& file : existing_in(dir, {mark})) {
+      if (read_whole(file).starts_with(begin)) return of;
+    }
   }
-  return "";
+  const std::string identity = job_mark_in(dir);
+  if (identity.empty() || identity.starts_with(mark_words(kind))) return "";
+  const std::size_t begin = mark_words("").size() - 1;
+  return identity.substr(begin, identity.find(' ', begin) - begin);
 }
 
 }  // namespace
 
-JobDirectory::JobDirectory(const std::string& dir, bool force, const DirectoryJob& job) {
-  if (dir.empty()) return;
-  lock_.take(dir);
-  const fs::path work = fs::path(dir) / "work", mark = work / "identity";
-  const std::string mine = "lilytank " + job.kind + " " + job.identity + "\n";
+void check_directory(const std::string& dir, bool force, const DirectoryJob& job) {
+  if (dir.empty() || force) return;
+  const std::string there = job_mark_in(dir), words = mark_words(job.kind);
+  if (there == words + job.identity + "\n") return;
+  if (there.starts_with(words)) {
+    throw InputError("'" + dir + "' holds another " + job.kind +
+                     " (other data, options or program)" + kChooseAnother);
+  }
+  refuse_foreign(dir, existing_in(dir, job.results), job.kind);
+}
+
+std::shared_ptr<const DirectoryLock> claim_directory(const std::string& dir, bool force,
+                                                     const DirectoryJob& job) {
+  if (dir.empty()) return nullptr;
+  check_directory(dir, force, job);  // before the directory is made
+  auto lock = std::make_shared<DirectoryLock>();
+  lock->take(dir);
+  check_directory(dir, force, job);  // now that no other process can claim it
+  const std::string mark = mark_words(job.kind) + job.identity + "\n", there = job_mark_in(dir);
+  if (there == mark) return lock;
+  const fs::path work = fs::path(dir) / "work";
   std::error_code ignored;
-  const bool claimed = fs::exists(mark, ignored);
-  if (claimed && read_whole(mark.string()) == mine) return;
-  const std::string advice = ": choose another --out, or replace it with --force";
-  if (claimed && !force) {
-    const bool alike = read_whole(mark.string()).starts_with("lilytank " + job.kind + " ");
-    throw InputError(dir + " holds " +
-                     (alike ? "another " + job.kind + " (other data, options or program)"
-                            : "results that are not of a " + job.kind) +
-                     advice);
-  }
-  if (const std::string name = result_in(dir, job); !name.empty() && !force) {
-    throw InputError(dir + " holds a file '" + name + "' that is not of a " + job.kind + advice);
-  }
-  if (claimed) fs::remove_all(work, ignored);
-  for (const std::string& name : job.results) fs::remove(fs::path(dir) / name, ignored);
+  if (!there.empty()) fs::remove_all(work, ignored);
+  for (const std::string& file : existing_in(dir, job.results)) fs::remove(file, ignored);
   make_directory(work.string());
-  write_atomically(mark.string(), mine);
+  write_atomically((work / "identity").string(), mark);
+  return lock;
+}
+
+void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
+                    const std::string& kind) {
+  const std::string other = other_kind_in(dir, kind);
+  if (!other.empty()) {
+    throw InputError("'" + dir + "' holds " + with_article(other) + kChooseAnother);
+  }
+  if (files.empty()) return;
+  const std::string name = fs::path(files.front()).lexically_relative(dir).string();
+  throw InputError("'" + dir + "' holds a file '" + name + "' that is not of " +
+                   with_article(kind) + kChooseAnother);
+}
+
+std::vector<std::string> existing_in(const std::string& dir,
+                                     const std::vector<std::string>& names) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    const fs::path file = fs::path(dir) / name;
+    if (fs::exists(file, ignored)) files.push_back(file.string());
+  }
+  return files;
 }
 
 std::vector<std::string> with_figures(std::vector<std::string> files,

@@ -46,6 +46,7 @@ class Job {
 
   RunResult run() {
     if (directory_) directory_->open();
+    if (directory_ && options_->lock != nullptr) *options_->lock = directory_->lock();
     const Checkpoint* before = checkpoint();
     if (before != nullptr) {
       refusals_of(directory_->path(run_file::checkpoint),

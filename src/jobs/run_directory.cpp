@@ -26,10 +26,6 @@ constexpr const char* kResults[] = {
     run_file::metrics,           run_file::rules,          run_file::species,
     run_file::summary_text,      run_file::summary_json,   run_file::checkpoint};
 
-/// Pictures that `run --video` adds; they belong to the run that made them.
-constexpr const char* kPictures[] = {"video.mp4", "yield.png", "yield.svg", "frame.svg",
-                                     "report.html"};
-
 /// Names in a run's directory that load_scenario gives to attachments.
 std::vector<std::string> attached_names(const std::string& dir) {
   std::vector<std::string> names;
@@ -63,6 +59,10 @@ std::vector<std::string> files_of_run(const std::string& dir) {
   return names;
 }
 
+std::vector<std::string> pictures_of_run() {
+  return {"video.mp4", "yield.png", "yield.svg", "frame.svg", "report.html"};
+}
+
 RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force)
     : dir_(std::move(dir)), scenario_(&scenario), force_(force) {
   look();
@@ -85,13 +85,11 @@ void RunDirectory::look() {
     }
   }
   if (ours_ || force_) return;
-  const std::string advice = "; choose another --out, or --force to replace it";
   if (exists(path(run_file::resolved))) {
-    throw InputError("'" + dir_ + "' holds another run (" + first_difference() + ")" + advice);
+    throw InputError("'" + dir_ + "' holds another run (" + first_difference() + ")" +
+                     kChooseAnother);
   }
-  if (const std::string name = clash(); !name.empty()) {
-    throw InputError("'" + dir_ + "' holds a file '" + name + "' that is not of a run" + advice);
-  }
+  refuse_foreign(dir_, in_the_way(), "run");
 }
 
 std::string RunDirectory::path(const std::string& name) const {
@@ -131,14 +129,16 @@ std::string RunDirectory::first_difference() const {
 }
 
 // Without resolved.toml: attachments may lie there from a run killed while it began.
-std::string RunDirectory::clash() const {
-  for (const char* name : kResults) {
-    if (exists(path(name))) return name;
+std::vector<std::string> RunDirectory::in_the_way() const {
+  std::vector<std::string> files = existing_in(dir_, {std::begin(kResults), std::end(kResults)});
+  for (std::string& picture : existing_in(dir_, pictures_of_run())) {
+    files.push_back(std::move(picture));
   }
   for (const Scenario::Attachment& file : scenario_->files) {
-    if (exists(path(file.name)) && !holds(path(file.name), file.content)) return file.name;
+    const bool other = exists(path(file.name)) && !holds(path(file.name), file.content);
+    if (other) files.push_back(path(file.name));
   }
-  return "";
+  return files;
 }
 
 void RunDirectory::remove_old() const {
@@ -146,14 +146,14 @@ void RunDirectory::remove_old() const {
   // Only beside a resolved.toml are these names sure to be a run's copies and not a user's files.
   const bool run = fs::remove(path(run_file::resolved), ignored);
   for (const char* name : kResults) fs::remove(path(name), ignored);
-  for (const char* name : kPictures) fs::remove(path(name), ignored);
+  for (const std::string& name : pictures_of_run()) fs::remove(path(name), ignored);
   for (const std::string& name : run ? attached_names(dir_) : std::vector<std::string>{}) {
     fs::remove(path(name), ignored);
   }
 }
 
 void RunDirectory::open() {
-  lock_.take(dir_);
+  lock_->take(dir_);
   // Another process may have worked here between the look and the lock.
   const auto progress = [&] {
     return std::pair(ours_, checkpoint_ ? checkpoint_->state.step : std::int64_t{-1});

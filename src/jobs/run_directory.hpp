@@ -1,10 +1,12 @@
-// The directory of one run: what is in it, whose it is, and that nobody else works there.
+// Output directory of one run: its files, ownership, and a lock.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "jobs/checkpoint.hpp"
-#include "jobs/directory_lock.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank {
@@ -27,6 +29,9 @@ inline constexpr const char* checkpoint = "checkpoint.bin";
 /// results.
 std::vector<std::string> files_of_run(const std::string& dir);
 
+/// Names of the pictures that `run --video` adds.
+std::vector<std::string> pictures_of_run();
+
 class RunDirectory {
  public:
   /// Looks into `dir`, changing nothing. Throws InputError if it holds another scenario's run,
@@ -38,6 +43,9 @@ class RunDirectory {
   /// Makes the directory, takes it for this process, and, where the run was not begun here, removes
   /// what another one left and writes the resolved scenario. Throws InputError.
   void open();
+
+  /// Taken by open(); to be held until the last file of the run is written.
+  std::shared_ptr<const DirectoryLock> lock() const { return lock_; }
 
   /// Compares the files of the run with its checkpoint. Throws InputError if one is missing or was
   /// changed.
@@ -53,7 +61,7 @@ class RunDirectory {
   void look();
   bool same_run() const;
   std::string first_difference() const;
-  std::string clash() const;
+  std::vector<std::string> in_the_way() const;
   void remove_old() const;
 
   std::string dir_;
@@ -61,7 +69,7 @@ class RunDirectory {
   bool force_;
   bool ours_ = false;  ///< this scenario's run was begun here
   std::optional<Checkpoint> checkpoint_;
-  DirectoryLock lock_;
+  std::shared_ptr<DirectoryLock> lock_ = std::make_shared<DirectoryLock>();
 };
 
 }  // namespace lilytank

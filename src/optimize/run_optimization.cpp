@@ -82,7 +82,8 @@ void prepare_comparison(const Optimization::Source& source, OptimizationResult& 
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options) {
   OptimizationResult result;
   const Optimization::Source* source = &what.source();
-  claim_search_directory(*source, options.out, options.force);
+  const auto lock = claim_search_directory(*source, options.out, options.force);
+  if (options.lock != nullptr) *options.lock = lock;
   std::unique_ptr<Search> search = source->search();
   const RaceOutcome race = run_race(*source, options);
   result.race = race.entries;
@@ -90,7 +91,7 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
   if (result.stopped) return result;
   if (race.winner != nullptr) source = race.winner, search = source->winners_search(race.start);
   SearchRunOptions run;
-  run.dir = options.out, run.identity = source->identity();
+  run.dir = options.out, run.identity = source->identity(), run.locked = true;
   run.force = options.force, run.threads = options.threads, run.stop = options.stop;
   run.progress = [&](const SearchProgress& now) {
     if (!options.progress) return;

@@ -113,17 +113,21 @@ void check_search_directory(const Optimization::Source& source, const std::strin
   refuse_foreign(dir, in_the_way(source, dir), "search");
 }
 
-void claim_search_directory(const Optimization::Source& source, const std::string& dir,
-                            bool force) {
-  check_search_directory(source, dir, force);
-  if (!force || is_ours(source, dir)) return;
+std::shared_ptr<const DirectoryLock> claim_search_directory(const Optimization::Source& source,
+                                                            const std::string& dir, bool force) {
+  check_search_directory(source, dir, force);  // before the directory is made
+  auto lock = std::make_shared<DirectoryLock>();
+  lock->take(dir);
+  check_search_directory(source, dir, force);  // now that no other process can claim it
+  if (!force || is_ours(source, dir)) return lock;
   const bool race = is_there(race_identity_file(dir)), compared = is_compared(dir);
-  remove_results(dir, files_of_search(dir));
   std::error_code ignored;
+  for (const std::string& file : files_of_search(dir)) fs::remove(file, ignored);
   if (race) fs::remove_all(fs::path(dir) / "race", ignored);
   // Unless there is something else in them.
   if (race) fs::remove(fs::path(dir) / "rulesets", ignored);
   if (compared) fs::remove(compare_in(dir), ignored);
+  return lock;
 }
 
 }  // namespace lilytank

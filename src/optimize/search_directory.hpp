@@ -1,8 +1,10 @@
-// Whose the directory of an optimisation is.
+// Output directory of an optimisation: ownership and overwriting.
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "jobs/directory_lock.hpp"
 #include "optimize/source.hpp"
 
 namespace lilytank {
@@ -20,8 +22,10 @@ std::vector<std::string> files_of_search(const std::string& dir);
 /// a run, or files with names of results that are nobody's, unless `force`; and if the comparison
 /// would overwrite a study file of the user's.
 void check_search_directory(const Optimization::Source& source, const std::string& dir, bool force);
-/// The same, and with `force` removes what is not this optimisation's. Throws InputError, also if
-/// another process is at work there.
-void claim_search_directory(const Optimization::Source& source, const std::string& dir, bool force);
+/// Makes the directory if absent, locks it and, with `force`, removes what is not of this
+/// optimisation. Returns the lock, to be held until the last result is written. Throws InputError
+/// as check_search_directory() does, and if another process is at work there.
+std::shared_ptr<const DirectoryLock> claim_search_directory(const Optimization::Source& source,
+                                                            const std::string& dir, bool force);
 
 }  // namespace lilytank

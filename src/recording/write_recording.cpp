@@ -325,20 +325,25 @@ void refuse_others(const std::string& dir, const std::map<std::string, std::stri
 
 }  // namespace
 
+NamedContents recording_files(const Recording& recording, const std::string& file,
+                              RecordingFormat format, const Calibration& calibration) {
+  auto files = Writer(recording, format, calibration).files();
+  const bool many = one_file_a_track(format);
+  if (many) refuse_others(file, files);
+  NamedContents out;
+  for (auto& [name, text] : files) {
+    std::string path = many ? (fs::path(file) / name).string() : file;
+    if (path.ends_with(".gz")) text = gzipped(text);
+    out.emplace_back(std::move(path), std::move(text));
+  }
+  return out;
+}
+
 void write_recording(const Recording& recording, const std::string& file, RecordingFormat format,
                      const Calibration& calibration) {
-  const auto files = Writer(recording, format, calibration).files();
-  const bool many = one_file_a_track(format);
-  if (many) {
-    refuse_others(file, files);
-    std::error_code problem;
-    fs::create_directories(file, problem);
-    if (problem) throw InputError(system_problem("cannot make", file, problem.value()));
-  }
-  for (const auto& [name, text] : files) {
-    const std::string path = many ? (fs::path(file) / name).string() : file;
-    write_atomically(path, path.ends_with(".gz") ? gzipped(text) : text);
-  }
+  const NamedContents files = recording_files(recording, file, format, calibration);
+  if (one_file_a_track(format)) make_directory(file);
+  write_together(files);
 }
 
 }  // namespace lilytank

@@ -19,9 +19,7 @@ class SearchJob {
  public:
   SearchJob(std::unique_ptr<Search> fresh, const Objective& objective,
             const SearchRunOptions& options)
-      : objective_(&objective),
-        options_(&options),
-        store_(options.dir, options.identity, *fresh, options.force) {
+      : objective_(&objective), options_(&options), store_(options, *fresh) {
     result_.search = store_.stored();
     if (!result_.search) result_.search = std::move(fresh);
   }

@@ -8,7 +8,6 @@
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
-#include "lilytank/search_run.hpp"
 #include "lilytank/state.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
@@ -64,21 +63,22 @@ bool is_search_of(const std::string& state, const std::string& what, const Searc
   return state.starts_with(first_lines(identity_of(what, fresh)));
 }
 
-SearchStore::SearchStore(std::string dir, const std::string& what, const Search& fresh, bool force)
-    : dir_(std::move(dir)), identity_(identity_of(what, fresh)) {
+SearchStore::SearchStore(const SearchRunOptions& options, const Search& fresh)
+    : dir_(options.dir), identity_(identity_of(options.identity, fresh)) {
   for (const SearchAxis& axis : fresh.space()) axes_.push_back(axis.name);
-  lock_.take(dir_);
+  if (!options.locked) lock_.take(dir_);
   const bool begun = exists(path(search_file::state));
   const std::string state = begun ? read_whole(path(search_file::state)) : "";
   if (state.starts_with(first_lines(identity_))) {
     resume(state);
     return;
   }
-  const std::string advice = "; choose another directory, or --force to replace it";
-  if (begun && !force) throw InputError("'" + dir_ + "' holds another search" + advice);
-  for (const char* name : {search_file::evaluations, search_file::history}) {
-    if (begun || force || !exists(path(name))) continue;
-    throw InputError("'" + dir_ + "' holds a file '" + name + "' that is not of a search" + advice);
+  if (begun && !options.force) {
+    throw InputError("'" + dir_ + "' holds another search" + kChooseAnother);
+  }
+  if (!begun && !options.force) {
+    refuse_foreign(dir_, existing_in(dir_, {search_file::evaluations, search_file::history}),
+                   "search");
   }
   clear();
   open(fresh);

@@ -1,4 +1,4 @@
-// The directory of a search: whose it is, a checkpoint, and every value.
+// Output directory of a search: ownership, a checkpoint, and every value.
 //
 // A value is logged as soon as it is there; the checkpoint only spares replaying the search from
 // its start. It is never ahead of the log, so whatever is lost in a kill is evaluated again.
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "io/append_file.hpp"
-#include "jobs/directory_lock.hpp"
-#include "lilytank/search.hpp"
+#include "jobs/job_directory.hpp"
+#include "lilytank/search_run.hpp"
 
 namespace lilytank {
 
@@ -31,9 +31,9 @@ bool is_search_of(const std::string& state, const std::string& what, const Searc
 
 class SearchStore {
  public:
-  /// Takes the directory. `what`: names the search beside its own options. Throws InputError if the
-  /// directory is in use, or holds another search or damaged files and not `force`.
-  SearchStore(std::string dir, const std::string& what, const Search& fresh, bool force);
+  /// Locks the directory unless `options.locked`. Throws InputError if the directory is in use, or,
+  /// unless `options.force`, holds another search or damaged files.
+  SearchStore(const SearchRunOptions& options, const Search& fresh);
 
   /// The stored search, if there is one.
   std::unique_ptr<Search> stored() { return std::move(stored_); }

@@ -10,11 +10,7 @@
 #include <tuple>
 
 #include "io/atomic_file.hpp"
-#include "jobs/directory_lock.hpp"
-#include "jobs/job_directory.hpp"
-#include "jobs/run_directory.hpp"
 #include "study/row_text.hpp"
-#include "study/search_store.hpp"
 #include "study/study_record.hpp"
 #include "text/number.hpp"
 
@@ -144,33 +140,6 @@ std::string claim_file(const std::string& dir) {
 }
 
 }  // namespace
-
-void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
-                    const std::string& kind) {
-  const auto there = [&](const char* name) {
-    std::error_code ignored;
-    return fs::exists(file_in(dir, name), ignored);
-  };
-  std::string results;
-  if (there(run_file::resolved)) results = "a run";
-  if (kind == "analysis") {
-    if (there(study_file::plan)) results = "a study";
-    if (there(search_file::state)) results = "a search";
-    if (there("work/identity")) results = "a calibration, diagnosis or proof";
-  }
-  if (!results.empty()) throw InputError("'" + dir + "' holds " + results + kChooseAnother);
-  if (files.empty()) return;
-  const std::string name = fs::path(files.front()).lexically_relative(dir).string();
-  throw InputError("'" + dir + "' holds a file '" + name + "' that is not of " +
-                   (kind == "analysis" ? "an " : "a ") + kind + kChooseAnother);
-}
-
-void remove_results(const std::string& dir, const std::vector<std::string>& files) {
-  DirectoryLock lock;
-  lock.take(dir);
-  std::error_code ignored;
-  for (const std::string& file : files) fs::remove(file, ignored);
-}
 
 std::vector<std::string> files_of_study(const std::string& dir) {
   std::vector<std::string> files =

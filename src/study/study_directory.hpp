@@ -1,4 +1,4 @@
-// The directory of a study: whose it is, the rows that are there, and new ones.
+// Output directory of a study: ownership, stored rows, and new rows.
 //
 // Every process writes a rows file of its own, begun with its first row and never touched by
 // another, so any number of processes, on any machines that share the directory, may come and go. A
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/append_file.hpp"
-#include "jobs/directory_lock.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/study.hpp"
 
 namespace lilytank {
@@ -21,18 +21,6 @@ inline constexpr const char* plan = "study.toml";
 inline constexpr const char* table = "table.csv";
 inline constexpr const char* rows_prefix = "rows-";  ///< "rows-0001.csv"
 }  // namespace study_file
-
-/// What to do where a directory holds the results of something else.
-inline const std::string kChooseAnother = "; choose another --out, or --force to replace it";
-
-/// Throws InputError if `dir` holds the results of another job (a run; also a study, a search, a
-/// calibration, ... where the `kind` is none of these), or any of these `files`, which lie there
-/// and are no `kind`'s ("study").
-void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
-                    const std::string& kind);
-/// Removes files of a directory, made if absent. Throws InputError if another process is at work
-/// there.
-void remove_results(const std::string& dir, const std::vector<std::string>& files);
 
 /// Paths of what a study has left in a directory, and of files that have such names.
 std::vector<std::string> files_of_study(const std::string& dir);

@@ -16,7 +16,7 @@ constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 const std::vector<std::string> kHeadNames{"name",       "scenarios", "sets",    "seed",
                                           "replicates", "axes",      "identity"};
 
-const std::string kFirstWords = "# A study's settings and rules, written by lilytank";
+const std::string kFirstWords = kStudyMark;
 
 std::string quoted_list(const std::vector<std::string>& texts) {
   std::string out;

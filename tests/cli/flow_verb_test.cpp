@@ -63,11 +63,16 @@ TEST(flowVerb, replacesOnlyWhatAFlowLeft) {
   lilytank.here.write("f/flow.txt", "mine");
   Answer a = lilytank(flow);
   EXPECT_EQ(a.code, 2);
-  EXPECT_NE(a.err.find("f holds a file 'flow.txt' that is not of a flow"), std::string::npos)
+  EXPECT_NE(a.err.find("'f' holds a file 'flow.txt' that is not of a flow"), std::string::npos)
       << a.err;
   EXPECT_EQ(lilytank.here.read("f/flow.txt"), "mine");
   EXPECT_EQ(lilytank(flow + " --force").code, 0);
-  EXPECT_EQ(lilytank(flow + " --cells 20").code, 0);
+  EXPECT_EQ(lilytank(flow).code, 0);
+  a = lilytank(flow + " --cells 20");
+  EXPECT_EQ(a.code, 2);
+  EXPECT_NE(a.err.find("'f' holds another flow (other data, options or program)"),
+            std::string::npos)
+      << a.err;
 }
 
 TEST(flowVerb, cellsThatAreLargeEnoughGiveNoWarning) {

@@ -147,10 +147,12 @@ fi
 source "$here/interruptions.sh"
 source "$here/surroundings.sh"
 source "$here/names.sh"
+source "$here/overwriting.sh"
 begin=$SECONDS
 interruption_rows
 surrounding_rows
 name_rows
+overwriting_rows
 if row "inputs afterwards"; then
   if [[ $(digest "$in") == "$inputs_before" ]]; then count_same; else count_wrong inputs "they have changed"; fi
 fi

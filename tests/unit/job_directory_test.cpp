@@ -21,11 +21,11 @@ DirectoryJob job(const std::string& identity) {
 // What claiming `out` is refused for, without the directory's name; "" if it is not.
 std::string refusal(const TemporaryDirectory& here, const DirectoryJob& of, bool force = false) {
   try {
-    const JobDirectory own(here.path("out"), force, of);
+    const auto lock = claim_directory(here.path("out"), force, of);
     return "";
   } catch (const InputError& e) {
     const std::string what = e.what();
-    return what.substr(what.find("out") + 3);
+    return what.substr(what.find("out'") + 4);
   }
 }
 
@@ -36,13 +36,10 @@ TEST(JobDirectory, isKeptForTheSameJobAndRefusedToOthers) {
   here.write("out/diagnosis.txt", "complete");
   EXPECT_EQ(refusal(here, job("1")), "");
   EXPECT_EQ(refusal(here, job("2")),
-            " holds another diagnosis (other data, options or program): choose another --out, or "
-            "replace it with --force");
+            " holds another diagnosis (other data, options or program)" + kChooseAnother);
   DirectoryJob other = job("1");
   other.kind = "proof";
-  EXPECT_EQ(refusal(here, other),
-            " holds results that are not of a proof: choose another --out, or replace it with "
-            "--force");
+  EXPECT_EQ(refusal(here, other), " holds a diagnosis" + kChooseAnother);
   EXPECT_EQ(here.read("out/work/nulls.rows"), "kept");
   EXPECT_EQ(here.read("out/diagnosis.txt"), "complete");
 }
@@ -66,17 +63,16 @@ TEST(JobDirectory, filesThatAreNobodysAreNotOverwritten) {
   here.write("out/missing.toml", "mine");
   here.write("out/work/thesis.tex", "mine");
   EXPECT_EQ(refusal(here, job("1")),
-            " holds a file 'missing.toml' that is not of a diagnosis: choose another --out, or "
-            "replace it with --force");
+            " holds a file 'missing.toml' that is not of a diagnosis" + kChooseAnother);
   EXPECT_EQ(refusal(here, job("1"), true), "");
   EXPECT_TRUE(here.has("out/work/thesis.tex"));
 }
 
 TEST(JobDirectory, isOneProcessAtATime) {
   const TemporaryDirectory here;
-  const JobDirectory own(here.path("out"), false, job("1"));
-  EXPECT_THROW(JobDirectory(here.path("out"), false, job("1")), InputError);
-  EXPECT_THROW(JobDirectory(here.path("out"), true, job("1")), InputError);
+  const auto lock = claim_directory(here.path("out"), false, job("1"));
+  EXPECT_THROW(claim_directory(here.path("out"), false, job("1")), InputError);
+  EXPECT_THROW(claim_directory(here.path("out"), true, job("1")), InputError);
 }
 
 // The lists are not derived from what is written: a file that was forgotten would survive --force.
