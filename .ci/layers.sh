@@ -83,7 +83,7 @@ forbid '#include <(chrono|ctime|time\.h|unordered_map|unordered_set|iostream)>' 
   'no clock, no hashed order and no console in what steps a world or a search' "${steady[@]}"
 home text error
 home math math random
-home model event flow_field force model ruleset state
+home model effect event flow_field force model ruleset state
 home world start world
 home search search
 home statistics normality statistics

@@ -8,12 +8,22 @@
 #include <string_view>
 #include <vector>
 
+#include "lilytank/effect.hpp"
 #include "lilytank/math.hpp"
 
 namespace lilytank {
 
 class FlowField;
 struct Model;
+
+/// What a parameter measures: how synthetic experiments draw other values of it.
+enum class ParameterKind : std::uint8_t {
+  scale,      ///< a strength, range, time or frequency: times a factor
+  place,      ///< a coordinate in the tank
+  phase,      ///< of an oscillation: any
+  direction,  ///< in the module's frame: stays as it is
+  module,     ///< the number of one
+};
 
 /// A number that a user may set. Scenario files name it forces.<term>.<name>.
 struct Parameter {
@@ -29,6 +39,7 @@ struct Parameter {
   std::string_view meaning;
   /// Integers only.
   bool whole = false;
+  ParameterKind kind = ParameterKind::scale;
 };
 
 /// Poses and twists of all bodies that water touches, structure of arrays, each of length n:
@@ -116,6 +127,8 @@ class ForceTerm {
     static_cast<void>(p);
     return "";
   }
+  /// How the search for omitted effects tries the term; empty: it does not.
+  virtual std::span<const EffectDescription> effects() const { return {}; }
   /// Part of the paper's model: on unless a scenario says otherwise.
   virtual bool baseline() const { return false; }
   /// Adds the wrench on every body to `out` (length k.size()). `p` are the parameters' values in

@@ -19,7 +19,7 @@ constexpr double kLeastFactor = 0.2, kMostFactor = 2;  // of the filter's answer
 std::string key_of(const Effect& effect) {
   std::string key = effect.name;
   for (const std::string& path : effect.paths) key += " " + path;
-  for (const auto& [path, value] : effect.shape) key += " " + path + " " + shortest(value);
+  for (const auto& [of, value] : effect.held) key += " " + of.path() + " " + shortest(value);
   return key;
 }
 

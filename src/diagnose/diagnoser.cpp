@@ -202,7 +202,7 @@ ScorePlan Diagnoser::plan(const Vector& centre) const {
   const int bodies = most_bodies(setup_.shapes);
   p.identities = known <= bodies && later <= most_bodies(setup_.held_out_shapes);
   if (!p.identities) {
-    std::erase_if(p.effects, [](const Effect& e) { return e.name == "heterogeneous_module"; });
+    std::erase_if(p.effects, [](const Effect& e) { return e.estimated == Estimated::module; });
   }
   p.shapes = shape_catalogue(p.model, longest);
   p.nuisances_known = nuisances_known(p.model, *maps_, derived_seed(options_.seed, 32));

@@ -75,7 +75,7 @@ class Diagnoser {
   /// The effect of this name as recordings tell it directly: a stream at its place, with its speed,
   /// a force between modules of its range, vortices of their frequency.
   struct Scanned {
-    std::vector<std::pair<std::string, double>> shape;
+    std::vector<HeldParameter> held;
     std::optional<JointAmplitudes> amplitudes;
   };
   std::optional<Scanned> scanned(const Effect& effect, const ScoreDetails& details) const;
@@ -92,7 +92,7 @@ class Diagnoser {
                     Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
   void tell_detectable(const Naming& naming, Diagnosis& out) const;
-  bool is_told(const Explanation& e, const std::string& name) const;
+  bool is_told(const Explanation& e, const Effect& one) const;
   const FoundCurve* map_of(const std::string& variable, const Diagnosis& out) const;
   void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
   void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,

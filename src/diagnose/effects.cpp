@@ -1,8 +1,12 @@
 #include "diagnose/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
+#include "forces/library.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -10,166 +14,89 @@
 namespace lilytank {
 namespace {
 
-std::string force(const std::string& term, const std::string& parameter) {
-  return "forces." + term + "." + parameter;
-}
-
-Effect one(const std::string& name, const std::string& parameter, double size,
-           const std::string& unit, const std::string& variable) {
-  Effect e;
-  e.name = name, e.paths = {force(name, parameter)}, e.sizes = {size}, e.units = {unit};
-  e.variable = variable;
-  return e;
-}
-
-// An amplitude along each of two axes.
-Effect two(const std::string& name, const std::string& first, const std::string& second,
-           double size, const std::string& unit, const std::string& variable) {
-  Effect e = one(name, first, size, unit, variable);
-  e.paths.push_back(force(name, second)), e.sizes.push_back(size), e.units.push_back(unit);
-  e.two_sided = true;
-  return e;
-}
-
 constexpr double kSlowest = 0.05;  // m/s, of water that curves over slip and spin are made for
-constexpr const char* kLogLatches = "latches off, or their times logged";
-constexpr const char* kLonely = "a recording of one module alone";
-constexpr const char* kOtherBody = "a recording of bodies of another shape or mass";
-constexpr const char* kTurnedCamera = "a recording with the camera turned by half a turn";
-constexpr const char* kGrid = "a picture of a square grid on the water";
-constexpr const char* kPumps = "a recording at another pump power";
+constexpr int kStreams = 6;        // places on a circle at which a stream is tried
+constexpr double kStreamsAt = 0.45, kFarthestStream = 0.8;  // of the tank's radius
+const std::string kFriction = "contact.friction", kRestitution = "contact.restitution";
 
-void add_pairs(std::vector<Effect>& all) {
-  for (const double range : {0.004, 0.012, 0.03}) {
-    for (const char* name : {"pair_attraction", "pair_repulsion"}) {
-      Effect e = one(name, "strength", 5e-3, "N", "pair");
-      e.shape = {{force(name, "range"), range}};
-      e.refine = {{force(name, "range"), "m", 0.0015, 0.08, true, false}};
-      e.split = kLogLatches;
-      e.scored = name[5] == 'a';  // the other one's force is this one's, turned round
-      all.push_back(e);
+ParameterRef parameter_named(const ForceTerm& term, std::string_view name) {
+  const std::span<const Parameter> all = term.parameters();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].name == name) return {&term, k};
+  }
+  throw std::logic_error("an effect of " + std::string(term.name()) + " has a parameter \"" +
+                         std::string(name) + "\" that the term has not");
+}
+
+Effect described(const ForceTerm& term, const EffectDescription& d, const Model& model) {
+  Effect e;
+  e.name = term.name(), e.equation = term.equation(), e.term = &term, e.variable = d.variable;
+  e.negative_of = d.negative_of == nullptr ? nullptr : &d.negative_of();
+  e.estimated = d.estimated, e.two_sided = d.two_sided, e.split = d.split, e.growth = d.growth;
+  // The force of the negative is this one's, turned round.
+  e.scored = d.scored && e.negative_of == nullptr, e.mean_force = d.mean_force;
+  for (const auto& [name, size] : d.amplitudes) {
+    if (name.empty()) continue;
+    const ParameterRef of = parameter_named(term, name);
+    e.paths.push_back(of.path()), e.sizes.push_back(size), e.units.emplace_back(of->unit);
+  }
+  const double edge = kFarthestStream * model.tank.radius;
+  for (const auto& [name, value, low, high, scanned_from] : d.held) {
+    if (name.empty()) continue;
+    const ParameterRef of = parameter_named(term, name);
+    const std::string unit(of->unit);
+    e.held.push_back({of, value});
+    if (of->kind == ParameterKind::place) {
+      e.refine.push_back({of.path(), unit, -edge, edge, false, false});
+    } else if (low < high) {
+      e.refine.push_back({of.path(), unit, low, high, true, false});
+      const bool scanned = e.scored && e.estimated == Estimated::none && e.refine.size() == 1;
+      if (scanned) e.scanned_from = scanned_from > 0 ? scanned_from : low;
     }
   }
-  Effect magnet = one("magnetic_dipole", "strength", 0.012, "N", "pair");
-  magnet.split = kLonely;
-  all.push_back(magnet);
-  magnet.shape = {{force("magnetic_dipole", "angle"), kPi / 2}};
-  all.push_back(magnet);
-  Effect stick = one("latch_stick", "strength", 0.02, "N", "pair");
-  stick.split = kLogLatches;
-  all.push_back(stick);
-  Effect film = one("lubrication", "coefficient", 0.15, "N s/m", "pair");
-  film.split = kLonely;
-  all.push_back(film);
-  Effect lee = one("wake_shielding", "share", 0.4, "1", "pair");
-  lee.split = kLonely;
-  all.push_back(lee);
+  return e;
 }
 
-void add_walls(std::vector<Effect>& all) {
-  for (const double range : {0.005, 0.02}) {
-    Effect e = one("wall_force", "strength", range < 0.01 ? 0.01 : 5e-3, "N", "radius");
-    e.shape = {{force("wall_force", "range"), range}};
-    e.refine = {{force("wall_force", "range"), "m", 0.002, 0.05, true, false}};
-    e.two_sided = true, e.split = kOtherBody;
-    all.push_back(e);
-  }
-  Effect layer = one("wall_layer", "share", 0.6, "1", "radius");
-  layer.shape = {{force("wall_layer", "thickness"), 0.02}};
-  layer.refine = {{force("wall_layer", "thickness"), "m", 0.005, 0.08, true, false}};
-  layer.split = kOtherBody;
-  all.push_back(layer);
-}
-
-void add_water(std::vector<Effect>& all, const Model& model) {
-  // More would gather all modules in the middle: what less of it does could not be learned there.
-  Effect mass = one("added_mass", "coefficient", 0.25, "1", "slip");
-  mass.split = kOtherBody, mass.growth = 2;
-  all.push_back(mass);
-  Effect magnus = one("magnus_lift", "coefficient", 0.3, "1", "spin");
-  magnus.two_sided = true;
-  all.push_back(magnus);
-  Effect viscous = one("viscous_drag", "coefficient", 0.03, "N s/m", "slip");
-  viscous.two_sided = true, viscous.split = kPumps, viscous.growth = 2;
-  all.push_back(viscous);
-  Effect turning = one("rotational_drag", "coefficient", 5e-6, "N m s", "spin");
-  turning.two_sided = true;
-  all.push_back(turning);
-  Effect coriolis = one("coriolis", "rate", 0.4, "1/s", "slip");
-  coriolis.two_sided = true, coriolis.split = kTurnedCamera;
-  all.push_back(coriolis);
-  Effect push = two("body_force", "force_x", "force_y", 1.5e-3, "N", "position");
-  push.split = kTurnedCamera;
-  all.push_back(push);
-  Effect drift = one("flow_drift", "rate", 5e-4, "1/s", "time");
-  drift.two_sided = true;
-  all.push_back(drift);
-  const double out = 0.45 * model.tank.radius;
-  for (int k = 0; k < 6; ++k) {
-    const Rot at = rotation(k * kPi / 3);
-    const auto whole = [](double place) { return std::round(place * 1e6) / 1e6; };  // um
-    all.push_back(stream_effect(model, whole(out * at.c), whole(out * at.s), 0.06));
-  }
-}
-
-void add_modules(std::vector<Effect>& all) {
-  all.push_back(two("self_propulsion", "force_x", "force_y", 1e-3, "N", "heading"));
-  Effect torque = one("spin_torque", "torque", 1.2e-5, "N m", "spin");
-  torque.two_sided = true;
-  all.push_back(torque);
-  all.push_back(two("mass_offset", "forward", "left", 1e-3, "m", "heading"));
-  Effect heavy = one("heterogeneous_module", "extra", 0.4, "1", "module");
-  heavy.scored = heavy.mean_force = false, heavy.growth = 2;
-  all.push_back(heavy);
-}
-
-// Effects without a mean force: they change how innovations scatter.
-void add_noise(std::vector<Effect>& all) {
-  Effect pumps = one("flow_pulsation", "share", 0.15, "1", "time");
-  pumps.shape = {{force("flow_pulsation", "frequency"), 0.9}};
-  pumps.scored = pumps.mean_force = false, pumps.growth = 2;
-  all.push_back(pumps);
-  for (const double time : {0.25, 1.0}) {
-    for (const double length : {0.03, 0.08}) {
-      Effect eddies = one("correlated_gusts", "share", 0.15, "1", "lag");
-      eddies.shape = {{force("correlated_gusts", "time"), time},
-                      {force("correlated_gusts", "length"), length}};
-      eddies.refine = {{force("correlated_gusts", "time"), "s", 0.08, 3, true, false},
-                       {force("correlated_gusts", "length"), "m", 0.01, 0.25, true, false}};
-      eddies.scored = eddies.mean_force = false;
-      all.push_back(eddies);
+// The effect of a stream, wherever that is.
+Effect any_stream(const Model& model) {
+  for (const ForceTerm* term : force_library()) {
+    for (const EffectDescription& d : term->effects()) {
+      if (d.estimated == Estimated::place) return described(*term, d, model);
     }
   }
-  for (const double frequency : {0.3, 0.8}) {
-    Effect vortices = one("vortex_shedding", "coefficient", 0.8, "1", "lag");
-    vortices.shape = {{force("vortex_shedding", "frequency"), frequency}};
-    vortices.refine = {{force("vortex_shedding", "frequency"), "Hz", 0.1, 3, true, false}};
-    vortices.scored = vortices.mean_force = false, vortices.growth = 2;
-    all.push_back(vortices);
-  }
-  for (const char* by : {"by_radius", "by_slip"}) {
-    const bool radius = by[3] == 'r';
-    Effect e = one("state_dependent_noise", by, radius ? 0.012 : 0.06, radius ? "N" : "N s/m",
-                   radius ? "radius" : "slip");
-    e.scored = e.mean_force = false, e.growth = 2;
-    all.push_back(e);
-  }
-  Effect kicks = one("heavy_tailed_kicks", "impulse", 1.5e-3, "N s", "lag");
-  kicks.scored = kicks.mean_force = false, kicks.growth = 2;
-  all.push_back(kicks);
+  throw std::logic_error("no force describes a stream");
 }
 
-// What the camera does to places. No force stands behind it.
-void add_camera(std::vector<Effect>& all) {
+std::vector<Effect> streams(const Model& model) {
+  const auto whole = [](double place) { return std::round(place * 1e6) / 1e6; };  // um
+  const double out = kStreamsAt * model.tank.radius;
+  std::vector<Effect> all;
+  for (int k = 0; k < kStreams; ++k) {
+    const Rot at = rotation(2 * k * kPi / kStreams);
+    all.push_back(any_stream(model));
+    all.back().held[0].value = whole(out * at.c), all.back().held[1].value = whole(out * at.s);
+  }
+  return all;
+}
+
+// What the camera does to places, and contacts. No force stands behind these. Ranks as those of the
+// force terms.
+std::vector<std::pair<int, Effect>> effects_without_force() {
   Effect lens;
   lens.name = "lens_distortion", lens.paths = {kLens}, lens.sizes = {0.15};
   lens.units = {"1/m^2"}, lens.two_sided = true, lens.scored = lens.mean_force = false;
-  lens.variable = "radius", lens.split = kGrid;
-  all.push_back(lens);
+  lens.variable = "radius", lens.split = split_by::kGrid;
+  lens.equation = "places are seen at x (1 + lens |x|^2)";
   Effect tilt = lens;
   tilt.name = "camera_tilt", tilt.paths = {kTiltX, kTiltY}, tilt.sizes = {0.03, 0.03};
   tilt.units = {"rad", "rad"}, tilt.variable = "position";
-  all.push_back(tilt);
+  tilt.equation = "the camera's axis leans; from 1 m above the water";
+  Effect contact;
+  contact.name = "contact_law", contact.paths = {kFriction, kRestitution};
+  contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
+  contact.two_sided = true, contact.variable = "pair", contact.scored = contact.mean_force = false;
+  contact.split = split_by::kLatches;
+  return {{250, lens}, {260, tilt}, {270, contact}};
 }
 
 // Root mean square of the mean flow within the tank, m/s.
@@ -194,17 +121,31 @@ bool Effect::camera() const {
   return !paths.empty() && of_camera(paths.front());
 }
 
+std::string ParameterRef::path() const {
+  return "forces." + std::string(term->name()) + "." + std::string((*this)->name);
+}
+
+std::optional<ParameterRef> parameter_of(const ForceTerm& term, ParameterKind kind) {
+  const std::span<const Parameter> all = term.parameters();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].kind == kind) return ParameterRef{&term, k};
+  }
+  return std::nullopt;
+}
+
 std::string Effect::variant() const {
   std::string out = joined(paths, ", ", own_name);
-  for (const auto& [path, value] : shape) {
-    const std::string unit = model_parameter(path).unit;
-    out += ", " + own_name(path) + " = " + significant(value, 2) + (unit == "1" ? "" : " " + unit);
+  for (const auto& [of, value] : held) {
+    const std::string unit(of->unit);
+    out += ", " + std::string(of->name) + " = " + significant(value, 2);
+    if (unit != "1") out += " " + unit;
   }
   return out;
 }
 
 double Effect::absent(const Model& model, std::size_t component) const {
-  return paths[component].rfind("contact.", 0) == 0 ? parameter_value(model, paths[component]) : 0;
+  const std::string& path = paths[component];
+  return path == kFriction || path == kRestitution ? parameter_value(model, path) : 0;
 }
 
 Effect together(const std::vector<Effect>& effects) {
@@ -214,36 +155,47 @@ Effect together(const std::vector<Effect>& effects) {
     out.paths.insert(out.paths.end(), e.paths.begin(), e.paths.end());
     out.sizes.insert(out.sizes.end(), e.sizes.begin(), e.sizes.end());
     out.units.insert(out.units.end(), e.units.begin(), e.units.end());
-    out.shape.insert(out.shape.end(), e.shape.begin(), e.shape.end());
+    out.held.insert(out.held.end(), e.held.begin(), e.held.end());
     out.two_sided = out.two_sided || e.two_sided;
   }
   return out;
 }
 
 Effect stream_effect(const Model& model, double x, double y, double width) {
-  Effect stream = two("local_flow", "speed_x", "speed_y", 0.06, "m/s", "position");
-  stream.shape = {{force("local_flow", "x"), x},
-                  {force("local_flow", "y"), y},
-                  {force("local_flow", "width"), width}};
-  const double edge = 0.8 * model.tank.radius;
-  stream.refine = {{force("local_flow", "x"), "m", -edge, edge, false, false},
-                   {force("local_flow", "y"), "m", -edge, edge, false, false},
-                   {force("local_flow", "width"), "m", 0.02, 0.2, true, false}};
-  stream.split = kOtherBody;
+  Effect stream = any_stream(model);
+  stream.held[0].value = x, stream.held[1].value = y, stream.held[2].value = width;
   return stream;
 }
 
 std::vector<Effect> effect_catalogue(const Model& model) {
-  std::vector<Effect> all;
-  add_pairs(all), add_walls(all), add_water(all, model), add_modules(all), add_noise(all);
-  add_camera(all);
-  Effect contact;
-  contact.name = "contact_law", contact.paths = {"contact.friction", "contact.restitution"};
-  contact.sizes = {0.3, 0.4}, contact.units = {"1", "1"};
-  contact.two_sided = true, contact.variable = "pair", contact.scored = contact.mean_force = false;
-  contact.split = kLogLatches;
-  all.push_back(contact);
-  return all;
+  // By rank, number among those of the term, and place in the library: ranges of one law and its
+  // negative alternate.
+  using Place = std::array<std::size_t, 3>;
+  std::vector<std::pair<Place, Effect>> all;
+  const auto library = force_library();
+  for (std::size_t t = 0; t < library.size(); ++t) {
+    const std::span<const EffectDescription> own = library[t]->effects();
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const Place place{static_cast<std::size_t>(own[k].order), k, t};
+      if (own[k].estimated == Estimated::place) {
+        for (Effect& e : streams(model)) all.emplace_back(place, std::move(e));
+      } else {
+        all.emplace_back(place, described(*library[t], own[k], model));
+      }
+    }
+  }
+  for (auto& [order, e] : effects_without_force()) {
+    all.emplace_back(Place{static_cast<std::size_t>(order), 0, library.size()}, std::move(e));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Effect> out;
+  std::map<std::string, int> families;
+  for (auto& [place, e] : all) {
+    e.family = families.emplace(e.name, static_cast<int>(families.size())).first->second;
+    out.push_back(std::move(e));
+  }
+  return out;
 }
 
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes) {
@@ -254,15 +206,9 @@ Model with_effect(const Model& model, const Effect& effect, const std::vector<do
     values[i] = std::clamp(values[i], of.low, of.high);
   }
   Model out = with_parameters(model, effect.paths, values);
-  for (const auto& [path, value] : effect.shape) {
-    const auto dot = path.rfind('.');
-    const std::string term = path.substr(7, dot - 7), parameter = path.substr(dot + 1);
+  for (const auto& [of, value] : effect.held) {
     for (ActiveForce& active : out.forces) {
-      if (active.term->name() != term) continue;
-      const auto parameters = active.term->parameters();
-      for (std::size_t k = 0; k < parameters.size(); ++k) {
-        if (parameters[k].name == parameter) active.p[k] = value;
-      }
+      if (active.term == of.term) active.p[of.index] = value;
     }
   }
   return out;
@@ -310,17 +256,20 @@ std::vector<Shape> shape_catalogue(const Model& model, double seconds) {
 }
 
 Effect effect_of(const Shape& shape) {
+  const ForceTerm& term = empirical_force();
+  const auto parameter = [&](std::size_t index) { return ParameterRef{&term, index}; };
   Effect e;
-  e.name = "empirical_force", e.variable = shape.variable, e.two_sided = true;
+  e.name = term.name(), e.term = &term, e.curve = shape.curve;
+  e.variable = shape.variable, e.two_sided = true;
   const std::string unit = shape.curve.toward == Toward::torque ? "N m" : "N";
-  for (int k = 1; k <= kKnots; ++k) {
-    e.paths.push_back(force(e.name, "v" + std::to_string(k)));
+  for (std::size_t k = 0; k < kKnots; ++k) {
+    e.paths.push_back(parameter(kFirstKnot + k).path());
     e.sizes.push_back(shape.size), e.units.push_back(unit);
   }
-  e.shape = {{force(e.name, "variable"), static_cast<int>(shape.curve.along)},
-             {force(e.name, "direction"), static_cast<int>(shape.curve.toward)},
-             {force(e.name, "low"), shape.curve.low},
-             {force(e.name, "high"), shape.curve.high}};
+  const double held[kFirstKnot] = {static_cast<double>(shape.curve.along),
+                                   static_cast<double>(shape.curve.toward), shape.curve.low,
+                                   shape.curve.high};
+  for (std::size_t k = 0; k < kFirstKnot; ++k) e.held.push_back({parameter(k), held[k]});
   return e;
 }
 

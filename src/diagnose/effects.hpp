@@ -1,28 +1,55 @@
-// The catalogue of effects: which force terms stand for a name, at which size they are tried, and
-// what a reader should know of each.
+// The catalogue of effects: what the force terms say of themselves (lilytank/effect.hpp), and what
+// a camera and contacts may do.
 #pragma once
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "forces/empirical_force.hpp"
 #include "lilytank/calibration.hpp"
 #include "lilytank/emulator.hpp"
+#include "lilytank/force.hpp"
 #include "lilytank/model.hpp"
 
 namespace lilytank {
 
+/// A parameter of a force term.
+struct ParameterRef {
+  const ForceTerm* term = nullptr;
+  std::size_t index = 0;  ///< into term->parameters()
+  const Parameter* operator->() const { return &term->parameters()[index]; }
+  /// "forces.<term>.<parameter>", as scenario files have it.
+  std::string path() const;
+};
+/// The first parameter of that kind, if the term has one.
+std::optional<ParameterRef> parameter_of(const ForceTerm& term, ParameterKind kind);
+
+/// A parameter that an effect holds at a value.
+struct HeldParameter {
+  ParameterRef of;
+  double value = 0;
+};
+
 /// One way in which an effect may be there: several of one name differ in range or time.
 struct Effect {
   std::string name;
+  int family = -1;                  ///< in a catalogue: the same number for effects of one name
+  const ForceTerm* term = nullptr;  ///< null: the camera or the law of contacts
+  const ForceTerm* negative_of = nullptr;  ///< the term of the same law with the other sign
+  Estimated estimated = Estimated::none;
+  std::string equation;
   std::vector<std::string> paths;  ///< amplitudes, which a fit varies
   std::vector<double> sizes;       ///< at which each is simulated: some ten deviations in minutes
   std::vector<std::string> units;  ///< of the amplitudes
   bool two_sided = false;          ///< amplitudes may be negative
-  /// Other numbers of the term, which are held.
-  std::vector<std::pair<std::string, double>> shape;
+  /// Other numbers of the term.
+  std::vector<HeldParameter> held;
   /// Of those, the ones that are found along once the effect is there: path, unit, bounds.
   std::vector<FitParameter> refine;
+  /// Where a scan over the values of what is refined begins; 0: it is not scanned.
+  double scanned_from = 0;
+  /// Of an empirical force, whose knots are the amplitudes.
+  std::optional<ForceCurve> curve;
   std::string variable;  ///< of what the mismatch is a function: position, radius, pair, slip, ...
   /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
   std::string split;
@@ -34,6 +61,10 @@ struct Effect {
   double growth = 1;
   /// What it has of its own among those of its name: "strength, range = 0.004 m".
   std::string variant() const;
+  /// It has the law of another effect, with whichever sign.
+  bool is_of(const Effect& law) const {
+    return term == law.term || (negative_of != nullptr && negative_of == law.term);
+  }
   /// It is the camera's doing, not the tank's.
   bool camera() const;
   /// Value of an amplitude at which the effect is absent.
@@ -43,7 +74,8 @@ struct Effect {
 /// Several effects at once as one, their amplitudes one after the other.
 Effect together(const std::vector<Effect>& effects);
 
-/// Every effect that a simulation can have. `model` gives sizes of tank and module.
+/// Every effect that a simulation can have, in the order of the descriptions. `model` gives the
+/// size of the tank.
 std::vector<Effect> effect_catalogue(const Model& model);
 
 /// A stream of this width about a place, m.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "forces/library.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -23,7 +25,7 @@ Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
   const auto n = static_cast<std::size_t>(model.module.count);
   base_ = std::make_unique<ForceSum>(model_);
   for (const ActiveForce& force : model_.forces) {
-    if (force.term->name() == "face_drag") drag_only_.push_back(force);
+    if (force.term == &face_drag()) drag_only_.push_back(force);
   }
   drag_sum_ = std::make_unique<ForceSum>(model_, drag_only_);
   for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_, &by_gusts_}) {
@@ -62,14 +64,12 @@ void Features::add(const Effect& effect, std::size_t component) {
   amplitudes[component] = effect.sizes[component];
   Feature feature;
   feature.forces = with_effect(model_, effect, amplitudes).forces;
-  const std::string term = effect.paths[0].substr(7, effect.paths[0].rfind('.') - 7);
+  std::erase_if(feature.forces,
+                [&](const ActiveForce& force) { return force.term != effect.term; });
   for (const ActiveForce& force : feature.forces) {
-    if (force.term->name() != term) continue;
     if (force.term->transforms()) feature.kind = Feature::Kind::transforms;
     if (force.term->stirs()) feature.kind = Feature::Kind::stirs;
   }
-  std::erase_if(feature.forces,
-                [&](const ActiveForce& force) { return force.term->name() != term; });
   features_.push_back(std::move(feature));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 
 #include "diagnose/diagnoser.hpp"
 #include "text/number.hpp"
@@ -68,9 +69,8 @@ void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
     const Effect& effect = atlas_->plan().effects[e];
     const double least = naming.smallest_seen(static_cast<int>(e)) * effect.sizes[0];
     const double tried = kLearnedSize * effect.sizes[0];
-    const auto same = std::find_if(
-        out.detectable.begin(), out.detectable.end(),
-        [&](const Detectable& d) { return d.effect == effect.name && d.path == effect.paths[0]; });
+    const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
+                                   [&](const Detectable& d) { return d.path == effect.paths[0]; });
     if (same == out.detectable.end()) {
       out.detectable.push_back({effect.name, effect.paths[0], least, tried, effect.units[0]});
     } else {
@@ -83,9 +83,9 @@ void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
 // The map in which a finding shows most.
 const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
   const FoundCurve* best = nullptr;
-  for (const FoundCurve& c : out.maps) {
-    if (c.variable.rfind(variable, 0) != 0) continue;
-    if (best == nullptr || c.z > best->z) best = &c;
+  for (std::size_t s = 0; s < out.maps.size(); ++s) {
+    if (atlas_->plan().shapes[s].variable != variable) continue;
+    if (best == nullptr || out.maps[s].z > best->z) best = &out.maps[s];
   }
   return best;
 }
@@ -114,11 +114,10 @@ void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
   f.text = text;
 }
 
-// Whether it is a finding itself, by name.
-bool Diagnoser::is_told(const Explanation& e, const std::string& name) const {
+// Whether an effect of its family is a finding itself.
+bool Diagnoser::is_told(const Explanation& e, const Effect& one) const {
   return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
-    return fit.effect >= 0 &&
-           atlas_->plan().effects[static_cast<std::size_t>(fit.effect)].name == name;
+    return fit.effect >= 0 && effect(fit).family == one.family;
   });
 }
 
@@ -131,19 +130,15 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
     f.z = fit.z, f.confidence = naming.confidence(fit);
     if (fit.effect >= 0) {
       const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
-      f.effect = effect.name, f.variable = effect.variable;
-      const ForceTerm* term = find_force(effect.name);
-      if (term != nullptr) f.equation = std::string(term->equation());
+      f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
       const auto own = std::find_if(ranked.begin(), ranked.end(),
                                     [&](const EffectFit& one) { return one.effect == fit.effect; });
+      std::set<int> rivals;
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
-        const std::string& name =
-            atlas_->plan().effects[static_cast<std::size_t>(other.effect)].name;
-        if (name == effect.name || own->gain - other.gain >= kSame) continue;
-        if (is_told(e, name)) continue;
-        if (std::find(f.alternatives.begin(), f.alternatives.end(), name) == f.alternatives.end())
-          f.alternatives.push_back(name);
+        const Effect& rival = atlas_->plan().effects[static_cast<std::size_t>(other.effect)];
+        if (own->gain - other.gain >= kSame || is_told(e, rival)) continue;
+        if (rivals.insert(rival.family).second) f.alternatives.push_back(rival.name);
       }
       if (!f.alternatives.empty()) f.split = effect.split;
       if (const FoundCurve* map = map_of(f.variable, out)) tell_where(*map, f);
@@ -202,8 +197,6 @@ void Diagnoser::blame_camera(const Explanation& e, Diagnosis& out) const {
       f.parameters.push_back(
           {own_name(effect.paths[c]), effect.paths[c], value, value, value, effect.units[c]});
     }
-    f.equation = effect.name == "camera_tilt" ? "the camera's axis leans; from 1 m above the water"
-                                              : "places are seen at x (1 + lens |x|^2)";
     faults.push_back(std::move(f));
   }
   if (faults.empty()) return;

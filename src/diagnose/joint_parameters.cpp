@@ -103,8 +103,8 @@ void read_point(const Stages& stages, const Vector& point, std::vector<JointEffe
           (point(at) - effect.absent(stages.setup().model, c)) / effect.sizes[c];
     }
     for (const FitParameter& p : effect.refine) {
-      for (auto& [path, value] : effect.shape) {
-        if (path == p.path) value = std::clamp(p.from_scale(point(at)), p.low, p.high);
+      for (auto& [of, value] : effect.held) {
+        if (of.path() == p.path) value = std::clamp(p.from_scale(point(at)), p.low, p.high);
       }
       ++at;
     }

@@ -116,13 +116,14 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
       out.findings[e].parameters.push_back(
           {own_name(p.path), p.path, fit.value[at], fit.low[at], fit.high[at], p.unit});
     }
-    for (const auto& [path, value] : effect.shape) {
+    for (const auto& [of, value] : effect.held) {
+      const std::string path = of.path();
       const bool refined = std::any_of(effect.refine.begin(), effect.refine.end(),
-                                       [&p = path](const FitParameter& r) { return r.path == p; });
-      if (refined || effect.name == "empirical_force") continue;
+                                       [&](const FitParameter& r) { return r.path == path; });
+      if (refined || effect.curve) continue;
       out.findings[e].parameters.push_back({own_name(path), path, value, value, value, ""});
     }
-    if (effect.name == "empirical_force") {
+    if (effect.curve) {
       for (int k = 0; k < kKnots; ++k) {
         out.findings[e].curve.value[static_cast<std::size_t>(k)] =
             out.findings[e].parameters[static_cast<std::size_t>(k)].value;
@@ -143,8 +144,10 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
   }
   for (std::size_t e = 0; e < found.size(); ++e) {
     const Effect& effect = found[e].effect;
-    if (effect.name == "empirical_force") {
-      for (const auto& [path, value] : effect.shape) text += path + " = " + shortest(value) + "\n";
+    if (effect.curve) {
+      for (const auto& [of, value] : effect.held) {
+        text += of.path() + " = " + shortest(value) + "\n";
+      }
     }
     for (const FoundParameter& p : out.findings[e].parameters) {
       text += p.path + " = " + shortest(p.value) + "  # " + shortest(p.low) + " .. " +

@@ -92,13 +92,7 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
 // something else.
 void tell_law(const SealedEffect& own, const ForceCurve& found,
               std::map<std::string, double>& truth) {
-  std::map<std::string, double> held(own.effect.shape.begin(), own.effect.shape.end());
-  const auto number = [&](const char* name) {
-    return held.at(std::string("forces.empirical_force.") + name);
-  };
-  const ForceCurve law{static_cast<Along>(static_cast<int>(number("variable"))),
-                       static_cast<Toward>(static_cast<int>(number("direction"))), number("low"),
-                       number("high")};
+  const ForceCurve& law = *own.effect.curve;
   for (const std::string& path : own.effect.paths) truth.erase(path);
   if (law.along != found.along || law.toward != found.toward) return;
   const auto value = [&](int knot) {

@@ -1,6 +1,7 @@
 // Further experiments with what was found: other ranges, more of them, several effects at once.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "diagnose/scan.hpp"
@@ -23,14 +24,11 @@ constexpr double kLeastFall = 4;  // of a doubt, that makes a range the better o
 
 }  // namespace
 
-ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const std::vector<std::string>& names,
-                                        const std::string& variable) const {
+ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const Effect& scanned) const {
   ScorePlan plan = of_.atlas_->plan();
   for (const EffectFit& f : e.found) {
     const Effect effect = of_.found_effect(f, judged_.details);
-    const bool own = f.effect < 0
-                         ? effect.variable == variable
-                         : std::find(names.begin(), names.end(), effect.name) != names.end();
+    const bool own = f.effect < 0 ? effect.variable == scanned.variable : effect.is_of(scanned);
     if (f.z > kStrong && effect.mean_force && !own) plan.beside.push_back(effect);
   }
   return plan;
@@ -38,25 +36,34 @@ ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const std::vector<
 
 bool Diagnoser::Sharpening::rescan(const Explanation& e) {
   bool moved = false;
-  if (const ScorePlan plan = beside(e, {"local_flow"}, "position"); !plan.beside.empty()) {
-    StreamPlace& was = judged_.details.scans.stream;
-    const StreamPlace now = find_stream(plan, alignment_.recordings(), of_.options_.threads);
-    if (std::hypot(now.x - was.x, now.y - was.y) > kElsewhere) {
-      was = now, moved = true;
-      find_homes(), forget("local_flow");
+  std::set<int> done;
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.estimated == Estimated::place && done.insert(one.family).second) {
+      moved = rescan_stream(e, one) || moved;
     }
   }
-  moved = rescan(e, {"pair_attraction", "pair_repulsion"}, "pair") || moved;
-  moved = rescan(e, {"wall_force"}, "radius") || moved;
-  return rescan(e, {"wall_layer"}, "radius") || moved;
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.scanned_from > 0 && done.insert(one.family).second) moved = rescan(e, one) || moved;
+  }
+  return moved;
 }
 
-bool Diagnoser::Sharpening::rescan(const Explanation& e, const std::vector<std::string>& names,
-                                   const std::string& variable) {
-  const ScorePlan plan = beside(e, names, variable);
+bool Diagnoser::Sharpening::rescan_stream(const Explanation& e, const Effect& stream) {
+  const ScorePlan plan = beside(e, stream);
+  if (plan.beside.empty()) return false;
+  StreamPlace& was = judged_.details.scans.stream;
+  const StreamPlace now = find_stream(plan, alignment_.recordings(), of_.options_.threads);
+  if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
+  was = now;
+  find_homes(), forget(stream.family);
+  return true;
+}
+
+bool Diagnoser::Sharpening::rescan(const Explanation& e, const Effect& scanned) {
+  const ScorePlan plan = beside(e, scanned);
   if (plan.beside.empty()) return false;
   const auto all = find_values(plan, alignment_.recordings());
-  const auto now = all.find(names.front());
+  const auto now = all.find(scanned.term);
   if (now == all.end()) return false;
   ScannedValue& was = judged_.details.scans.values[now->first];
   const double further = now->second.value / std::max(was.value, 1e-9);
@@ -66,7 +73,10 @@ bool Diagnoser::Sharpening::rescan(const Explanation& e, const std::vector<std::
   }
   was = now->second;
   find_homes();
-  for (const std::string& name : names) forget(name);
+  std::set<int> forgotten;
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.is_of(scanned) && forgotten.insert(one.family).second) forget(one.family);
+  }
   return true;
 }
 
@@ -135,15 +145,15 @@ bool Diagnoser::Sharpening::fits_better(const EffectFit& name, const FitParamete
   EffectFit f = name;
   f.amplitudes = alone_.at(name_of(f)).amplitudes;
   double now = 0;
-  for (const auto& [path, value] : of_.found_effect(f, judged_.details).shape) {
-    if (path == p.path) now = value;
+  for (const auto& [of, value] : of_.found_effect(f, judged_.details).held) {
+    if (of.path() == p.path) now = value;
   }
   const double next = std::clamp(now * factor, p.low, p.high);
   if (next == now) return false;
   const double doubt = alone_.at(name_of(f)).doubt;
   const auto before = std::tuple(known_, alone_, home_, step_, naming_, judged_.details.refined);
   judged_.details.refined[p.path] = next;
-  home_[of_.effect(f).name] = name_of(f).first;
+  home_[of_.effect(f).family] = name_of(f).first;
   sharpen(f);
   f.amplitudes = alone_.at(name_of(f)).amplitudes;
   if (off_centre(f, kBeside)) sharpen(f);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "diagnose/scores.hpp"
 #include "lilytank/study.hpp"
@@ -14,14 +15,7 @@ constexpr double kSpacing = 0.16, kFarthest = 0.8;       // of the tank's radius
 constexpr double kWidths[] = {0.04, 0.06, 0.09};         // m
 constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
 constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
-// What has a range, from where to where it is tried, m, and a factor from one to the next.
-struct Ranged {
-  const char* effect;
-  double shortest, longest;
-};
-constexpr Ranged kRanged[] = {
-    {"pair_attraction", 0.002, 0.08}, {"wall_force", 0.002, 0.05}, {"wall_layer", 0.005, 0.08}};
-constexpr double kLonger = 1.25;
+constexpr double kLonger = 1.25;                         // from a range to the next that is tried
 constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
 std::vector<StreamPlace> grid_of(const Model& model) {
@@ -130,27 +124,31 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
   return best;
 }
 
-std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
-                                                const std::vector<Recording>& recordings) {
+std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
+                                                     const std::vector<Recording>& recordings) {
   ScorePlan scan = plan;
   scan.effects.clear(), scan.shapes.clear();
-  for (const Ranged& of : kRanged) {
-    const auto effect = std::find_if(plan.effects.begin(), plan.effects.end(),
-                                     [&](const Effect& e) { return e.name == of.effect; });
-    for (double range = of.shortest; range < of.longest; range *= kLonger) {
-      scan.effects.push_back(*effect);
-      scan.effects.back().shape = {{effect->shape[0].first, range}};
+  std::set<const ForceTerm*> done;  // the first range of the catalogue stands for all
+  for (const Effect& effect : plan.effects) {
+    if (!(effect.scanned_from > 0) || !done.insert(effect.term).second) continue;
+    const double longest = effect.refine[0].high;
+    for (double range = effect.scanned_from; range < longest; range *= kLonger) {
+      scan.effects.push_back(effect);
+      scan.effects.back().held[0].value = range;
     }
   }
   const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
-  std::map<std::string, ScannedValue> out;
-  std::map<std::string, double> most;
+  std::map<const ForceTerm*, ScannedValue> out;
+  std::map<const ForceTerm*, double> most;
   for (std::size_t k = 0; k < told.size(); ++k) {
     const Effect& effect = scan.effects[k];
-    const bool possible = effect.two_sided || effect.name == "pair_attraction";
-    double& best = most.emplace(effect.name, kClearRise).first->second;
-    if (!(told[k].gain > best) || (!possible && told[k].estimate < 0)) continue;
-    best = told[k].gain, out[effect.name] = {effect.shape[0].second, told[k].estimate};
+    const bool may_be_negative =
+        effect.two_sided ||
+        std::any_of(plan.effects.begin(), plan.effects.end(),
+                    [&](const Effect& e) { return e.negative_of == effect.term; });
+    double& best = most.emplace(effect.term, kClearRise).first->second;
+    if (!(told[k].gain > best) || (!may_be_negative && told[k].estimate < 0)) continue;
+    best = told[k].gain, out[effect.term] = {effect.held[0].value, told[k].estimate};
   }
   return out;
 }

@@ -2,7 +2,6 @@
 // over which range a force between modules would, beside the effects of plan.beside.
 #pragma once
 #include <map>
-#include <string>
 #include <vector>
 
 #include "diagnose/score_plan.hpp"
@@ -18,8 +17,8 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
 
 /// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
 /// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.
-std::map<std::string, ScannedValue> find_values(const ScorePlan& plan,
-                                                const std::vector<Recording>& recordings);
+std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
+                                                     const std::vector<Recording>& recordings);
 
 /// Both, `threads` at a time (0: one a core).
 Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads);

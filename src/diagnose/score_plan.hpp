@@ -55,8 +55,8 @@ struct ScannedValue {
 /// What recordings tell directly of effects that have a place or a range.
 struct Scans {
   StreamPlace stream;  ///< with which the recordings are likeliest
-  /// By the effect's name, of those that are clear; a repulsion is a negative attraction.
-  std::map<std::string, ScannedValue> values;
+  /// By the effect's term, of those that are clear; a repulsion is a negative attraction.
+  std::map<const ForceTerm*, ScannedValue> values;
 };
 
 /// Beside the vector, what a verdict needs of one experiment.

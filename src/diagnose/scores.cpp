@@ -301,8 +301,8 @@ std::vector<ScoreEntry> ScorePlan::entries() const {
   for (const Effect& effect : effects) {
     for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) {
       std::string name = effect.name;
-      for (const auto& [path, value] : effect.shape) {
-        name += " " + own_name(path) + " " + std::to_string(value);
+      for (const auto& [of, value] : effect.held) {
+        name += " " + std::string(of->name) + " " + std::to_string(value);
       }
       if (effect.paths.size() > 1) name += " " + own_name(effect.paths[c]);
       out.push_back({"score", name});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "forces/library.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
@@ -26,9 +27,9 @@ double draw(std::uint64_t seed, int world, std::uint32_t which) {
 Shape odd_law(const std::vector<Shape>& shapes, std::uint64_t seed, int world) {
   std::vector<Shape> odd;
   for (const Shape& s : shapes) {
-    const bool torque = s.curve.toward == Toward::torque;
-    const bool across = s.curve.toward == Toward::across_slip;
-    if ((torque && s.variable != "position") || (across && s.variable == "slip")) odd.push_back(s);
+    const ForceCurve& c = s.curve;
+    const bool torque = c.toward == Toward::torque && c.along != Along::x && c.along != Along::y;
+    if (torque || (c.toward == Toward::across_slip && c.along == Along::slip)) odd.push_back(s);
   }
   return odd[static_cast<std::size_t>(draw(seed, world, 1) * static_cast<double>(odd.size()))];
 }
@@ -42,36 +43,38 @@ SealedEffect odd_effect(const Shape& shape, std::uint64_t seed, int world) {
   return out;
 }
 
-// "forces.wall_force".
-std::string term_of(const Effect& e) {
-  return e.paths[0].substr(0, e.paths[0].rfind('.'));
+// The value of a parameter in a synthetic experiment, by a random number from 0 to 1.
+double displaced(const HeldParameter& held, const Model& tank, double u) {
+  const double both = 2 * u - 1;
+  switch (held.of->kind) {
+    case ParameterKind::place:
+      return kPlaces * tank.tank.radius * both;
+    case ParameterKind::module:
+      return std::floor(u * tank.module.count);
+    case ParameterKind::phase:
+      return kPi * both;
+    case ParameterKind::direction:
+      return held.value;
+    default:
+      return held.value * exp_portable(both * log_portable(kOtherShape));
+  }
 }
 
 // Ranges, times, lengths, frequencies and places are not those of the catalogue.
 void displace(Effect& e, const Model& tank, std::uint64_t seed, int world, std::uint32_t first) {
-  const std::string term = term_of(e) + ".";
-  if (term.rfind("forces.", 0) != 0) return;
-  std::map<std::string, double> other;
-  for (const Parameter& p : find_force(term.substr(7, term.size() - 8))->parameters()) {
-    other[term + std::string(p.name)] = p.standard;
+  if (e.term == nullptr) return;
+  std::map<std::string, HeldParameter> other;
+  for (std::size_t k = 0; k < e.term->parameters().size(); ++k) {
+    const ParameterRef of{e.term, k};
+    other[of.path()] = {of, of->standard};
   }
   for (const std::string& path : e.paths) other.erase(path);
-  for (const auto& [path, value] : e.shape) other[path] = value;
-  e.shape.clear();
+  for (const HeldParameter& one : e.held) other[one.of.path()] = one;
+  e.held.clear();
   std::uint32_t k = first + 20;
-  for (auto [path, value] : other) {
-    const double u = draw(seed, world, k++), both = 2 * u - 1;
-    const std::string name = path.substr(term.size());
-    if (name == "x" || name == "y") {
-      value = kPlaces * tank.tank.radius * both;
-    } else if (name == "module") {
-      value = std::floor(u * tank.module.count);
-    } else if (name == "phase") {
-      value = kPi * both;
-    } else if (name != "angle") {
-      value *= exp_portable(both * log_portable(kOtherShape));
-    }
-    e.shape.emplace_back(path, value);
+  for (auto& [path, one] : other) {
+    one.value = displaced(one, tank, draw(seed, world, k++));
+    e.held.push_back(one);
   }
 }
 
@@ -94,7 +97,7 @@ SealedEffect drawn_effect(const std::vector<Effect>& effects, const Model& tank,
 // Whether two effects can be there at once: other terms, and none of the camera's, which would be
 // the verdict.
 bool beside(const Effect& a, const Effect& b) {
-  return !a.camera() && !b.camera() && term_of(a) != term_of(b);
+  return !a.camera() && !b.camera() && a.term != b.term;
 }
 
 // Amplitudes in their own units.
@@ -133,7 +136,7 @@ Model tank_model() {
   model.control.latches = false;
   // The water is extracted with the drag of a sphere: the balls must have it.
   for (ActiveForce& force : model.forces) {
-    if (force.term->name() == "ball_drag") force.p[0] = BallPhysics{}.drag_coefficient;
+    if (force.term == &ball_drag()) force.p[0] = BallPhysics{}.drag_coefficient;
   }
   return model;
 }
@@ -217,8 +220,8 @@ std::string key_text(const Sealed& s) {
   std::string out = s.kind;
   for (std::size_t e = 0; e < s.effects.size(); ++e) {
     out += " " + s.names[e];
-    for (const auto& [path, value] : s.effects[e].effect.shape) {
-      out += " " + path + " " + shortest(value);
+    for (const auto& [of, value] : s.effects[e].effect.held) {
+      out += " " + of.path() + " " + shortest(value);
     }
     for (const double a : s.effects[e].amplitudes) out += " " + shortest(a);
   }
@@ -256,7 +259,7 @@ std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {
   for (const SealedEffect& e : s.effects) {
     const std::vector<double> amplitudes = strengths(e, tank);
     for (std::size_t c = 0; c < amplitudes.size(); ++c) out[e.effect.paths[c]] = amplitudes[c];
-    for (const auto& [path, value] : e.effect.shape) out[path] = value;
+    for (const auto& [of, value] : e.effect.held) out[of.path()] = value;
   }
   return out;
 }

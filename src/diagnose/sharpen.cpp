@@ -23,10 +23,9 @@ bool tells(const Effect& effect, const JointAmplitudes& own) {
 }
 
 // A distance between places, ranges by their logarithms.
-double far_apart(const std::vector<std::pair<std::string, double>>& a,
-                 const std::vector<std::pair<std::string, double>>& b) {
-  if (a.size() == 1) return std::fabs(std::log(a[0].second / b[0].second));
-  return std::hypot(a[0].second - b[0].second, a[1].second - b[1].second);
+double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldParameter>& b) {
+  if (a.size() == 1) return std::fabs(std::log(a[0].value / b[0].value));
+  return std::hypot(a[0].value - b[0].value, a[1].value - b[1].value);
 }
 
 }  // namespace
@@ -69,7 +68,7 @@ bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& 
   if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
   const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
-    const bool same = other.effect >= 0 && effect(other).name == effect(f).name;
+    const bool same = other.effect >= 0 && effect(other).family == effect(f).family;
     return !same && other.gain > kNearGain * leading.front().gain;
   });
 }
@@ -87,15 +86,15 @@ Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, Naming& naming, Alignmen
 
 // What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
 void Diagnoser::Sharpening::find_homes() {
-  std::map<std::string, double> least;
+  std::map<int, double> least;
   const std::vector<Effect>& effects = of_.atlas_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const auto told = of_.scanned(effects[e], judged_.details);
     if (!told) continue;
-    const double off = far_apart(effects[e].shape, told->shape);
-    const auto [at, first] = least.emplace(effects[e].name, off);
+    const double off = far_apart(effects[e].held, told->held);
+    const auto [at, first] = least.emplace(effects[e].family, off);
     if (!first && off >= at->second) continue;
-    at->second = off, home_[effects[e].name] = static_cast<int>(e);
+    at->second = off, home_[effects[e].family] = static_cast<int>(e);
   }
 }
 
@@ -117,7 +116,7 @@ Explanation Diagnoser::Sharpening::run() {
 
 Diagnoser::Sharpening::Name Diagnoser::Sharpening::name_of(const EffectFit& f) const {
   if (f.effect < 0) return {f.effect, f.shape};
-  const auto home = home_.find(of_.effect(f).name);
+  const auto home = home_.find(of_.effect(f).family);
   return {home == home_.end() ? f.effect : home->second, f.shape};
 }
 
@@ -131,22 +130,21 @@ Fingerprint Diagnoser::Sharpening::fingerprint(const EffectFit& f) {
   return alignment_.aligned(of_.atlas_->fingerprints()[e], of_.atlas_->plan().effects[e]);
 }
 
-void Diagnoser::Sharpening::forget(const std::string& effect) {
-  std::erase_if(own_, [&](const auto& one) {
-    const int name = one.first.first;
-    return name >= 0 && of_.atlas_->plan().effects[static_cast<std::size_t>(name)].name == effect;
-  });
+void Diagnoser::Sharpening::forget(int family) {
+  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  const auto concerns = [&](const Name& one) {
+    return one.first >= 0 && effects[static_cast<std::size_t>(one.first)].family == family;
+  };
+  std::erase_if(own_, [&](const auto& one) { return concerns(one.first); });
   for (auto known = known_.begin(); known != known_.end();) {
-    const auto [name, shape] = known->first;
-    const std::vector<Effect>& effects = of_.atlas_->plan().effects;
-    if (name < 0 || effects[static_cast<std::size_t>(name)].name != effect) {
+    if (!concerns(known->first)) {
       ++known;
       continue;
     }
     alone_.erase(known->first), centred_.erase(known->first);
     moved_.erase(known->first), step_.erase(known->first);
     EffectFit f;
-    f.effect = name;
+    f.effect = known->first.first;
     known = known_.erase(known);
     naming_.sharpen(f, fingerprint(f));
   }

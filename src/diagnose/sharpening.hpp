@@ -32,8 +32,8 @@ class Diagnoser::Sharpening {
 
   void find_homes();
   Name name_of(const EffectFit& f) const;
-  // Forgets the experiments with an effect: it is another one now.
-  void forget(const std::string& effect);
+  // Forgets the experiments with the effects of a family: they are others now.
+  void forget(int family);
   // The sharpest that there is.
   Fingerprint fingerprint(const EffectFit& f);
   // Learns one about the strength that was found.
@@ -82,12 +82,12 @@ class Diagnoser::Sharpening {
   // Beside a strong effect, the place of a stream and the ranges of forces are not where they seem
   // to be without it. True if one of them is elsewhere.
   bool rescan(const Explanation& e);
-  // The range of the first of these.
-  bool rescan(const Explanation& e, const std::vector<std::string>& names,
-              const std::string& variable);
-  // Scores beside all strong ones but those of these names, and curves that may stand for them.
-  ScorePlan beside(const Explanation& e, const std::vector<std::string>& names,
-                   const std::string& variable) const;
+  bool rescan_stream(const Explanation& e, const Effect& stream);
+  // The range of this effect.
+  bool rescan(const Explanation& e, const Effect& scanned);
+  // Scores beside all strong ones but those of the law that is scanned, and curves that may stand
+  // for it.
+  ScorePlan beside(const Explanation& e, const Effect& scanned) const;
   // Where the likeliest name leaves something, its law may have another range, time or length than
   // the experiments with it had; so may that of a name of the same variable as a curve. Each is
   // sought up and down until it fits no better.
@@ -114,7 +114,7 @@ class Diagnoser::Sharpening {
   Judged& judged_;
   const Eigen::VectorXd& residual_;
   double nothing_;                       // squared distance of nothing, by the scatter of nulls
-  std::map<std::string, int> home_;      // the effect that stands for all of a name
+  std::map<int, int> home_;              // the effect that stands for all of its family
   std::map<Name, JointAmplitudes> own_;  // what the filter says of effects
   std::map<Name, Fingerprint> known_;    // fingerprints about found amplitudes
   LearnedFingerprints learned_;          // all that there were

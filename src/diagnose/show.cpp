@@ -93,10 +93,13 @@ Innovations innovations(const Model& model, const Recording& recording,
 // The model with its pumps in the phase that predicts a recording best: it is each recording's own,
 // as when a camera was started. Squares of innovations have two harmonics in it.
 Model in_phase(const Model& model, const Recording& recording, const PredictorOptions& predictor) {
-  const bool pumps = std::any_of(model.forces.begin(), model.forces.end(),
-                                 [](const auto& f) { return f.term->name() == "flow_pulsation"; });
-  if (!pumps) return model;
-  const std::vector<std::string> path{"forces.flow_pulsation.phase"};
+  const auto pumps =
+      std::find_if(model.forces.begin(), model.forces.end(), [](const ActiveForce& f) {
+        const auto own = f.term->effects();
+        return !own.empty() && own[0].estimated == Estimated::gain_and_frequency;
+      });
+  if (pumps == model.forces.end()) return model;
+  const std::vector path{parameter_of(*pumps->term, ParameterKind::phase)->path()};
   std::array<Vector2, 2> harmonics{Vector2::Zero(), Vector2::Zero()};
   for (int k = 0; k < kPhases; ++k) {
     const double phase = 2 * kPi * k / kPhases;

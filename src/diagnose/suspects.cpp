@@ -21,35 +21,34 @@ const Effect& Diagnoser::effect(const EffectFit& f) const {
 
 std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
                                                      const ScoreDetails& details) const {
-  if (effect.name == "local_flow") {
+  if (effect.estimated == Estimated::place) {
     const StreamPlace& s = details.scans.stream;
-    return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).shape,
+    return Scanned{stream_effect(setup_.model, s.x, s.y, s.width).held,
                    JointAmplitudes{Eigen::Vector2d(s.speed_x, s.speed_y), s.gain}};
   }
-  if (effect.name == "vortex_shedding" && details.swinging > 0) {
-    return Scanned{{{effect.shape[0].first, details.swinging}}, std::nullopt};
+  if (effect.estimated == Estimated::slip_and_frequency && details.swinging > 0) {
+    return Scanned{{{effect.held[0].of, details.swinging}}, std::nullopt};
   }
-  const bool repels = effect.name == "pair_repulsion";
-  const auto told = details.scans.values.find(repels ? "pair_attraction" : effect.name);
+  const bool negative = effect.negative_of != nullptr;
+  const auto told = details.scans.values.find(negative ? effect.negative_of : effect.term);
   if (told == details.scans.values.end()) return std::nullopt;
-  const double amplitude = repels ? -told->second.amplitude : told->second.amplitude;
+  const double amplitude = negative ? -told->second.amplitude : told->second.amplitude;
   if (!effect.two_sided && !(amplitude > 0)) return std::nullopt;
-  return Scanned{{{effect.shape[0].first, told->second.value}}, std::nullopt};
+  return Scanned{{{effect.held[0].of, told->second.value}}, std::nullopt};
 }
 
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
   if (f.effect < 0) return effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]);
   Effect out = effect(f);
-  if (out.name == "flow_pulsation") {
-    out.shape = {{"forces.flow_pulsation.frequency", details.pulsation}};
-  }
-  if (const auto told = scanned(out, details)) out.shape = told->shape;
-  for (auto& [path, value] : out.shape) {
-    const auto better = details.refined.find(path);
+  if (out.estimated == Estimated::gain_and_frequency) out.held[0].value = details.pulsation;
+  if (const auto told = scanned(out, details)) out.held = told->held;
+  for (auto& [of, value] : out.held) {
+    const auto better = details.refined.find(of.path());
     if (better != details.refined.end()) value = better->second;
   }
-  if (out.name == "heterogeneous_module") {
-    out.shape = {{"forces.heterogeneous_module.module", static_cast<double>(details.heaviest)}};
+  if (out.estimated == Estimated::module) {
+    out.held = {
+        {*parameter_of(*out.term, ParameterKind::module), static_cast<double>(details.heaviest)}};
   }
   return out;
 }
@@ -58,15 +57,16 @@ Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) 
 std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& details) const {
   if (f.effect < 0) return "shape " + std::to_string(f.shape);
   const std::string out = "effect " + std::to_string(f.effect);
-  const std::string& name = effect(f).name;
-  if (name == "flow_pulsation") return out + " at " + fixed(details.pulsation, 1) + " Hz";
-  const auto shape = found_effect(f, details).shape;
-  const bool own = std::any_of(shape.begin(), shape.end(), [&](const auto& one) {
-    return details.refined.count(one.first) > 0;
+  if (effect(f).estimated == Estimated::gain_and_frequency) {
+    return out + " at " + fixed(details.pulsation, 1) + " Hz";
+  }
+  const auto held = found_effect(f, details).held;
+  const bool own = std::any_of(held.begin(), held.end(), [&](const HeldParameter& one) {
+    return details.refined.count(one.of.path()) > 0;
   });
   if (!own && !scanned(effect(f), details)) return out;
-  std::string place = name;
-  for (const auto& [path, value] : shape) place += " " + fixed(value, 4);
+  std::string place = effect(f).name;
+  for (const auto& [of, value] : held) place += " " + fixed(value, 4);
   return place;
 }
 

@@ -10,6 +10,16 @@ constexpr Parameter kParameters[] = {
     {"coefficient", "1", 0, 0, 5, "added mass, as a fraction of the displaced water's mass"},
 };
 
+// A larger one gathers all modules in the middle, where the effect of a small one cannot be
+// learned.
+constexpr EffectDescription kEffects[] = {
+    {.order = 80,
+     .variable = "slip",
+     .amplitudes = {{"coefficient", 0.25}},
+     .split = split_by::kOtherBodies,
+     .growth = 2},
+};
+
 class AddedMass final : public ForceTerm {
  public:
   std::string_view name() const override { return "added_mass"; }
@@ -24,6 +34,7 @@ class AddedMass final : public ForceTerm {
            "flow; torque likewise with m_a side^2 / 6";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool transforms() const override { return true; }
   void transform(const Model& model, const Kinematics& k, const Moment& now,
                  std::span<const double> p, std::span<Wrench> sum) const override {

@@ -9,12 +9,21 @@ constexpr Parameter kParameters[] = {
     {"force_y", "N", 0, -1, 1, "push along +y"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 130,
+     .variable = "position",
+     .amplitudes = {{"force_x", 1.5e-3}, {"force_y", 1.5e-3}},
+     .two_sided = true,
+     .split = split_by::kTurnedCamera},
+};
+
 class BodyForce final : public ForceTerm {
  public:
   std::string_view name() const override { return "body_force"; }
   std::string_view summary() const override { return "a constant push on every body"; }
   std::string_view equation() const override { return "F = (force_x, force_y)"; }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -9,6 +9,14 @@ constexpr Parameter kParameters[] = {
     {"rate", "1/s", 0, -10, 10, "acceleration to the left by speed"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 120,
+     .variable = "slip",
+     .amplitudes = {{"rate", 0.4}},
+     .two_sided = true,
+     .split = split_by::kTurnedCamera},
+};
+
 class Coriolis final : public ForceTerm {
  public:
   std::string_view name() const override { return "coriolis"; }
@@ -17,6 +25,7 @@ class Coriolis final : public ForceTerm {
   }
   std::string_view equation() const override { return "F = m rate z x v"; }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -17,6 +17,17 @@ constexpr Parameter kParameters[] = {
     {"share", "1", 0, 0, 1, "of the variance of the flow's own gusts that are such eddies"},
 };
 
+constexpr EffectDescription of_scale(double time, double length) {
+  return {.order = 210,
+          .variable = "lag",
+          .amplitudes = {{"share", 0.15}},
+          .held = {{"time", time, 0.08, 3}, {"length", length, 0.01, 0.25}},
+          .scored = false,
+          .mean_force = false};
+}
+constexpr EffectDescription kEffects[] = {of_scale(0.25, 0.03), of_scale(0.25, 0.08),
+                                          of_scale(1, 0.03), of_scale(1, 0.08)};
+
 // Waves u = amplitude (-sin a, cos a) cos(k . x + w t + phase), k along a, so the flow is free of
 // divergence. Normal k gives a correlation exp(-r^2 / (2 length^2)) of the stream function's
 // gradient, Cauchy-distributed w one of exp(-t / time) [random Fourier features].
@@ -63,6 +74,7 @@ class CorrelatedGusts final : public ForceTerm {
            "whose curl turns modules along";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {

@@ -29,7 +29,7 @@ constexpr Parameter kParameters[] = {
 
 double size_at(const ForceCurve& curve, std::span<const double> p, double value) {
   const KnotShare at = place_on(curve, value);
-  const double* v = &p[4];
+  const double* v = &p[kFirstKnot];
   return v[at.first] + at.share * (v[at.second] - v[at.first]);
 }
 

@@ -9,6 +9,8 @@
 namespace lilytank {
 
 constexpr int kKnots = 6;  ///< values of a curve
+/// Where they begin among the parameters of the term: variable, direction, low and high come first.
+constexpr std::size_t kFirstKnot = 4;
 
 /// What the force depends on.
 enum class Along : int { radius, heading, slip, spin, time, x, y, gap };

@@ -10,6 +10,10 @@ constexpr Parameter kParameters[] = {
     {"rate", "1/s", 0, -0.1, 0.1, "relative growth of the flow a second"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 140, .variable = "time", .amplitudes = {{"rate", 5e-4}}, .two_sided = true},
+};
+
 class FlowDrift final : public ForceTerm {
  public:
   std::string_view name() const override { return "flow_drift"; }
@@ -18,6 +22,7 @@ class FlowDrift final : public ForceTerm {
     return "u *= max(0, 1 + rate t), mean and standard deviation";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   bool sets_gain() const override { return true; }
   void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,

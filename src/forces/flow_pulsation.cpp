@@ -9,7 +9,18 @@ namespace {
 constexpr Parameter kParameters[] = {
     {"share", "1", 0, 0, 1, "amplitude, as a fraction of the flow"},
     {"frequency", "Hz", 0.9, 0, 20, "of the pulsation"},
-    {"phase", "rad", 0, -6.2832, 6.2832, "at time 0"},
+    {"phase", "rad", 0, -6.2832, 6.2832, "at time 0", false, ParameterKind::phase},
+};
+
+constexpr EffectDescription kEffects[] = {
+    {.order = 200,
+     .variable = "time",
+     .amplitudes = {{"share", 0.15}},
+     .held = {{"frequency", 0.9}},
+     .scored = false,
+     .mean_force = false,
+     .growth = 2,
+     .estimated = Estimated::gain_and_frequency},
 };
 
 class FlowPulsation final : public ForceTerm {
@@ -20,6 +31,7 @@ class FlowPulsation final : public ForceTerm {
     return "u *= 1 + share cos(2 pi frequency t + phase), mean and standard deviation";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   bool sets_gain() const override { return true; }
   void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,

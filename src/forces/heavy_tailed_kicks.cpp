@@ -11,6 +11,15 @@ constexpr Parameter kParameters[] = {
     {"rate", "1/s", 0.2, 0, 40, "knocks a second and module"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 240,
+     .variable = "lag",
+     .amplitudes = {{"impulse", 1.5e-3}},
+     .scored = false,
+     .mean_force = false,
+     .growth = 2},
+};
+
 class HeavyTailedKicks final : public ForceTerm {
  public:
   std::string_view name() const override { return "heavy_tailed_kicks"; }
@@ -22,6 +31,7 @@ class HeavyTailedKicks final : public ForceTerm {
            "axis";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model&, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -9,7 +9,17 @@ namespace {
 
 constexpr Parameter kParameters[] = {
     {"extra", "1", 0, -0.9, 9, "mass and inertia beyond those of the others, as a fraction"},
-    {"module", "1", 0, 0, 9999, "which one", true},
+    {"module", "1", 0, 0, 9999, "which one", true, ParameterKind::module},
+};
+
+constexpr EffectDescription kEffects[] = {
+    {.order = 190,
+     .variable = "module",
+     .amplitudes = {{"extra", 0.4}},
+     .scored = false,
+     .mean_force = false,
+     .growth = 2,
+     .estimated = Estimated::module},
 };
 
 class HeterogeneousModule final : public ForceTerm {
@@ -23,6 +33,7 @@ class HeterogeneousModule final : public ForceTerm {
     return "F -> F / (1 + extra), torque likewise, of one module";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   std::string objection(const Model& model, std::span<const double> p) const override {
     if (p[0] == 0 || p[1] < model.module.count) return "";
     return "module: there are only " + std::to_string(model.module.count) + ", counted from 0";

@@ -11,6 +11,13 @@ constexpr Parameter kParameters[] = {
     {"range", "m", 0.0002, 0.00005, 0.005, "gap over which the force falls by e"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 30,
+     .variable = "pair",
+     .amplitudes = {{"strength", 0.02}},
+     .split = split_by::kLatches},
+};
+
 class LatchStick final : public ForceTerm {
  public:
   std::string_view name() const override { return "latch_stick"; }
@@ -21,6 +28,7 @@ class LatchStick final : public ForceTerm {
            "each other, g the gap; nothing beyond 8 range";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -12,9 +12,19 @@ constexpr int kBlock = 64;  // bodies at a time
 constexpr Parameter kParameters[] = {
     {"speed_x", "m/s", 0, -2, 2, "of the added stream in its middle"},
     {"speed_y", "m/s", 0, -2, 2, "of the added stream in its middle"},
-    {"x", "m", 0, -5, 5, "middle"},
-    {"y", "m", 0, -5, 5, "middle"},
+    {"x", "m", 0, -5, 5, "middle", false, ParameterKind::place},
+    {"y", "m", 0, -5, 5, "middle", false, ParameterKind::place},
     {"width", "m", 0.05, 0.005, 5, "standard deviation of its Gaussian profile"},
+};
+
+constexpr EffectDescription kEffects[] = {
+    {.order = 150,
+     .variable = "position",
+     .amplitudes = {{"speed_x", 0.06}, {"speed_y", 0.06}},
+     .held = {{"x"}, {"y"}, {"width", 0.06, 0.02, 0.2}},
+     .two_sided = true,
+     .split = split_by::kOtherBodies,
+     .estimated = Estimated::place},
 };
 
 class LocalFlow final : public ForceTerm {
@@ -27,6 +37,7 @@ class LocalFlow final : public ForceTerm {
     return "u += (speed_x, speed_y) exp(-d^2 / (2 width^2)), d the distance from (x, y)";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   void stir(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
             Stirring& water) const override {

@@ -11,6 +11,13 @@ constexpr Parameter kParameters[] = {
     {"range", "m", 0.004, 0.0005, 0.05, "gap over which the force falls by e"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 40,
+     .variable = "pair",
+     .amplitudes = {{"coefficient", 0.15}},
+     .split = split_by::kLoneModule},
+};
+
 class Lubrication final : public ForceTerm {
  public:
   std::string_view name() const override { return "lubrication"; }
@@ -23,6 +30,7 @@ class Lubrication final : public ForceTerm {
            "g = 8 range";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -8,7 +8,21 @@ namespace {
 
 constexpr Parameter kParameters[] = {
     {"strength", "N", 0, 0, 1, "pull of two dipoles on one axis whose centres are a side apart"},
-    {"angle", "rad", 0, -6.2832, 6.2832, "direction of the dipole in the module's frame"},
+    {"angle", "rad", 0, -6.2832, 6.2832, "direction of the dipole in the module's frame", false,
+     ParameterKind::direction},
+};
+
+// With the dipole along the module's axis (the default) and across.
+constexpr EffectDescription kEffects[] = {
+    {.order = 20,
+     .variable = "pair",
+     .amplitudes = {{"strength", 0.012}},
+     .split = split_by::kLoneModule},
+    {.order = 20,
+     .variable = "pair",
+     .amplitudes = {{"strength", 0.012}},
+     .held = {{"angle", kPi / 2}},
+     .split = split_by::kLoneModule},
 };
 
 class MagneticDipole final : public ForceTerm {
@@ -23,6 +37,7 @@ class MagneticDipole final : public ForceTerm {
            "1; torque m x B, m unit vectors, n from 1 to 2; nothing beyond 10 sides";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -10,6 +10,10 @@ constexpr Parameter kParameters[] = {
     {"coefficient", "1", 0, -5, 5, "share of the lift of an ideal cylinder of the module's area"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 90, .variable = "spin", .amplitudes = {{"coefficient", 0.3}}, .two_sided = true},
+};
+
 class MagnusLift final : public ForceTerm {
  public:
   std::string_view name() const override { return "magnus_lift"; }
@@ -22,6 +26,7 @@ class MagnusLift final : public ForceTerm {
            "module (Kutta and Joukowski)";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -9,6 +9,13 @@ constexpr Parameter kParameters[] = {
     {"left", "m", 0, -0.02, 0.02, "along the module's own +y"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 180,
+     .variable = "heading",
+     .amplitudes = {{"forward", 1e-3}, {"left", 1e-3}},
+     .two_sided = true},
+};
+
 class MassOffset final : public ForceTerm {
  public:
   std::string_view name() const override { return "mass_offset"; }
@@ -19,6 +26,7 @@ class MassOffset final : public ForceTerm {
     return "torque -= (R(theta) (forward, left)) x F, F the sum of all forces";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool transforms() const override { return true; }
   void transform(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
                  std::span<Wrench> sum) const override {

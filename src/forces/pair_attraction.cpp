@@ -14,6 +14,25 @@ constexpr Parameter kParameters[] = {
     {"range", "m", 0.012, 0.001, 0.1, "gap over which the force falls by e"},
 };
 
+constexpr EffectDescription at_range(double range) {
+  return {.order = 10,
+          .variable = "pair",
+          .amplitudes = {{"strength", 5e-3}},
+          .held = {{.parameter = "range",
+                    .value = range,
+                    .low = 0.0015,
+                    .high = 0.08,
+                    .scanned_from = 0.002}},
+          .split = split_by::kLatches};
+}
+constexpr EffectDescription opposite(EffectDescription of) {
+  of.negative_of = pair_attraction;
+  return of;
+}
+constexpr EffectDescription kAttraction[] = {at_range(0.004), at_range(0.012), at_range(0.03)};
+constexpr EffectDescription kRepulsion[] = {opposite(kAttraction[0]), opposite(kAttraction[1]),
+                                            opposite(kAttraction[2])};
+
 class PairForce final : public ForceTerm {
  public:
   explicit constexpr PairForce(bool attracts) : attracts_(attracts) {}
@@ -32,6 +51,9 @@ class PairForce final : public ForceTerm {
                        "centres; nothing beyond g = 8 range";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override {
+    return attracts_ ? kAttraction : kRepulsion;
+  }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

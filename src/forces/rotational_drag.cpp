@@ -10,6 +10,10 @@ constexpr Parameter kParameters[] = {
     {"coefficient", "N m s", 0, -0.01, 0.01, "torque by spin relative to the water"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 110, .variable = "spin", .amplitudes = {{"coefficient", 5e-6}}, .two_sided = true},
+};
+
 class RotationalDrag final : public ForceTerm {
  public:
   std::string_view name() const override { return "rotational_drag"; }
@@ -18,6 +22,7 @@ class RotationalDrag final : public ForceTerm {
     return "torque = coefficient (curl u / 2 - omega), u the mean flow and what stirs it";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

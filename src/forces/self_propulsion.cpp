@@ -9,6 +9,13 @@ constexpr Parameter kParameters[] = {
     {"force_y", "N", 0, -1, 1, "along the module's own +y"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 160,
+     .variable = "heading",
+     .amplitudes = {{"force_x", 1e-3}, {"force_y", 1e-3}},
+     .two_sided = true},
+};
+
 class SelfPropulsion final : public ForceTerm {
  public:
   std::string_view name() const override { return "self_propulsion"; }
@@ -17,6 +24,7 @@ class SelfPropulsion final : public ForceTerm {
   }
   std::string_view equation() const override { return "F = R(theta) (force_x, force_y)"; }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

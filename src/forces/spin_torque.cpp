@@ -8,12 +8,17 @@ constexpr Parameter kParameters[] = {
     {"torque", "N m", 0, -0.01, 0.01, "counter-clockwise"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 170, .variable = "spin", .amplitudes = {{"torque", 1.2e-5}}, .two_sided = true},
+};
+
 class SpinTorque final : public ForceTerm {
  public:
   std::string_view name() const override { return "spin_torque"; }
   std::string_view summary() const override { return "every module is turned the same way"; }
   std::string_view equation() const override { return "torque = constant"; }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

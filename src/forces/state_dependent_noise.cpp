@@ -15,6 +15,17 @@ constexpr Parameter kParameters[] = {
     {"by_slip", "N s/m", 0, 0, 10, "standard deviation per axis and unit of relative speed"},
 };
 
+constexpr EffectDescription by(std::string_view parameter, double size, std::string_view variable) {
+  return {.order = 230,
+          .variable = variable,
+          .amplitudes = {{parameter, size}},
+          .scored = false,
+          .mean_force = false,
+          .growth = 2};
+}
+constexpr EffectDescription kEffects[] = {by("by_radius", 0.012, "radius"),
+                                          by("by_slip", 0.06, "slip")};
+
 class StateDependentNoise final : public ForceTerm {
  public:
   std::string_view name() const override { return "state_dependent_noise"; }
@@ -27,6 +38,7 @@ class StateDependentNoise final : public ForceTerm {
            "and step";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -10,6 +10,15 @@ constexpr Parameter kParameters[] = {
     {"coefficient", "N s/m", 0, -10, 10, "force by relative speed"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 100,
+     .variable = "slip",
+     .amplitudes = {{"coefficient", 0.03}},
+     .two_sided = true,
+     .split = split_by::kPumpPower,
+     .growth = 2},
+};
+
 class ViscousDrag final : public ForceTerm {
  public:
   std::string_view name() const override { return "viscous_drag"; }
@@ -20,6 +29,7 @@ class ViscousDrag final : public ForceTerm {
     return "F = coefficient w, w the mean velocity of the water relative to the module";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

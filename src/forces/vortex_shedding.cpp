@@ -14,6 +14,18 @@ constexpr Parameter kParameters[] = {
     {"frequency", "Hz", 0.43, 0, 20, "of shedding: about 0.13 relative speed / side"},
 };
 
+constexpr EffectDescription at_frequency(double frequency) {
+  return {.order = 220,
+          .variable = "lag",
+          .amplitudes = {{"coefficient", 0.8}},
+          .held = {{"frequency", frequency, 0.1, 3}},
+          .scored = false,
+          .mean_force = false,
+          .growth = 2,
+          .estimated = Estimated::slip_and_frequency};
+}
+constexpr EffectDescription kEffects[] = {at_frequency(0.3), at_frequency(0.8)};
+
 class VortexShedding final : public ForceTerm {
  public:
   std::string_view name() const override { return "vortex_shedding"; }
@@ -26,6 +38,7 @@ class VortexShedding final : public ForceTerm {
            "for each module";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -16,6 +16,13 @@ constexpr Parameter kParameters[] = {
     {"width", "m", 0.02, 0.005, 0.2, "standard deviation of the wake across the stream"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 50,
+     .variable = "pair",
+     .amplitudes = {{"share", 0.4}},
+     .split = split_by::kLoneModule},
+};
+
 constexpr double kWide = 5;  // deviations beyond which the lee is nothing
 constexpr int kBlock = 64;   // modules in the lee that are looked at together
 
@@ -61,6 +68,7 @@ class WakeShielding final : public ForceTerm {
            "it";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {

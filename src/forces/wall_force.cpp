@@ -12,6 +12,16 @@ constexpr Parameter kParameters[] = {
     {"range", "m", 0.004, 0.0005, 0.1, "gap over which the force falls by e"},
 };
 
+constexpr EffectDescription at_range(double range, double strength) {
+  return {.order = 60,
+          .variable = "radius",
+          .amplitudes = {{"strength", strength}},
+          .held = {{"range", range, 0.002, 0.05}},
+          .two_sided = true,
+          .split = split_by::kOtherBodies};
+}
+constexpr EffectDescription kEffects[] = {at_range(0.005, 0.01), at_range(0.02, 5e-3)};
+
 class WallForce final : public ForceTerm {
  public:
   std::string_view name() const override { return "wall_force"; }
@@ -24,6 +34,7 @@ class WallForce final : public ForceTerm {
            "tank's centre";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
 
   void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
            std::span<Wrench> out) const override {

@@ -13,6 +13,14 @@ constexpr Parameter kParameters[] = {
     {"thickness", "m", 0.01, 0.001, 0.1, "distance from the wall over which the layer falls by e"},
 };
 
+constexpr EffectDescription kEffects[] = {
+    {.order = 70,
+     .variable = "radius",
+     .amplitudes = {{"share", 0.6}},
+     .held = {{"thickness", 0.02, 0.005, 0.08}},
+     .split = split_by::kOtherBodies},
+};
+
 constexpr double kNothing = 1e-9;  // a share of the layer that nobody could see: far from the wall
 
 class WallLayer final : public ForceTerm {
@@ -25,6 +33,7 @@ class WallLayer final : public ForceTerm {
     return "u -= share exp(-(R - r) / thickness) K_v mu(x), r the distance from the tank's centre";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
+  std::span<const EffectDescription> effects() const override { return kEffects; }
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {

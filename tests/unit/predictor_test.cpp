@@ -9,6 +9,7 @@
 #include "diagnose/scores.hpp"
 #include "diagnose/show.hpp"
 #include "diagnose/slack.hpp"
+#include "forces/library.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
@@ -236,11 +237,11 @@ TEST(Scores, TellTheRangeOfAForceBetweenModules) {
   const auto repelled =
       filmed(with_parameters(model, paths, std::vector<double>{8e-3, 0.02}), 60, 5);
   const auto found = find_values(plan_for(model, repelled), repelled);
-  ASSERT_EQ(found.count("pair_attraction"), 1u);
-  EXPECT_LT(found.at("pair_attraction").amplitude, 0);
-  EXPECT_NEAR(std::log(found.at("pair_attraction").value / 0.02), 0, std::log(2.0));
+  ASSERT_EQ(found.count(&pair_attraction()), 1u);
+  EXPECT_LT(found.at(&pair_attraction()).amplitude, 0);
+  EXPECT_NEAR(std::log(found.at(&pair_attraction()).value / 0.02), 0, std::log(2.0));
   const auto nothing = filmed(model, 60, 5);
-  EXPECT_EQ(find_values(plan_for(model, nothing), nothing).count("pair_attraction"), 0u);
+  EXPECT_EQ(find_values(plan_for(model, nothing), nothing).count(&pair_attraction()), 0u);
 }
 
 // Modules that a wall attracts lie at it, and it holds them: counting these, the force would seem
@@ -251,7 +252,7 @@ TEST(Scores, TellAWallThatAttractsModulesThoughItHoldsThem) {
   const std::vector<Effect> catalogue = effect_catalogue(model);
   Effect wall = *std::find_if(catalogue.begin(), catalogue.end(),
                               [](const Effect& e) { return e.name == "wall_force"; });
-  wall.shape[0].second = 0.03;
+  wall.held[0].value = 0.03;
   const auto recordings = filmed(with_effect(model, wall, {7e-3}), 120, 5);
   const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {wall});
   const double truth = 7e-3 / wall.sizes[0];

@@ -20,13 +20,13 @@ TEST(Sealed, effectsHaveOtherNumbersThanTheCatalogueWithinTheirBounds) {
     for (const SealedEffect& e : seal(tank, effects, shapes, 5, world).effects) {
       if (e.like < 0) continue;
       EXPECT_EQ(e.effect.name, effects[static_cast<std::size_t>(e.like)].name);
-      for (const auto& [path, value] : e.effect.shape) {
-        if (path == "forces.heterogeneous_module.module") {  // no number that can be varied
+      for (const auto& [of, value] : e.effect.held) {
+        const std::string path = of.path();
+        if (of->kind == ParameterKind::module) {  // no number that can be varied
           EXPECT_TRUE(value >= 0 && value < tank.module.count) << value;
           continue;
         }
-        const ModelParameter of = model_parameter(path);
-        EXPECT_TRUE(of.low <= value && value <= of.high) << path << " " << value;
+        EXPECT_TRUE(of->low <= value && value <= of->high) << path << " " << value;
         others += value != parameter_value(tank, path) ? 1 : 0;
       }
     }
