@@ -8,7 +8,7 @@ namespace lilytank {
 
 class ForceTerm;
 
-/// What the search measures of an effect directly in recordings, besides its amplitudes.
+/// What a routine measures directly in recordings, besides amplitudes. Each serves one term.
 enum class Estimated : std::uint8_t {
   none,
   place,               ///< where a stream is, and how wide

@@ -1,6 +1,6 @@
 // One physical effect = one small file in src/forces plus one line in src/forces/library.cpp.
-// The simulator adds these terms; calibration varies their parameters; the search for missing
-// physics asks each term what it would have done to a recorded motion. All read the same file.
+// The simulator adds these terms; calibration varies their parameters; the search for omitted
+// effects reads from the same file how to try a term, and evaluates it on recorded motion.
 #pragma once
 #include <cstdint>
 #include <span>

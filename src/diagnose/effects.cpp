@@ -25,7 +25,7 @@ ParameterRef parameter_named(const ForceTerm& term, std::string_view name) {
     if (all[k].name == name) return {&term, k};
   }
   throw std::logic_error("an effect of " + std::string(term.name()) + " has a parameter \"" +
-                         std::string(name) + "\" that the term has not");
+                         std::string(name) + "\" that the term lacks");
 }
 
 Effect described(const ForceTerm& term, const EffectDescription& d, const Model& model) {
@@ -33,7 +33,7 @@ Effect described(const ForceTerm& term, const EffectDescription& d, const Model&
   e.name = term.name(), e.equation = term.equation(), e.term = &term, e.variable = d.variable;
   e.negative_of = d.negative_of == nullptr ? nullptr : &d.negative_of();
   e.estimated = d.estimated, e.two_sided = d.two_sided, e.split = d.split, e.growth = d.growth;
-  // The force of the negative is this one's, turned round.
+  // The force of the negative differs from this one by its sign: scores of both would be the same.
   e.scored = d.scored && e.negative_of == nullptr, e.mean_force = d.mean_force;
   for (const auto& [name, size] : d.amplitudes) {
     if (name.empty()) continue;
