@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "lilytank/model.hpp"
@@ -68,7 +69,12 @@ inline const std::string kTiltX = "camera.tilt_x", kTiltY = "camera.tilt_y";
 bool of_camera(const std::string& path);
 /// A number that an emulator can vary: one of the camera's, or model_parameter(). Throws
 /// InputError.
-ModelParameter emulator_parameter(const std::string& path);
+ParameterInfo emulator_parameter(const std::string& path);
+
+/// The camera's numbers of those paths.
+struct CameraNumbers {
+  double position_noise = 0, heading_noise = 0, lens = 0, tilt_x = 0, tilt_y = 0;
+};
 
 /// Settings of the simulations, apart from the parameters that vary.
 struct EmulatorOptions {
@@ -111,6 +117,8 @@ class Emulator {
                                  std::int64_t replicate, double seconds) const;
 
  private:
+  using Parameter = std::variant<ModelParameter, double CameraNumbers::*>;
+  static Parameter parameter(const std::string& path);
   struct Scene;  // a model and a camera at some values
   Scene scene(std::span<const double> values, const RecordingShape& shape,
               const std::shared_ptr<const FlowField>& field) const;
@@ -119,6 +127,7 @@ class Emulator {
                                     std::uint64_t seed) const;
   Model model_;
   std::vector<std::string> paths_;
+  std::vector<Parameter> parameters_;  // of these paths
   std::vector<RecordingShape> shapes_;
   EmulatorOptions options_;
 };

@@ -1,16 +1,52 @@
-// Numbers of a Model by their dotted scenario paths: what calibration varies, and whatever else
-// asks how a result depends on a number.
+// Numbers of a Model by their dotted scenario paths: the parameters of calibration, diagnosis and
+// other analyses of how a result depends on a number. A path is looked up once; the parameter then
+// reads and writes models without text.
 #pragma once
+#include <cstddef>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "lilytank/model.hpp"
 
 namespace lilytank {
 
-/// A number of a Model, as the table of scenario keys has it.
-struct ModelParameter {
+/// Where a number is within any Model: a member of one of its parts, or a parameter of a force
+/// term.
+class ModelNumber {
+ public:
+  template <class Part>
+  ModelNumber(Part Model::*part, double Part::*number) : at_(Member<Part>{part, number}) {}
+  /// The parameter of that index. `term` lives as long as the program.
+  ModelNumber(const ForceTerm& term, std::size_t index) : at_(OfForce{&term, index}) {}
+
+  /// Its value; of a force that is off, the default.
+  double get(const Model& model) const;
+  /// The number itself. A force that is off is switched on, its other parameters at their defaults.
+  double& in(Model& model) const;
+
+ private:
+  template <class Part>
+  struct Member {
+    Part Model::*part;
+    double Part::*number;
+    double get(const Model& model) const { return model.*part.*number; }
+    double& in(Model& model) const { return model.*part.*number; }
+  };
+  struct OfForce {
+    const ForceTerm* term;
+    std::size_t index;
+    double get(const Model& model) const;
+    double& in(Model& model) const;
+  };
+  std::variant<OfForce, Member<ModuleParameters>, Member<BallParameters>, Member<ContactParameters>,
+               Member<FlowParameters>>
+      at_;
+};
+
+/// Name, unit and bounds of a number that may vary.
+struct ParameterInfo {
   /// Dotted path: "forces.face_drag.K_F".
   std::string path;
   /// SI; "1" if dimensionless.
@@ -19,6 +55,14 @@ struct ModelParameter {
   double low = 0, high = 0;
   /// One sentence from the table of keys.
   std::string meaning;
+};
+
+/// A number of a Model, as the table of scenario keys has it.
+struct ModelParameter : ParameterInfo {
+  ModelNumber number;
+  double get(const Model& model) const { return number.get(model); }
+  /// Switches a force on that is off. Throws InputError on a value out of bounds.
+  void set(Model& model, double value) const;
 };
 
 /// The parameter of that path: K_v and rho of the flow, and every real number of module, ball,

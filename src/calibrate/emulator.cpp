@@ -17,15 +17,24 @@ struct Emulator::Scene {
 
 namespace {
 
-const std::vector<ModelParameter>& camera_parameters() {
-  static const std::vector<ModelParameter> all{
-      {kPositionNoise, "m", 0, 0.1, "standard error of a position"},
-      {kHeadingNoise, "rad", 0, 1, "standard error of a heading"},
-      {kLens, "1/m^2", -1.5, 1.5, "places are seen at x (1 + lens |x|^2)"},
-      {kTiltX, "rad", -0.3, 0.3, "the camera leans towards +x"},
-      {kTiltY, "rad", -0.3, 0.3, "the camera leans towards +y"},
+struct CameraParameter {
+  ParameterInfo info;
+  double CameraNumbers::*number;
+};
+
+const CameraParameter* camera_parameter(const std::string& path) {
+  using N = CameraNumbers;
+  static const std::vector<CameraParameter> all{
+      {{kPositionNoise, "m", 0, 0.1, "standard error of a position"}, &N::position_noise},
+      {{kHeadingNoise, "rad", 0, 1, "standard error of a heading"}, &N::heading_noise},
+      {{kLens, "1/m^2", -1.5, 1.5, "places are seen at x (1 + lens |x|^2)"}, &N::lens},
+      {{kTiltX, "rad", -0.3, 0.3, "the camera leans towards +x"}, &N::tilt_x},
+      {{kTiltY, "rad", -0.3, 0.3, "the camera leans towards +y"}, &N::tilt_y},
   };
-  return all;
+  for (const CameraParameter& one : all) {
+    if (one.info.path == path) return &one;
+  }
+  return nullptr;
 }
 
 // The seed of a camera must differ from that of its world.
@@ -47,10 +56,13 @@ bool of_camera(const std::string& path) {
   return path.rfind("camera.", 0) == 0;
 }
 
-ModelParameter emulator_parameter(const std::string& path) {
-  for (const ModelParameter& one : camera_parameters()) {
-    if (one.path == path) return one;
-  }
+ParameterInfo emulator_parameter(const std::string& path) {
+  const CameraParameter* camera = camera_parameter(path);
+  return camera != nullptr ? camera->info : model_parameter(path);
+}
+
+Emulator::Parameter Emulator::parameter(const std::string& path) {
+  if (const CameraParameter* camera = camera_parameter(path)) return camera->number;
   return model_parameter(path);
 }
 
@@ -60,9 +72,7 @@ Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<Reco
       paths_(std::move(paths)),
       shapes_(std::move(shapes)),
       options_(options) {
-  for (const std::string& path : paths_) {
-    static_cast<void>(emulator_parameter(path));
-  }
+  for (const std::string& path : paths_) parameters_.push_back(parameter(path));
   if (options_.moment_matched && model_.flow.gusts == Gusts::per_point &&
       model_.flow.at == FlowAt::points) {
     model_.flow.gusts = Gusts::moment_matched;
@@ -71,29 +81,19 @@ Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<Reco
 
 Emulator::Scene Emulator::scene(std::span<const double> values, const RecordingShape& shape,
                                 const std::shared_ptr<const FlowField>& field) const {
-  Camera camera;
-  camera.position_noise = options_.position_noise, camera.heading_noise = options_.heading_noise;
-  std::vector<std::string> names;
-  std::vector<double> numbers;
-  double tilt_x = 0, tilt_y = 0;
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    if (paths_[i] == kPositionNoise) {
-      camera.position_noise = values[i];
-    } else if (paths_[i] == kHeadingNoise) {
-      camera.heading_noise = values[i];
-    } else if (paths_[i] == kLens) {
-      camera.lens = values[i];
-    } else if (paths_[i] == kTiltX) {
-      tilt_x = values[i];
-    } else if (paths_[i] == kTiltY) {
-      tilt_y = values[i];
+  Scene out{model_, {}};
+  CameraNumbers seen{options_.position_noise, options_.heading_noise};
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    if (const auto* number = std::get_if<ModelParameter>(&parameters_[i])) {
+      number->set(out.model, values[i]);
     } else {
-      names.push_back(paths_[i]), numbers.push_back(values[i]);
+      seen.*std::get<double CameraNumbers::*>(parameters_[i]) = values[i];
     }
   }
-  camera.tilt = std::hypot(tilt_x, tilt_y);
-  if (camera.tilt > 0) camera.tilt_direction = std::atan2(tilt_y, tilt_x);
-  Scene out{with_parameters(model_, names, numbers), camera};
+  Camera& camera = out.camera;
+  camera.position_noise = seen.position_noise, camera.heading_noise = seen.heading_noise;
+  camera.lens = seen.lens, camera.tilt = std::hypot(seen.tilt_x, seen.tilt_y);
+  if (camera.tilt > 0) camera.tilt_direction = std::atan2(seen.tilt_y, seen.tilt_x);
   if (field) out.model.field = field;
   const bool balls = shape.body == BodyKind::ball;
   out.model.module.count = balls ? 0 : shape.bodies;

@@ -179,14 +179,18 @@ Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const
                        std::uint64_t seed) {
   const Matrix points =
       scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
+  std::vector<ParameterInfo> bounds;
+  std::vector<double> absent;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(amplitudes.cols()); ++k) {
+    bounds.push_back(emulator_parameter(effect->paths[k]));
+    absent.push_back(effect->absent(stages_.setup().model, k));
+  }
   const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
     std::vector<double> values = stages_.from_scale(points.row(i));
-    for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
-      const auto k = static_cast<std::size_t>(c);
-      const ModelParameter of = emulator_parameter(effect->paths[k]);
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      const double amplitude = amplitudes(i, static_cast<Eigen::Index>(k));
       values.push_back(
-          std::clamp(effect->absent(stages_.setup().model, k) + amplitudes(i, c) * effect->sizes[k],
-                     of.low, of.high));
+          std::clamp(absent[k] + amplitude * effect->sizes[k], bounds[k].low, bounds[k].high));
     }
     const auto field = loosened(maps_, derived_seed(seed, kFieldSeed), seed, i);
     const auto made =

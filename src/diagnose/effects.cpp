@@ -200,12 +200,11 @@ std::vector<Effect> effect_catalogue(const Model& model) {
 
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes) {
   if (effect.camera()) return model;
-  std::vector<double> values = amplitudes;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  Model out = model;
+  for (std::size_t i = 0; i < amplitudes.size(); ++i) {
     const ModelParameter of = model_parameter(effect.paths[i]);
-    values[i] = std::clamp(values[i], of.low, of.high);
+    of.set(out, std::clamp(amplitudes[i], of.low, of.high));
   }
-  Model out = with_parameters(model, effect.paths, values);
   for (const auto& [of, value] : effect.held) {
     for (ActiveForce& active : out.forces) {
       if (active.term == of.term) active.p[of.index] = value;

@@ -99,12 +99,14 @@ Model in_phase(const Model& model, const Recording& recording, const PredictorOp
         return !own.empty() && own[0].estimated == Estimated::gain_and_frequency;
       });
   if (pumps == model.forces.end()) return model;
-  const std::vector path{parameter_of(*pumps->term, ParameterKind::phase)->path()};
+  const ParameterRef of = *parameter_of(*pumps->term, ParameterKind::phase);
+  const ModelNumber pumps_phase(*of.term, of.index);
+  Model out = model;
   std::array<Vector2, 2> harmonics{Vector2::Zero(), Vector2::Zero()};
   for (int k = 0; k < kPhases; ++k) {
     const double phase = 2 * kPi * k / kPhases;
-    const auto found =
-        innovations(with_parameters(model, path, std::vector{phase}), recording, predictor);
+    pumps_phase.in(out) = phase;
+    const auto found = innovations(out, recording, predictor);
     double sum = 0;
     for (const auto& [key, z] : found) sum += z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
     for (int h = 0; h < 2; ++h) {
@@ -120,7 +122,8 @@ Model in_phase(const Model& model, const Recording& recording, const PredictorOp
         harmonics[0].dot(Vector2(one.c, one.s)) + harmonics[1].dot(Vector2(two.c, two.s));
     if (sum < least) least = sum, best = phase;
   }
-  return with_parameters(model, path, std::vector{best});
+  pumps_phase.in(out) = best;
+  return out;
 }
 
 }  // namespace

@@ -14,6 +14,12 @@ WordChoice choice(Enum& target, std::vector<std::string> words) {
 
 using Keys = std::vector<ScenarioKey>;
 
+/// The key of a number that may differ among simulations of one tank.
+ScenarioKey varied(ScenarioDraft& d, const char* path, const ModelNumber& number, const char* unit,
+                   double low, double high, const char* meaning) {
+  return {path, &number.in(d.scenario.model), unit, low, high, meaning, false, number};
+}
+
 void run_keys(ScenarioDraft& d, Keys& keys) {
   Scenario& s = d.scenario;
   keys.push_back({"title", &s.title, "", 0, 0, "name of the scenario, used for the output folder"});
@@ -27,22 +33,29 @@ void body_keys(ScenarioDraft& d, Keys& keys) {
   Model& m = d.scenario.model;
   keys.push_back({"tank.radius", &m.tank.radius, "m", 0.05, 5, "inner radius of the round tank"});
   keys.push_back({"module.count", &m.module.count, "1", 0, 10000, "number of Lily modules"});
-  keys.push_back({"module.side", &m.module.side, "m", 0.005, 0.5, "side of the square module"});
-  keys.push_back({"module.mass", &m.module.mass, "kg", 1e-4, 10, "mass of a module"});
-  keys.push_back({"module.draught", &m.module.draught, "m", 1e-4, 0.5,
-                  "immersion depth: height of a face that feels drag"});
+  keys.push_back(varied(d, "module.side", {&Model::module, &ModuleParameters::side}, "m", 0.005,
+                        0.5, "side of the square module"));
+  keys.push_back(varied(d, "module.mass", {&Model::module, &ModuleParameters::mass}, "kg", 1e-4, 10,
+                        "mass of a module"));
+  keys.push_back(varied(d, "module.draught", {&Model::module, &ModuleParameters::draught}, "m",
+                        1e-4, 0.5, "immersion depth: height of a face that feels drag"));
   keys.push_back({"module.shadowing", &m.module.shadowing, "", 0, 0,
                   "a face covered by a latched neighbour feels no drag"});
   keys.push_back({"ball.count", &m.ball.count, "1", 0, 10000, "number of balls"});
-  keys.push_back({"ball.radius", &m.ball.radius, "m", 0.001, 0.2, "radius of a ball"});
-  keys.push_back({"ball.mass", &m.ball.mass, "kg", 1e-5, 10, "mass of a ball"});
-  keys.push_back({"ball.drag_area", &m.ball.drag_area, "m^2", 1e-7, 0.1,
-                  "area of a ball that the water pushes on"});
-  keys.push_back({"contact.friction", &m.contact.friction, "1", 0, 2, "Coulomb's coefficient"});
-  keys.push_back({"contact.restitution", &m.contact.restitution, "1", 0, 1,
-                  "share of the approach speed that is given back"});
-  keys.push_back({"contact.restitution_speed", &m.contact.restitution_speed, "m/s", 0, 1,
-                  "approach speed below which nothing is given back"});
+  keys.push_back(varied(d, "ball.radius", {&Model::ball, &BallParameters::radius}, "m", 0.001, 0.2,
+                        "radius of a ball"));
+  keys.push_back(varied(d, "ball.mass", {&Model::ball, &BallParameters::mass}, "kg", 1e-5, 10,
+                        "mass of a ball"));
+  keys.push_back(varied(d, "ball.drag_area", {&Model::ball, &BallParameters::drag_area}, "m^2",
+                        1e-7, 0.1, "area of a ball that the water pushes on"));
+  keys.push_back(varied(d, "contact.friction", {&Model::contact, &ContactParameters::friction}, "1",
+                        0, 2, "Coulomb's coefficient"));
+  keys.push_back(varied(d, "contact.restitution",
+                        {&Model::contact, &ContactParameters::restitution}, "1", 0, 1,
+                        "share of the approach speed that is given back"));
+  keys.push_back(varied(d, "contact.restitution_speed",
+                        {&Model::contact, &ContactParameters::restitution_speed}, "m/s", 0, 1,
+                        "approach speed below which nothing is given back"));
 }
 
 void flow_keys(ScenarioDraft& d, Keys& keys) {
@@ -59,9 +72,10 @@ void flow_keys(ScenarioDraft& d, Keys& keys) {
   keys.push_back(
       {"flow.at", choice(f.at, {"points", "centre"}), "", 0, 0,
        "where the water is read for the drag: at each drag point, or the module's centre"});
-  keys.push_back(
-      {"flow.K_v", &f.K_v, "1", 0, 10, "factor on mean and standard deviation of the flow, Eq. 4"});
-  keys.push_back({"flow.rho", &f.rho, "kg/m^3", 1, 20000, "density of the water"});
+  keys.push_back(varied(d, "flow.K_v", {&Model::flow, &FlowParameters::K_v}, "1", 0, 10,
+                        "factor on mean and standard deviation of the flow, Eq. 4"));
+  keys.push_back(varied(d, "flow.rho", {&Model::flow, &FlowParameters::rho}, "kg/m^3", 1, 20000,
+                        "density of the water"));
   keys.push_back({"flow.pump_power", &d.tank.pump_power, "%", 0, 100,
                   "share of a pump's full flow of 9 l/min, of the built-in tank"});
   keys.push_back({"flow.water_level", &d.tank.water_level, "m", -0.5, 0,
@@ -74,8 +88,9 @@ void force_keys(ScenarioDraft& d, Keys& keys) {
     keys.push_back({base + "on", &force.on, "", 0, 0, std::string(force.term->summary())});
     std::size_t i = 0;
     for (const Parameter& p : force.term->parameters()) {
-      keys.push_back({base + std::string(p.name), &force.p[i++], std::string(p.unit), p.low, p.high,
-                      std::string(p.meaning), p.whole});
+      keys.push_back({base + std::string(p.name), &force.p[i], std::string(p.unit), p.low, p.high,
+                      std::string(p.meaning), p.whole, ModelNumber(*force.term, i)});
+      ++i;
     }
   }
 }

@@ -1,10 +1,12 @@
 // The one table of everything that a scenario can set.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "lilytank/model_parameter.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank {
@@ -46,10 +48,11 @@ struct FileName {
 struct ScenarioKey {
   std::string path;  ///< "forces.face_drag.K_F"
   std::variant<double*, int*, std::uint64_t*, bool*, std::string*, WordChoice, FileName> target;
-  std::string unit;          ///< SI; "" for text, words and switches
-  double low = 0, high = 0;  ///< inclusive, of numbers
-  std::string meaning;       ///< one sentence
-  bool whole = false;        ///< a double that must be a whole number
+  std::string unit;                        ///< SI; "" for text, words and switches
+  double low = 0, high = 0;                ///< inclusive, of numbers
+  std::string meaning;                     ///< one sentence
+  bool whole = false;                      ///< a double that must be a whole number
+  std::optional<ModelNumber> number = {};  ///< of what may differ among models of one tank
 };
 
 /// The table for a draft, in the order of resolved.toml. The draft must stay where it is.

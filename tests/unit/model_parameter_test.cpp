@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "io/scenario_keys.hpp"
 #include "lilytank/error.hpp"
+#include "lilytank/scenario.hpp"
 #include "lilytank/start.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -34,6 +37,36 @@ TEST(ModelParameter, namingAParameterOfAForceThatIsOffSwitchesItOn) {
   const Model changed = with_parameters(model, paths, std::vector<double>{0.001});
   EXPECT_EQ(changed.forces.size(), model.forces.size() + 1);
   EXPECT_EQ(parameter_value(changed, paths[0]), 0.001);
+}
+
+// A model set by a parameter has the bits of one that a scenario sets.
+TEST(ModelParameter, everyParameterSetsWhatAScenarioSets) {
+  const Model standard = load_scenario({}, {}).model;
+  ScenarioDraft draft;
+  const std::vector<ScenarioKey> keys = scenario_keys(draft);
+  int compared = 0;
+  for (const ScenarioKey& key : keys) {
+    if (!key.number || key.whole) continue;
+    const ModelParameter parameter = model_parameter(key.path);
+    const double now = parameter.get(standard);
+    const double value = now + 1e-7 * ((now < key.high ? key.high : key.low) - now);
+    Model changed = standard;
+    parameter.set(changed, value);
+    const Model loaded = load_scenario({}, {key.path + "=" + shortest(value)}).model;
+    for (const ScenarioKey& other : keys) {
+      if (!other.number) continue;
+      EXPECT_EQ(other.number->get(changed), other.number->get(loaded))
+          << other.path << " by " << key.path;
+    }
+    ASSERT_EQ(changed.forces.size(), loaded.forces.size()) << key.path;
+    for (std::size_t i = 0; i < loaded.forces.size(); ++i) {
+      EXPECT_EQ(changed.forces[i].term, loaded.forces[i].term) << key.path;
+      EXPECT_EQ(changed.forces[i].p, loaded.forces[i].p) << key.path;
+    }
+    EXPECT_EQ(changed.dt, loaded.dt);
+    ++compared;
+  }
+  EXPECT_GT(compared, 50);
 }
 
 TEST(ModelParameter, unitsAndBoundsAreThoseOfTheScenario) {
