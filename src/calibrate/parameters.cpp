@@ -3,6 +3,7 @@
 
 #include "lilytank/calibration.hpp"
 #include "lilytank/math.hpp"
+#include "lilytank/model_parameter.hpp"
 
 namespace lilytank {
 namespace {
@@ -21,6 +22,17 @@ std::size_t index_of(const std::string& word, const std::string (&words)[n], con
 const std::string kObjectives[]{"summary", "msd-weighted", "msd"};
 const std::string kFlows[]{"smooth", "paper", "scenario"};
 
+// The ranges that are searched are narrower than the bounds of the keys: within them a step of 25
+// ms takes less than a third of a body's speed relative to the water, for any speed of the water in
+// such a tank, and a logarithmic scale begins above 0.
+FitParameter by_factors(const std::string& path, double low, double high) {
+  return {path, model_parameter(path).unit, low, high, true};
+}
+FitParameter linear(const std::string& path, double high) {
+  const ModelParameter of = model_parameter(path);
+  return {path, of.unit, of.low, high, false};
+}
+
 }  // namespace
 
 double FitParameter::to_scale(double value) const {
@@ -30,20 +42,15 @@ double FitParameter::from_scale(double value) const {
   return logarithmic ? exp_portable(value) : value;
 }
 
-// Within these bounds a step of 25 ms takes less than a third of a body's speed relative to the
-// water, for any speed of the water in such a tank.
 std::vector<FitParameter> standard_parameters(BodyKind body) {
   if (body == BodyKind::ball) {
-    return {{"flow.K_v", "1", 0.4, 2.5, true},
-            {"forces.ball_drag.C", "1", 0.05, 5, true},
-            {"forces.stochastic.sigma_stoch", "N", 5e-4, 0.04, true},
-            {"forces.damping.D_linear", "1", 0, 0.8, false}};
+    return {by_factors("flow.K_v", 0.4, 2.5), by_factors("forces.ball_drag.C", 0.05, 5),
+            by_factors("forces.stochastic.sigma_stoch", 5e-4, 0.04),
+            linear("forces.damping.D_linear", 0.8)};
   }
-  return {{"flow.K_v", "1", 0.4, 2.5, true},
-          {"forces.face_drag.K_F", "1", 0.05, 3, true},
-          {"forces.stochastic.sigma_stoch", "N", 1e-3, 0.04, true},
-          {"forces.damping.D_linear", "1", 0, 0.8, false},
-          {"forces.damping.D_angular", "1", 0, 0.8, false}};
+  return {by_factors("flow.K_v", 0.4, 2.5), by_factors("forces.face_drag.K_F", 0.05, 3),
+          by_factors("forces.stochastic.sigma_stoch", 1e-3, 0.04),
+          linear("forces.damping.D_linear", 0.8), linear("forces.damping.D_angular", 0.8)};
 }
 
 CalibrationObjective objective_named(const std::string& word) {

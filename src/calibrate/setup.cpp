@@ -62,14 +62,14 @@ void find_noise(CalibrationSetup& setup) {
     if (one.has_heading()) heading += fit_heading(one).noise;
   }
   const auto n = static_cast<double>(setup.training.size());
-  const auto nuisance = [&](const std::string& path, const std::string& unit, double value,
-                            double least) {
+  const auto nuisance = [&](const std::string& path, double value, double least) {
     value = std::max(value, least);
-    setup.parameters.push_back({path, unit, 0.2 * value, 4 * value, true, true});
+    setup.parameters.push_back(
+        {path, emulator_parameter(path).unit, 0.2 * value, 4 * value, true, true});
     setup.start.push_back(value);
   };
-  nuisance(kPositionNoise, "m", place / n, 1e-5);
-  if (setup.summary.headings) nuisance(kHeadingNoise, "rad", heading / n, 1e-4);
+  nuisance(kPositionNoise, place / n, 1e-5);
+  if (setup.summary.headings) nuisance(kHeadingNoise, heading / n, 1e-4);
 }
 
 void find_parameters(const Experiment& experiment, CalibrationSetup& setup) {
