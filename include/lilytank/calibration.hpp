@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lilytank/distributions.hpp"
@@ -207,8 +208,8 @@ struct CalibrationResult {
   double tank_radius = 0.3;
   /// The extracted flow; empty where the scenario's is used.
   std::string flow_csv;
-  /// The experiment's values that the estimates hold for, lines of calibrated.toml.
-  std::string conditions;
+  /// The experiment's values that the estimates hold for: scenario paths and SI values.
+  std::vector<std::pair<std::string, double>> conditions;
   /// [replicate][parameter] Estimates from experiments that were simulated at the estimate,
   /// bias-corrected, on the fitted scale.
   std::vector<std::vector<double>> replicate_estimates;

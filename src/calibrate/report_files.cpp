@@ -1,6 +1,7 @@
 // The files of a calibration.
 #include <cmath>
 
+#include "calibrate/fit_conditions.hpp"
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
 #include "jobs/job_directory.hpp"
@@ -17,20 +18,18 @@ std::string number(double value) {
 }
 
 std::string overlay(const CalibrationResult& c) {
-  std::string out = "# Parameters found from the recordings of " + c.name + " (objective " +
-                    c.objective +
-                    "): an overlay of a scenario, as in\n"
-                    "#   lilytank run scenarios/tank_lilies.toml calibrated.toml\n"
-                    "# 95 % intervals follow each estimate; they hold for the other values here.\n";
-  out += c.conditions;
-  if (!c.flow_csv.empty()) out += "flow.file = \"flow.csv\"\n";
+  ScenarioText out = begun_overlay(
+      "Parameters found from the recordings of " + c.name + " (objective " + c.objective +
+          "): an overlay of a scenario, as in\n"
+          "  lilytank run scenarios/tank_lilies.toml calibrated.toml\n"
+          "95 % intervals follow each estimate; they hold for the other values here.",
+      c.conditions, !c.flow_csv.empty());
   for (const CalibratedParameter& p : c.parameters) {
     if (p.parameter.nuisance) continue;
-    const std::string value = number(p.estimate);
-    out += p.parameter.path + " = " + value + "  # " + number(p.low) + " .. " + number(p.high) +
-           (p.parameter.unit == "1" ? "" : " " + p.parameter.unit) + "\n";
+    const std::string unit = p.parameter.unit == "1" ? "" : " " + p.parameter.unit;
+    out.line(p.parameter.path, number(p.estimate), number(p.low) + " .. " + number(p.high) + unit);
   }
-  return out;
+  return out.text();
 }
 
 std::string intervals_csv(const CalibrationResult& c) {

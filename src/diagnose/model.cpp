@@ -25,6 +25,31 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
   list = std::move(out);
 }
 
+// The model with what was found, for the experiment's tank.
+std::string overlay_of(const CalibrationSetup& setup, const std::vector<JointEffect>& found,
+                       const Diagnosis& d) {
+  std::vector<std::string> fitted;
+  for (const DiagnosisFinding& f : d.findings) {
+    for (const FoundParameter& p : f.parameters) fitted.push_back(p.path);
+  }
+  ScenarioText out =
+      begun_overlay("Effects that the recordings of " + setup.name +
+                        " support, found by lilytank diagnose. An overlay of a scenario:\n"
+                        "  lilytank run scenarios/tank_lilies.toml missing.toml",
+                    fit_conditions(setup.model, BodyKind::lily, fitted), setup.flow.has_value());
+  for (const MovedParameter& p : d.parameters) out.number(p.path, p.with_effects);
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const Effect& effect = found[e].effect;
+    if (effect.curve) {
+      for (const auto& [of, value] : effect.held) out.number(of.path(), value);
+    }
+    for (const FoundParameter& p : d.findings[e].parameters) {
+      out.number(p.path, p.value, shortest(p.low) + " .. " + shortest(p.high));
+    }
+  }
+  return out.text();
+}
+
 }  // namespace
 
 std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
@@ -130,31 +155,7 @@ void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffe
       }
     }
   }
-  std::string text = "# Effects that the recordings of " + setup_.name +
-                     " support, found by lilytank diagnose. An overlay of a scenario:\n"
-                     "#   lilytank run scenarios/tank_lilies.toml missing.toml\n";
-  std::vector<std::string> fitted;
-  for (const DiagnosisFinding& f : out.findings) {
-    for (const FoundParameter& p : f.parameters) fitted.push_back(p.path);
-  }
-  text += fit_conditions(setup_.model, BodyKind::lily, fitted);
-  if (setup_.flow) text += "flow.file = \"flow.csv\"\n";
-  for (const MovedParameter& p : out.parameters) {
-    text += p.path + " = " + shortest(p.with_effects) + "\n";
-  }
-  for (std::size_t e = 0; e < found.size(); ++e) {
-    const Effect& effect = found[e].effect;
-    if (effect.curve) {
-      for (const auto& [of, value] : effect.held) {
-        text += of.path() + " = " + shortest(value) + "\n";
-      }
-    }
-    for (const FoundParameter& p : out.findings[e].parameters) {
-      text += p.path + " = " + shortest(p.value) + "  # " + shortest(p.low) + " .. " +
-              shortest(p.high) + "\n";
-    }
-  }
-  out.overlay = text;
+  out.overlay = overlay_of(setup_, found, out);
 }
 
 // `baseline`: what calibrating it to these very recordings says.

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "io/atomic_file.hpp"
+#include "io/scenario_text.hpp"
 #include "lilytank/flow_report.hpp"
 #include "text/number.hpp"
 
@@ -12,19 +13,20 @@ namespace {
 // Scenario keys under which balls move in this flow as they did in the recordings.
 std::string overlay(const FlowReport& report, const FlowEstimate& e) {
   const BallPhysics& ball = report.ball;
-  std::string out = "# Balls in the flow of " + report.name + ", " + e.name +
-                    " estimate: an overlay for a scenario with balls.\n[flow]\nfile = \"flow_" +
-                    e.name + ".csv\"\nK_v = 1\nrho = " + shortest(ball.rho) + "\n\n[ball]\n";
-  out += "radius = " + shortest(ball.radius) + "\nmass = " + shortest(ball.mass) +
-         "\ndrag_area = " + shortest(ball.drag_area) + "\n\n[forces]\n";
-  out += "ball_drag.C = " + shortest(ball.drag_coefficient) +
-         "\nball_drag.draws = " + shortest(ball.draws) + "\n";
-  out += "damping.D_linear = " + without_rounding(1 - std::exp(-ball.damping)) + "\n";
-  if (e.noise) {
-    out +=
-        "stochastic.sigma_stoch = " + shortest(std::round(e.noise->stochastic * 1e7) / 1e7) + "\n";
-  }
-  return out;
+  ScenarioText out;
+  out.comment("Balls in the flow of " + report.name + ", " + e.name +
+              " estimate: an overlay for a scenario with balls.");
+  out.table("flow");
+  out.quoted("file", "flow_" + e.name + ".csv");
+  out.number("K_v", 1), out.number("rho", ball.rho);
+  out.table("ball");
+  out.number("radius", ball.radius), out.number("mass", ball.mass);
+  out.number("drag_area", ball.drag_area);
+  out.table("forces");
+  out.number("ball_drag.C", ball.drag_coefficient), out.number("ball_drag.draws", ball.draws);
+  out.line("damping.D_linear", without_rounding(1 - std::exp(-ball.damping)));
+  if (e.noise) out.number("stochastic.sigma_stoch", std::round(e.noise->stochastic * 1e7) / 1e7);
+  return out.text();
 }
 
 std::string bias_csv(const std::vector<FlowBiasRow>& rows) {

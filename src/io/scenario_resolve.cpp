@@ -1,8 +1,8 @@
 #include "io/scenario_resolve.hpp"
 
+#include "io/scenario_text.hpp"
 #include "io/scenario_values.hpp"
 #include "text/fnv.hpp"
-#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -21,22 +21,22 @@ std::string comment_of(const ScenarioKey& key) {
   return out + (out.empty() ? "" : ": ") + key.meaning;
 }
 
-std::string command_text(const ScheduledCommand& scheduled) {
+void add_command(const ScheduledCommand& scheduled, ScenarioText& out) {
   const Command& command = scheduled.command;
   std::string modules;
   for (const int m : command.modules) modules += (modules.empty() ? "" : ", ") + std::to_string(m);
-  const std::string when = command.copies > 0
-                               ? "copies = " + std::to_string(command.copies) + "  # finished\n"
-                               : "at = " + shortest(command.at) + "  # s\n";
-  std::string out = "\n[[command]]\n" + when + "do = " + toml_quoted(command_word(command.kind)) +
-                    "\nmodules = [" + modules + "]" + (modules.empty() ? "  # all" : "") + "\n";
-  if (command.kind == CommandKind::pump_power)
-    out += "power = " + shortest(scheduled.power) + "  # %\n";
-  if (scheduled.file >= 0) {
-    out += "file = " + toml_quoted(command_ruleset_name(static_cast<std::size_t>(scheduled.file))) +
-           "\n";
+  out.table("[command]");
+  if (command.copies > 0) {
+    out.line("copies", std::to_string(command.copies), "finished");
+  } else {
+    out.number("at", command.at, "s");
   }
-  return out;
+  out.quoted("do", command_word(command.kind));
+  out.line("modules", "[" + modules + "]", modules.empty() ? "all" : "");
+  if (command.kind == CommandKind::pump_power) out.number("power", scheduled.power, "%");
+  if (scheduled.file >= 0) {
+    out.quoted("file", command_ruleset_name(static_cast<std::size_t>(scheduled.file)));
+  }
 }
 
 }  // namespace
@@ -62,16 +62,16 @@ std::vector<ScenarioEntry> entries_of(const std::vector<ScenarioKey>& keys,
 
 std::string resolved_text(const std::vector<ScenarioKey>& keys,
                           const std::vector<ScheduledCommand>& commands) {
-  std::string out = kResolvedFirst + " Program version " LILYTANK_VERSION ".\n";
+  ScenarioText out;
   std::string header;
   for (const ScenarioKey& key : keys) {
     const auto [table, name] = parted(key.path);
-    if (table != header) out += "\n[" + table + "]\n";
+    if (table != header) out.table(table);
     header = table;
-    out += name + " = " + value_text(key) + "  # " + comment_of(key) + "\n";
+    out.line(name, value_text(key), comment_of(key));
   }
-  for (const ScheduledCommand& command : commands) out += command_text(command);
-  return out + kResolvedLast;
+  for (const ScheduledCommand& command : commands) add_command(command, out);
+  return kResolvedFirst + " Program version " LILYTANK_VERSION ".\n" + out.text() + kResolvedLast;
 }
 
 std::uint64_t identity_of(const Scenario& scenario) {

@@ -1,45 +1,33 @@
 // A point of a search as files that `lilytank run` and `lilytank study` read.
-#include "io/scenario_values.hpp"
+#include "io/scenario_text.hpp"
 #include "optimize/source.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-std::string commented(const std::string& lines) {
-  std::string out;
-  for (std::size_t at = 0; at < lines.size();) {
-    const auto end = std::min(lines.find('\n', at), lines.size());
-    out += "# " + lines.substr(at, end - at) + "\n";
-    at = end + 1;
-  }
-  return out;
-}
-
 std::string toml_of(const TomlValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   return shortest(std::get<double>(value));
 }
 
-std::string line_of(const Assignment& value) {
-  return value.path() + " = " + toml_of(value.value) + "\n";
-}
-
 }  // namespace
 
-std::string Optimization::Source::commands_text(const Meaning& meaning,
-                                                const std::string& after_file) const {
-  std::string out;
+void Optimization::Source::add_commands(const Meaning& meaning, const std::string& after_file,
+                                        ScenarioText& out) const {
   for (std::size_t i = 1; i < meaning.powers.size(); ++i) {
-    const bool feedback = plan.agitation == Agitation::feedback;
-    out += "\n[[command]]\n" +
-           (feedback ? "copies = " + std::to_string(i)
-                     : "at = " + shortest(meaning.changes[i - 1]) + "  # s") +
-           "\ndo = \"pump_power\"\npower = " + shortest(meaning.powers[i]) + "  # %\n";
+    out.table("[command]");
+    if (plan.agitation == Agitation::feedback) {
+      out.line("copies", std::to_string(i));
+    } else {
+      out.number("at", meaning.changes[i - 1], "s");
+    }
+    out.quoted("do", "pump_power"), out.number("power", meaning.powers[i], "%");
   }
-  if (meaning.after_copies == 0) return out;
-  return out + "\n[[command]]\ncopies = " + std::to_string(meaning.after_copies) +
-         "\ndo = \"ruleset\"\nfile = " + toml_quoted(after_file) + "\n";
+  if (meaning.after_copies == 0) return;
+  out.table("[command]");
+  out.line("copies", std::to_string(meaning.after_copies));
+  out.quoted("do", "ruleset"), out.quoted("file", after_file);
 }
 
 std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vector<double>& point,
@@ -47,27 +35,28 @@ std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vecto
                                                                 const std::string& comment) const {
   const Meaning what = meaning(point);
   const Layer says = layer(what);
-  std::string text = commented(comment);
+  ScenarioText out;
+  out.comment(comment);
   std::vector<Scenario::Attachment> files;
   const std::string rules_file = stem + ".rules", after_file = stem + "-after.rules";
   if (ruleset) {
-    text += "ruleset.file = " + toml_quoted(rules_file) + "\n";
+    out.quoted("ruleset.file", rules_file);
     files.push_back({rules_file, to_text(*ruleset)});
     // Of all its rules: a scenario below may speak of rules with the same names.
     const Scenario all = scenario(point);
     for (const Rule& rule : all.model.rulesets.front().rules) {
-      text += "rules." + rule.name + ".p = " + shortest(rule.p) + "\n";
+      out.number("rules." + rule.name + ".p", rule.p);
     }
   }
   for (const Assignment& value : says.values) {
-    if (!ruleset || value.keys.front() != "rules") text += line_of(value);
+    if (!ruleset || value.keys.front() != "rules") out.line(value.path(), toml_of(value.value));
   }
   if (what.after_copies > 0) {
     const Ruleset first = built(says).model.rulesets.front();
     files.push_back({after_file, to_text(second_set(what, first))});
   }
-  text += commands_text(what, after_file);
-  files.insert(files.begin(), {stem + ".toml", text});
+  add_commands(what, after_file, out);
+  files.insert(files.begin(), {stem + ".toml", out.text()});
   return files;
 }
 

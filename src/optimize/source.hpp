@@ -11,6 +11,8 @@
 
 namespace lilytank {
 
+class ScenarioText;
+
 struct Optimization::Source {
   Source(OptimizeFile what, std::vector<std::string> overlays, std::vector<std::string> sets);
   /// The same with another ruleset in place of the scenario's own, and a space with the names of
@@ -75,7 +77,7 @@ struct Optimization::Source {
   Meaning meaning(const std::vector<double>& point) const;
   Layer layer(const Meaning& meaning) const;
   Ruleset second_set(const Meaning& meaning, const Ruleset& first) const;
-  std::string commands_text(const Meaning& meaning, const std::string& after_file) const;
+  void add_commands(const Meaning& meaning, const std::string& after_file, ScenarioText& out) const;
 
   std::vector<std::string> files_;  ///< scenarios and overlays
   std::vector<Layer> base_;
