@@ -54,8 +54,8 @@ Schedule schedule(const StoredRun& run, const FilmOptions& options) {
   return s;
 }
 
-bool stopped(const FilmOptions& options) {
-  return options.stop && options.stop->load();
+void check_stop(const FilmOptions& options) {
+  if (options.stop && options.stop->load()) throw Stopped("stopped while drawing");
 }
 
 void report(const FilmOptions& options, int done, int frames) {
@@ -135,12 +135,12 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
   Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette, mark},
                 unfinished.name());
   for (int k = 0; k < palette; ++k) {
-    if (stopped(options)) return;  // ffmpeg and the file go away
+    check_stop(options);  // ffmpeg and the file go away
     const double share = palette > 1 ? static_cast<double>(k) / (palette - 1) : 0;
     ffmpeg.send(raster.draw(when.time(static_cast<int>(share * (when.frames - 1)))).pixels());
   }
   for (int k = 0; k < when.frames; ++k) {
-    if (stopped(options)) return;
+    check_stop(options);
     ffmpeg.send(raster.draw(when.time(k)).pixels());
     report(options, k + 1, when.frames);
   }
@@ -172,7 +172,8 @@ void draw_stills(const StoredRun& run, const FilmOptions& options, const std::st
     }
   }
   make_directory(dir);
-  for (int k = 0; k < when.frames && !stopped(options); ++k) {
+  for (int k = 0; k < when.frames; ++k) {
+    check_stop(options);
     write_atomically((fs::path(dir) / still_name(k)).string(), raster.draw(when.time(k)).encoded());
     report(options, k + 1, when.frames);
   }

@@ -62,7 +62,6 @@ BodyExperiment load_body_experiment(const std::string& file);
 /// Carries a diagnosis through, or goes on with one that was stopped in `options.out`; nothing if
 /// it was stopped. `minutes` scales the simulated baselines; hold_out does not count. Throws
 /// InputError.
-std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& experiment,
-                                         const DiagnosisOptions& options);
+Diagnosis diagnose_bodies(const BodyExperiment& experiment, const DiagnosisOptions& options);
 
 }  // namespace lilytank

@@ -218,8 +218,7 @@ struct CalibrationResult {
 /// Carries a calibration through, or goes on with one that was stopped in `options.out`. Nothing if
 /// it was stopped. Throws InputError if the experiment has no recordings of the body, the directory
 /// holds another calibration, or the model diverges wherever it is tried.
-std::optional<CalibrationResult> calibrate(const Experiment& experiment,
-                                           const CalibrationOptions& options);
+CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options);
 
 struct CalibrationSetup;
 

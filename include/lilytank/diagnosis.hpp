@@ -131,7 +131,7 @@ struct Diagnosis {
 
 /// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. Nothing if
 /// it was stopped. Throws InputError.
-std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisOptions& options);
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options);
 
 /// The report, without its provenance.
 ReportDocument diagnosis_report(const Diagnosis& diagnosis);

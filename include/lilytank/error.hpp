@@ -1,4 +1,5 @@
-// Errors in a user's input: one line that names the place, the value and the nearest valid word.
+// Errors in a user's input: one line that names the place, the value and the nearest valid word;
+// and the end of a job by a stop signal.
 #pragma once
 #include <span>
 #include <stdexcept>
@@ -29,6 +30,15 @@ class InputError : public std::runtime_error {
   /// what() is "file:line:column: message".
   InputError(const SourcePlace& place, const std::string& message)
       : std::runtime_error(place.text() + ": " + message) {}
+};
+
+/// Thrown where a stop signal ended a job early. Finished work is kept: the same call, and the same
+/// command, resumes it. The program prints what() as one line and exits with 3.
+class Stopped : public std::runtime_error {
+ public:
+  explicit Stopped(const std::string& message =
+                       "stopped; finished work is kept, and the same command resumes it")
+      : std::runtime_error(message) {}
 };
 
 /// The candidate with the least edit distance to `word` (insert, delete, replace, swap of

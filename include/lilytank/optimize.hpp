@@ -167,8 +167,6 @@ struct OptimizationOptions {
 
 /// What was found, and how the search got there.
 struct OptimizationResult {
-  /// By the signal, before the budget was spent.
-  bool stopped = false;
   /// The answer; its mean is of the final selection where there was one.
   Incumbent best;
   std::vector<IterationRecord> history;  ///< of the (last) search
@@ -186,8 +184,8 @@ struct OptimizationResult {
 
 /// Searches, or goes on where an earlier call stopped, and writes into the directory: what
 /// run_search writes (of a race: in race/<round>/<ruleset>), optimum.toml and its rulesets,
-/// race.csv, compare.toml. Throws InputError if it holds another search, or files that would be
-/// overwritten, and not `force`, or cannot be written.
+/// race.csv, compare.toml. Throws Stopped, and InputError if it holds another search, or files that
+/// would be overwritten, and not `force`, or cannot be written.
 OptimizationResult run_optimization(const Optimization& what, const OptimizationOptions& options);
 
 /// The report of a finished optimisation as a document. Provenance is the caller's.

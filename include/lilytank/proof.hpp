@@ -84,7 +84,7 @@ struct Proof {
 /// Makes or draws a tank, its balls and sealed experiments in it (other steps than the diagnosis's,
 /// gusts point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One
 /// tank's nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
-std::optional<Proof> prove(const ProofOptions& options);
+Proof prove(const ProofOptions& options);
 
 /// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by
 /// kind and by expected z; what was taken for what.

@@ -53,16 +53,14 @@ struct SearchRunOptions {
 
 /// The search after the call.
 struct SearchRunResult {
-  std::unique_ptr<Search> search;  ///< as far as it came
-  /// By the signal, before its budget was spent.
-  bool stopped = false;
+  std::unique_ptr<Search> search;  ///< at its end
   /// Trials evaluated in this call.
   std::int64_t evaluated = 0;
 };
 
 /// Carries `search`, new from make_swarm or make_cma_es, to its end, or goes on where an earlier
-/// call with the same search stopped. Throws InputError if the directory holds another search, is
-/// in use by another process, or its files are damaged or cannot be written.
+/// call with the same search stopped. Throws Stopped, InputError if the directory holds another
+/// search, is in use by another process, or its files are damaged or cannot be written.
 SearchRunResult run_search(std::unique_ptr<Search> search, const Objective& objective,
                            const SearchRunOptions& options);
 

@@ -261,10 +261,9 @@ BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups
 
 }  // namespace
 
-std::optional<std::vector<double>> null_gains(const BodyExperiment& e,
-                                              const std::vector<Group>& groups,
-                                              const LawTrial& baseline, int number,
-                                              std::uint64_t seed, const KeptRows& kept) {
+std::vector<double> null_gains(const BodyExperiment& e, const std::vector<Group>& groups,
+                               const LawTrial& baseline, int number, std::uint64_t seed,
+                               const KeptRows& kept) {
   constexpr std::size_t kMost = 1500;  // samples
   const auto rows = kept_rows(kept, number, [&](int r) {
     const BodyExperiment drawn =
@@ -280,9 +279,8 @@ std::optional<std::vector<double>> null_gains(const BodyExperiment& e,
     }
     return std::vector<double>{best};
   });
-  if (!rows) return std::nullopt;
   std::vector<double> out;
-  for (const std::vector<double>& row : *rows) out.push_back(row.front());
+  for (const std::vector<double>& row : rows) out.push_back(row.front());
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -59,24 +59,28 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
   return hash.value();
 }
 
-// Fits laws one after the other; false if it was stopped.
+// Fits laws one after the other.
 class Trials {
  public:
   Trials(const BodyExperiment& e, const DiagnosisOptions& options, Comparison& c)
       : experiment_(e), options_(options), c_(c) {}
-  bool run() {
+  void run() {
     tell(0.01, "baseline");
     c_.baseline = fit_baseline(experiment_, c_.groups);
     if (!c_.baseline.failure.empty())
       throw InputError("experiment " + experiment_.name + ": " + c_.baseline.failure);
-    return singles() && pairs() && nulls();
+    singles();
+    pairs();
+    nulls();
   }
 
  private:
   void tell(double done, const std::string& stage) const {
     if (options_.progress) options_.progress(done, stage);
   }
-  bool stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+  void check_stop() const {
+    if (options_.stop != nullptr && options_.stop->load()) throw Stopped();
+  }
 
   // A law without a fit is not compared with any other.
   void keep(LawTrial trial, std::vector<LawTrial>& to) {
@@ -86,13 +90,13 @@ class Trials {
       c_.failures.push_back(std::move(trial.failure));
   }
 
-  bool singles() {
+  void singles() {
     const std::vector<Candidate> laws = single_laws(experiment_, c_.groups);
     if (laws.empty()) {
       throw InputError("the baseline has every law that these recordings can have");
     }
     for (const Candidate& law : laws) {
-      if (stopped()) return false;
+      check_stop();
       tell(0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
            law.name());
       keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
@@ -102,29 +106,28 @@ class Trials {
                        ": no law can be evaluated: " + c_.failures.front());
     }
     sort_best_first(c_.singles);
-    return true;
   }
 
-  bool pairs() {
+  void pairs() {
     const auto pairs = pairs_of(c_.singles);
     for (const auto& [from, pair] : pairs) {
-      if (stopped()) return false;
+      check_stop();
       tell(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
            pair.name());
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     sort_best_first(c_.pairs);
     // A bias can be known only from several runs.
-    if (experiment_.runs.size() < 4) return true;
+    if (experiment_.runs.size() < 4) return;
     for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
-      for (std::size_t k = 0; k < all->size() && k < 6 && !stopped(); ++k) {
+      for (std::size_t k = 0; k < all->size() && k < 6; ++k) {
+        check_stop();
         shake(c_.groups, (*all)[k]);
       }
     }
-    return true;
   }
 
-  bool nulls() {
+  void nulls() {
     const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.minutes)));
     KeptRows kept;
     if (!options_.out.empty()) {
@@ -136,9 +139,7 @@ class Trials {
       tell(0.6 + 0.39 * done / all,
            "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));
     };
-    auto gains = null_gains(experiment_, c_.groups, c_.baseline, number, options_.seed, kept);
-    if (gains) c_.nulls = std::move(*gains);
-    return gains.has_value();
+    c_.nulls = null_gains(experiment_, c_.groups, c_.baseline, number, options_.seed, kept);
   }
 
   const BodyExperiment& experiment_;
@@ -149,7 +150,7 @@ class Trials {
 }  // namespace
 }  // namespace bodies
 
-std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
+Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& options) {
   using namespace bodies;
   const auto lock = claim_directory(options.out, options.force,
                                     {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
@@ -157,7 +158,7 @@ std::optional<Diagnosis> diagnose_bodies(const BodyExperiment& e, const Diagnosi
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);
-  if (!Trials(e, options, c).run()) return std::nullopt;
+  Trials(e, options, c).run();
   c.repeats = repeats_of(e, c.groups, c.best());
   c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, c.best()));
   c.far_after = far_errors(c.groups, c.best());

@@ -33,8 +33,7 @@ CalibrationResult begun(const CalibrationSetup& setup) {
 
 }  // namespace
 
-std::optional<CalibrationResult> calibrate(const Experiment& experiment,
-                                           const CalibrationOptions& options) try {
+CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options) {
   CalibrationSetup setup = set_up(experiment, options);
   const auto lock = claim_directory(
       options.out, options.force, {"calibration", "1 " + hex(setup.identity), calibration_files()});
@@ -54,8 +53,6 @@ std::optional<CalibrationResult> calibrate(const Experiment& experiment,
   if (options.comparisons > 0) compare_with_data(stages, out);
   out.simulations = stages.simulations();
   return out;
-} catch (const Stopped&) {
-  return std::nullopt;
 }
 
 }  // namespace lilytank

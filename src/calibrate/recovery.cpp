@@ -78,8 +78,7 @@ std::optional<Synthetic> synthesise(const Scenario& scenario, const RecoveryOpti
 
 }  // namespace
 
-std::optional<std::vector<RecoveryRow>> recover(const Scenario& scenario,
-                                                const RecoveryOptions& options) {
+std::vector<RecoveryRow> recover(const Scenario& scenario, const RecoveryOptions& options) {
   std::vector<RecoveryRow> rows;
   const std::vector<FitParameter> parameters = options.calibration.parameters.empty()
                                                    ? standard_parameters(BodyKind::lily)
@@ -104,11 +103,10 @@ std::optional<std::vector<RecoveryRow>> recover(const Scenario& scenario,
                                      "experiment " + name + ", " + stage + " " +
                                          std::to_string(static_cast<int>(100 * done)) + " %");
       };
-      const auto found = calibrate(made->experiment, one);
-      if (!found) return std::nullopt;
-      if (!one.out.empty()) write_calibration(*found, calibration_report(*found), one.out);
+      const CalibrationResult found = calibrate(made->experiment, one);
+      if (!one.out.empty()) write_calibration(found, calibration_report(found), one.out);
       for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const CalibratedParameter& p = found->parameters[i];
+        const CalibratedParameter& p = found.parameters[i];
         rows.push_back({k + 1, name_of(objective), p.parameter.path, made->truth[i], p.estimate,
                         p.low, p.high, p.parameter.low, p.parameter.high, p.parameter.logarithmic});
       }

@@ -76,10 +76,8 @@ std::vector<std::vector<double>> Stages::rows(const std::string& stage, int coun
     tell(spent_ + cost * done, stage + ", " + std::to_string(done) + " of " + std::to_string(all));
   };
   auto out = kept_rows(kept, count, work);
-  // Rows that were all kept are there even so, but what is made of them may take minutes.
-  if (!out || (kept.stop != nullptr && *kept.stop)) throw Stopped{};
   spent_ += cost * count;
-  return std::move(*out);
+  return out;
 }
 
 // More rounds than expected leave a little to do at the end.
@@ -144,9 +142,7 @@ std::vector<double> Stages::search(CalibrationResult& out) {
       std::snprintf(note, sizeof note, "search, best fitness %.4g", now.best);
       tell(spent_ + search_cost_ * now.done, note);
     };
-    SearchRunResult result = run_search(std::move(search), value, run);
-    if (result.stopped) throw Stopped{};
-    search = std::move(result.search);
+    search = run_search(std::move(search), value, run).search;
   }
   spent_ += search_cost_;
   out.history = search->history();

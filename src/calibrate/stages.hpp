@@ -12,9 +12,6 @@
 
 namespace lilytank {
 
-/// Thrown by a stage once the stop signal is set; caught by calibrate().
-struct Stopped {};
-
 /// What the stages share.
 class Stages {
  public:

@@ -141,13 +141,9 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
       provenance("calibrate", arguments, job.seed, options.positional());
   const auto lock = claim_directory(
       job.out, job.force, {"recovery", identity_of(origin), {"recovery.csv", "recovery.txt"}});
-  const auto rows = recover(scenario, r);
+  const std::vector<RecoveryRow> rows = recover(scenario, r);
   progress.clear();
-  if (!rows) {
-    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
-    return Exit::stopped;
-  }
-  std::cout << recovery_text(*rows) << std::flush;
+  std::cout << recovery_text(rows) << std::flush;
   std::cerr << "results in " << job.out << "\n";
   return Exit::done;
 }
@@ -188,18 +184,14 @@ int calibrate_verb(const Arguments& arguments) {
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
-  const auto found = calibrate(experiment, job);
+  const CalibrationResult found = calibrate(experiment, job);
   progress.clear();
-  if (!found) {
-    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
-    return Exit::stopped;
-  }
-  ReportDocument report = calibration_report(*found);
+  ReportDocument report = calibration_report(found);
   for (const RecordingSource& source : experiment.sources) files.push_back(source.file);
   report.provenance = provenance("calibrate", arguments, job.seed, files);
-  write_calibration(*found, report, job.out);
+  write_calibration(found, report, job.out);
 #ifdef LILYTANK_HAS_RENDER
-  draw_calibration(*found, report, job.out);
+  draw_calibration(found, report, job.out);
 #else
   std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
 #endif

@@ -121,9 +121,7 @@ std::string identity_of(const CheckInput& input) {
   return hex(hash.value());
 }
 
-// Nothing if it was stopped.
-std::optional<Counted> measure(const VerbOptions& options, const CheckInput& input,
-                               const std::string& dir) {
+Counted measure(const VerbOptions& options, const CheckInput& input, const std::string& dir) {
   const Scenario& scenario = *input.scenario;
   MeasureOptions job;
   job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 100000));
@@ -137,7 +135,7 @@ std::optional<Counted> measure(const VerbOptions& options, const CheckInput& inp
   job.progress = [&](double done) { progress.tell(done, "of the simulations"); };
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
-  if (stop_signal().load()) return std::nullopt;
+  if (stop_signal().load()) throw Stopped();
   Counted counted;
   counted.duration = scenario.duration;
   for (const MeasuredWorld& world : worlds) {
@@ -352,20 +350,17 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
         {"check", identity_of(input),
          with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
                       {"yield"})});
-    auto counted = input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
+    const Counted counted =
+        input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
     report.dir = dir;
-    if (!counted) {
-      report.stopped = true;
-      return report;
-    }
-    report.diverged = counted->diverged, report.text = diverged_text(*counted);
-    if (report.diverged > 0 && counted->completion.empty()) return report;
-    const Kinetics kinetics = kinetics_of(input.rules, counted->table, input.modules);
+    report.diverged = counted.diverged, report.text = diverged_text(counted);
+    if (report.diverged > 0 && counted.completion.empty()) return report;
+    const Kinetics kinetics = kinetics_of(input.rules, counted.table, input.modules);
     if (!dir.empty())
-      write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted->table));
+      write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted.table));
     face_rate = kinetics.face_rate, evaluation_rate = kinetics.evaluation_rate;
-    report.text += table_text(counted->table) + kinetics_text(input.rules, kinetics) +
-                   run_model(options, input, kinetics, *counted, dir);
+    report.text += table_text(counted.table) + kinetics_text(input.rules, kinetics) +
+                   run_model(options, input, kinetics, counted, dir);
   }
   NamedContents exports;
   for (const auto& [name, text] : {std::pair("kappa", &to_kappa), std::pair("bngl", &to_bngl)})

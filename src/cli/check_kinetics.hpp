@@ -30,12 +30,11 @@ CheckInput check_input(const VerbOptions& options);
 /// What came of --measure, --rates, --kappa and --bngl.
 struct KineticsReport {
   std::string text;
-  std::string dir;   ///< of rates and curves; "": nothing was written
-  int diverged = 0;  ///< worlds, which are left out
-  bool stopped = false;
+  std::string dir;                            ///< of rates and curves; "": nothing was written
+  int diverged = 0;                           ///< worlds, which are left out
   std::shared_ptr<const DirectoryLock> lock;  ///< of `dir`, until the last file is written
 };
-/// Does what the options ask for. Throws InputError.
+/// Does what the options ask for. Throws InputError, Stopped.
 KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input);
 
 }  // namespace lilytank::cli

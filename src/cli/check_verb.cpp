@@ -88,8 +88,7 @@ int check_verb(const Arguments& arguments) {
     progress.clear();
   }
   if (stop_signal().load()) {
-    std::cerr << "stopped; lattice simulations are not kept, so the same command starts again\n";
-    return Exit::stopped;
+    throw Stopped("stopped; lattice simulations are not kept, so the same command starts again");
   }
   ReportDocument report = check_report(input.rules, check);
   report.provenance = provenance("check", arguments, job.lattice.seed, input_files(options));
@@ -97,10 +96,6 @@ int check_verb(const Arguments& arguments) {
   const KineticsReport kinetics = run_kinetics(options, input);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);
   std::cout << report_text(report) << std::flush;
-  if (kinetics.stopped) {
-    std::cerr << "stopped; finished simulations are kept, and the same command resumes\n";
-    return Exit::stopped;
-  }
   if (!kinetics.dir.empty() && options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;

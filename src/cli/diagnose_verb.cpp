@@ -16,17 +16,12 @@
 namespace lilytank::cli {
 namespace {
 
-int show(const std::optional<Diagnosis>& found, const ReportProvenance& provenance,
-         const std::string& dir) {
-  if (!found) {
-    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
-    return Exit::stopped;
-  }
-  ReportDocument report = diagnosis_report(*found);
+int show(const Diagnosis& found, const ReportProvenance& provenance, const std::string& dir) {
+  ReportDocument report = diagnosis_report(found);
   report.provenance = provenance;
-  write_diagnosis(*found, report, dir);
+  write_diagnosis(found, report, dir);
 #ifdef LILYTANK_HAS_RENDER
-  draw_diagnosis(*found, report, dir);
+  draw_diagnosis(found, report, dir);
 #else
   std::cerr
       << "no report.html: this program was built without the renderer (Cairo was not found)\n";
@@ -77,7 +72,7 @@ int diagnose_verb(const Arguments& arguments) {
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
-  std::optional<Diagnosis> found;
+  Diagnosis found;
   std::vector<std::string> inputs = options.positional();
   if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
     options.refuse_given({"set", "hold-out"}, "has no effect on an experiment of point bodies");

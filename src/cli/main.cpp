@@ -104,6 +104,9 @@ void occupy_closed_streams() {
 int run_command(const Arguments& words) {
   try {
     return deliver(act(words));
+  } catch (const Stopped& stopped) {
+    std::cerr << stopped.what() << "\n";
+    return Exit::stopped;
   } catch (...) {
     std::cerr << error_line(words, std::current_exception()) << "\n";
   }

@@ -79,10 +79,7 @@ int compare(const Optimization& what, const OptimizationResult& result,
   };
   const StudyResult done = run_study(study, job);
   progress.clear();
-  if (done.stopped) {
-    std::cerr << "stopped while comparing; the same command goes on\n";
-    return Exit::stopped;
-  }
+  if (done.stopped) throw Stopped();
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
   std::cout << report(stored, job.out) << std::flush;
@@ -127,10 +124,6 @@ int optimize_verb(const Arguments& arguments) {
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const OptimizationResult result = run_with_progress(what, job, quiet);
-  if (result.stopped) {
-    std::cerr << "stopped; every evaluation is kept, and the same command goes on\n";
-    return Exit::stopped;
-  }
   if (result.optimum.empty()) {
     std::cerr << "no optimum: at every point that was evaluated a simulation diverged; every "
                  "value is in "

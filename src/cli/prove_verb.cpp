@@ -137,14 +137,10 @@ int prove_verb(const Arguments& arguments) {
   job.judged = [&](const Proof& so_far) { keep(so_far, dir); };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.diagnosis.lock = &lock;
-  const auto proof = prove(job);
+  const Proof proof = prove(job);
   progress.clear();
-  if (!proof) {
-    std::cerr << "stopped; what is done is kept, and the same command goes on\n";
-    return Exit::stopped;
-  }
-  write_atomically((dir / "key.txt").string(), proof->key);
-  report_proofs({&*proof, 1}, job.diagnosis.out);
+  write_atomically((dir / "key.txt").string(), proof.key);
+  report_proofs({&proof, 1}, job.diagnosis.out);
   return Exit::done;
 }
 

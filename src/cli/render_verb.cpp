@@ -67,8 +67,8 @@ void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
   std::cerr << note;
 }
 
-/// Draws all that was asked for; false if it was stopped.
-bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
+/// Draws all that was asked for.
+void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
   const StoredRun run = load_run(dir);
   const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
   tell_if_seldom(options, run, film, at);
@@ -77,7 +77,6 @@ bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
   std::vector<std::string> made;
   const auto films = [&](const std::string& file) {
-    if (film.stop->load()) return;
     draw_film(run, film, file);
     made.push_back(file);
   };
@@ -90,16 +89,14 @@ bool draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   for (const char* name : {"mp4", "gif"}) {
     if (options.has(name)) films(options.text(name));
   }
-  if (options.has("stills") && !film.stop->load()) {
+  if (options.has("stills")) {
     draw_stills(run, film, options.text("stills"));
     made.push_back(options.text("stills"));
   }
   const bool asked = asks_for(options, {"png", "svg", "mp4", "gif", "stills"});
   if (!asked) films((std::filesystem::path(dir) / "video.mp4").string());
   progress.clear();
-  if (film.stop->load()) return false;
   for (const std::string& file : made) std::cout << file << "\n";
-  return true;
 }
 
 }  // namespace
@@ -128,9 +125,8 @@ int render_verb(const Arguments& arguments) {
     options.refuse("--at goes with --png or --svg");
   }
   const FilmOptions film = film_options(options);
-  if (draw_all(options, options.positional().front(), film)) return Exit::done;
-  std::cerr << "stopped while drawing\n";
-  return Exit::stopped;
+  draw_all(options, options.positional().front(), film);
+  return Exit::done;
 #else
   options.refuse("this program was built without the renderer (Cairo was not found)");
 #endif

@@ -52,8 +52,8 @@ void check_pictures(const std::string& out) {
   refuse_foreign(out, existing_in(out, pictures_of_run()), "run");
 }
 
-/// Draws video.mp4, then the pictures and the page of the report; false if it was stopped.
-bool draw(const std::string& out, const ReportProvenance& origin, bool force, bool quiet) {
+/// Draws video.mp4, then the pictures and the page of the report.
+void draw(const std::string& out, const ReportProvenance& origin, bool force, bool quiet) {
 #ifdef LILYTANK_HAS_RENDER
   const StoredRun stored = load_run(out);
   FilmOptions film;
@@ -63,7 +63,6 @@ bool draw(const std::string& out, const ReportProvenance& origin, bool force, bo
   film.force = force, film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
   draw_film(stored, film, (fs::path(out) / "video.mp4").string());
-  if (film.stop->load()) return false;
   ReportDocument report = run_report(stored, out);
   report.provenance = origin;
   draw_run(stored, report, out);
@@ -71,7 +70,6 @@ bool draw(const std::string& out, const ReportProvenance& origin, bool force, bo
   static_cast<void>(out), static_cast<void>(origin);
   static_cast<void>(force), static_cast<void>(quiet);
 #endif
-  return true;
 }
 
 int dry_run(const Scenario& scenario, const std::string& out, bool force) {
@@ -112,16 +110,14 @@ void say_time(const RunResult& result, const std::string& out) {
 int finish(const Scenario& scenario, const RunResult& result, const std::string& out,
            const std::optional<ReportProvenance>& film, bool force, bool quiet) {
   if (result.status == RunStatus::stopped) {
-    std::cerr << "stopped at " << without_rounding(result.time) << " s of "
-              << shortest(scenario.duration) << " s; the same command goes on from there\n";
-    return Exit::stopped;
+    throw Stopped("stopped at " + without_rounding(result.time) + " s of " +
+                  shortest(scenario.duration) + " s; the same command resumes from there");
   }
   if (!quiet) say_time(result, out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
-  } else if (film && !draw(out, *film, force, quiet)) {
-    std::cerr << "stopped while drawing; the same command goes on from there\n";
-    return Exit::stopped;
+  } else if (film) {
+    draw(out, *film, force, quiet);
   }
   std::cout << read_whole((fs::path(out) / run_file::summary_text).string()) << std::flush;
   return result.status == RunStatus::diverged ? Exit::diverged : Exit::done;

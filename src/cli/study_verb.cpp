@@ -77,9 +77,9 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
 /// What to tell, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
   if (result.stopped) {
-    std::cerr << "stopped after " << result.runs << (result.runs == 1 ? " run" : " runs")
-              << ", which are kept; the same command goes on\n";
-    return Exit::stopped;
+    throw Stopped("stopped after " + std::to_string(result.runs) +
+                  (result.runs == 1 ? " run" : " runs") +
+                  ", which are kept; the same command resumes the study");
   }
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)

@@ -13,7 +13,7 @@ enum Exit : int {
   diverged = 1,   ///< a world was given up; its files are there
   fault = 1,      ///< a check found one
   bad_input = 2,  ///< one line on stderr says what is wrong
-  stopped = 3,    ///< by a signal; the same command goes on
+  stopped = 3,    ///< by a signal; the same command resumes
 };
 
 struct Verb {

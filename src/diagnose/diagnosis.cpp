@@ -118,7 +118,7 @@ std::string name_of(Verdict verdict) {
   }
 }
 
-std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
   Diagnosis out;
   out.name = experiment.name;
   for (const Recording& r : experiment.recordings) {
@@ -143,15 +143,11 @@ std::optional<Diagnosis> diagnose(const Experiment& experiment, const DiagnosisO
     out.verdict = Verdict::measurement;
     return out;
   }
-  try {
-    Diagnoser diagnoser(experiment, options);
-    const auto lock = claim_directory(options.out, options.force,
-                                      {"diagnosis", diagnoser.identity(), diagnosis_files()});
-    if (options.lock != nullptr) *options.lock = lock;
-    diagnoser.run(out);
-  } catch (const Stopped&) {
-    return std::nullopt;
-  }
+  Diagnoser diagnoser(experiment, options);
+  const auto lock = claim_directory(options.out, options.force,
+                                    {"diagnosis", diagnoser.identity(), diagnosis_files()});
+  if (options.lock != nullptr) *options.lock = lock;
+  diagnoser.run(out);
   return out;
 }
 

@@ -324,10 +324,8 @@ class Examination {
 
 }  // namespace
 
-std::optional<Proof> prove(const ProofOptions& options) try {
+Proof prove(const ProofOptions& options) {
   return Examination(options).run();
-} catch (const Stopped&) {
-  return std::nullopt;
 }
 
 }  // namespace lilytank

@@ -141,7 +141,7 @@ std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps&
     made[static_cast<std::size_t>(i)] =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
   });
-  if (stopped()) throw Stopped{};
+  if (stopped()) throw Stopped();
   std::vector<std::vector<Recording>> out;
   for (auto& one : made) {
     if (one) out.push_back(std::move(*one));

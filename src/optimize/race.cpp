@@ -74,7 +74,7 @@ class Race {
     for (int round = 1; alive.size() > 1; ++round, each *= 2) {
       for (Contestant* one : alive) {
         one->entry.round = round;
-        if (!judge(*one, round, each)) return stopped();
+        judge(*one, round, each);
       }
       halve(alive);
     }
@@ -90,12 +90,6 @@ class Race {
   }
 
  private:
-  static RaceOutcome stopped() {
-    RaceOutcome out;
-    out.stopped = true;
-    return out;
-  }
-
   /// Another race's files were refused or removed before.
   void claim() const {
     make_directory((dir_ / "race").string());
@@ -113,16 +107,13 @@ class Race {
     }
   }
 
-  /// False if it was stopped.
-  bool judge(Contestant& one, int round, std::int64_t each) {
+  void judge(Contestant& one, int round, std::int64_t each) {
     // Two generations with their re-evaluations, and the final selection.
     const std::int64_t least = 2 * one.source->generation() + std::max<std::int64_t>(4, each / 4);
     const bool enough = each >= least;
-    const bool done = enough ? search(one, round, each) : repeat(one, round, each);
-    if (!done) return false;
+    enough ? search(one, round, each) : repeat(one, round, each);
     one.entry.evaluations += each, spent_ += each;
     tell(one, round);
-    return true;
   }
 
   std::string place(const Contestant& one, int round) const {
@@ -130,27 +121,23 @@ class Race {
   }
 
   /// The mean at the point where it stands; replicates are the same for all.
-  bool repeat(Contestant& one, int round, std::int64_t each) const {
-    const auto mean = repeated(*one.source, one.point, 0, static_cast<int>(each),
-                               place(one, round) + ".csv", *options_);
-    if (!mean) return false;
-    one.entry.best = mean->mean, one.entry.standard_error = mean->standard_error;
-    return true;
+  void repeat(Contestant& one, int round, std::int64_t each) const {
+    const Incumbent mean = repeated(*one.source, one.point, 0, static_cast<int>(each),
+                                    place(one, round) + ".csv", *options_);
+    one.entry.best = mean.mean, one.entry.standard_error = mean.standard_error;
   }
 
-  bool search(Contestant& one, int round, std::int64_t each) const {
+  void search(Contestant& one, int round, std::int64_t each) const {
     SearchRunOptions run;
     run.dir = place(one, round), run.identity = one.source->identity();
     run.threads = options_->threads, run.stop = options_->stop, run.force = options_->force;
     const double sigma = source_->file.cma_es.sigma / 2;
-    const auto found = run_search(
+    const SearchRunResult found = run_search(
         one.source->cma_es(each, one.point, sigma),
         [&](const Trial& trial) { return one.source->evaluate(trial, options_->stop); }, run);
-    if (found.stopped) return false;
     const Incumbent best = found.search->best();
     one.point = best.point;
     one.entry.best = best.mean, one.entry.standard_error = best.standard_error;
-    return true;
   }
 
   static void halve(std::vector<Contestant*>& alive) {

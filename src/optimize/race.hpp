@@ -7,12 +7,11 @@
 namespace lilytank {
 
 struct RaceOutcome {
-  const Optimization::Source* winner = nullptr;  ///< null: no race was asked for, or stopped
+  const Optimization::Source* winner = nullptr;  ///< null: no race was requested
   std::vector<double> start;                     ///< its best point
   const Optimization::Source* own = nullptr;     ///< the scenario's, where another one won
   std::vector<RaceEntry> entries;
   double share = 0;  ///< of all evaluations, the final search's included, that the race takes
-  bool stopped = false;
 };
 
 /// What races: `source` with its own ruleset, then with those of the target's other plans. Throws
@@ -25,7 +24,8 @@ std::int64_t race_evaluations(int rulesets, std::int64_t each);
 /// Successive halving [Jamieson and Talwalkar, AISTATS 2016]: the better half of each round goes on
 /// with twice the evaluations. In the first rounds every ruleset is judged at its start, with the
 /// same seeds; once they are enough, each has a search of its own, begun at its best point so far.
-/// Writes <out>/rulesets, <out>/race and <out>/race.csv; goes on after an interruption.
+/// Writes <out>/rulesets, <out>/race and <out>/race.csv; resumes after an interruption. Throws
+/// Stopped.
 RaceOutcome run_race(const Optimization::Source& source, const OptimizationOptions& options);
 
 }  // namespace lilytank

@@ -71,16 +71,16 @@ struct Repeats {
 
 }  // namespace
 
-std::optional<Incumbent> repeated(const Optimization::Source& source,
-                                  const std::vector<double>& point, std::int64_t first, int count,
-                                  const std::string& file, const OptimizationOptions& options) {
+Incumbent repeated(const Optimization::Source& source, const std::vector<double>& point,
+                   std::int64_t first, int count, const std::string& file,
+                   const OptimizationOptions& options) {
   Repeats repeats(point, first, count, file);
   for (int begin = 0; begin < count; begin += kKeptTogether) {
     for_each_world(std::min(kKeptTogether, count - begin), options.threads, [&](int i) {
       auto& value = repeats.values[static_cast<std::size_t>(begin + i)];
       if (!value) value = source.evaluate({point, first + begin + i}, options.stop);
     });
-    if (!repeats.keep(begin + kKeptTogether)) return std::nullopt;
+    if (!repeats.keep(begin + kKeptTogether)) throw Stopped();
   }
   return repeats.mean();
 }

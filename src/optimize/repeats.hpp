@@ -1,6 +1,5 @@
 // One point in many worlds.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +8,9 @@
 namespace lilytank {
 
 /// A point's mean fitness over `count` >= 2 worlds, from replicate `first` on. They are kept in
-/// `file`, from where it goes on; a file of another point is replaced. Nothing if it was stopped.
-std::optional<Incumbent> repeated(const Optimization::Source& source,
-                                  const std::vector<double>& point, std::int64_t first, int count,
-                                  const std::string& file, const OptimizationOptions& options);
+/// `file`, from where it resumes; a file of another point is replaced. Throws Stopped.
+Incumbent repeated(const Optimization::Source& source, const std::vector<double>& point,
+                   std::int64_t first, int count, const std::string& file,
+                   const OptimizationOptions& options);
 
 }  // namespace lilytank

@@ -36,29 +36,26 @@ std::string comment_of(const OptimizationPlan& plan, const Incumbent& best) {
 }
 
 /// What one has is given up only for something better: a race's winner, as it was searched, against
-/// the scenario's own ruleset at its start, in worlds that neither had. False if it was stopped.
-bool keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& source,
+/// the scenario's own ruleset at its start, in worlds that neither had.
+void keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& source,
                         OptimizationResult& result, const OptimizationOptions& options) {
-  if (race.own == nullptr) return true;
+  if (race.own == nullptr) return;
   const int count = last_worlds(*source);
   const auto last = [&](const Optimization::Source& of, const std::vector<double>& point) {
     const std::string name = of.scenario(point).model.rulesets.front().name;
     if (options.progress) options.progress(1, "last comparison: " + name);
     const fs::path file = fs::path(options.out) / "race" / "last" / (name + ".csv");
-    const auto mean = repeated(of, point, kFirstOfLast, count, file.string(), options);
+    const Incumbent mean = repeated(of, point, kFirstOfLast, count, file.string(), options);
     for (RaceEntry& entry : result.race) {
-      if (mean && entry.ruleset == name) entry.last = mean->mean;
+      if (entry.ruleset == name) entry.last = mean.mean;
     }
     return mean;
   };
-  const auto searched = last(*source, result.best.point);
-  if (!searched) return false;
-  const auto own = last(*race.own, race.own->plan.start);
-  if (!own) return false;
-  const bool stays = !(searched->mean < own->mean);
+  const Incumbent searched = last(*source, result.best.point);
+  const Incumbent own = last(*race.own, race.own->plan.start);
+  const bool stays = !(searched.mean < own.mean);
   if (stays) source = race.own;
-  result.best = stays ? *own : *searched;
-  return true;
+  result.best = stays ? own : searched;
 }
 
 /// The best point as an overlay, with its rulesets; the overlay's path.
@@ -87,8 +84,6 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
   std::unique_ptr<Search> search = source->search();
   const RaceOutcome race = run_race(*source, options);
   result.race = race.entries;
-  result.stopped = race.stopped;
-  if (result.stopped) return result;
   if (race.winner != nullptr) source = race.winner, search = source->winners_search(race.start);
   SearchRunOptions run;
   run.dir = options.out, run.identity = source->identity(), run.locked = true;
@@ -105,8 +100,7 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
       run);
   result.best = found.search->best();
   result.history = found.search->history(), result.selected = found.search->selected();
-  result.stopped = found.stopped || !keep_own_if_better(race, source, result, options);
-  if (result.stopped) return result;
+  keep_own_if_better(race, source, result, options);
   if (!std::isfinite(result.best.mean)) return result;
   result.optimum = write_optimum(*source, result.best, options.out);
   if (source->plan.replicates > 0) prepare_comparison(*source, result);

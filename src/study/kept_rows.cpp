@@ -89,8 +89,8 @@ std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
 
 }  // namespace
 
-std::optional<std::vector<std::vector<double>>> kept_rows(
-    const KeptRows& kept, int count, const std::function<std::vector<double>(int)>& work) {
+std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
+                                           const std::function<std::vector<double>(int)>& work) {
   Rows rows(static_cast<std::size_t>(count));
   std::unique_ptr<AppendFile> file;
   if (!kept.file.empty()) {
@@ -123,11 +123,10 @@ std::optional<std::vector<std::vector<double>>> kept_rows(
     if (kept.progress) kept.progress(done, count);
   });
   if (file) file->flush();
+  // Also where all rows were kept before: what is made of them may take minutes.
+  if (stopped()) throw Stopped();
   std::vector<std::vector<double>> out;
-  for (auto& row : rows) {
-    if (!row) return std::nullopt;
-    out.push_back(std::move(*row));
-  }
+  for (auto& row : rows) out.push_back(std::move(*row));
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,9 @@ struct KeptRows {
 };
 
 /// Rows 0 .. count - 1, those that the file has read from it. A row may be empty (a world that
-/// diverged); numbers that are not finite become NaN. Nothing once `stop` is set. Throws InputError
+/// diverged); numbers that are not finite become NaN. Throws Stopped once `stop` is set, InputError
 /// if the file is damaged or of another identity; a last row cut by a kill is done again.
-std::optional<std::vector<std::vector<double>>> kept_rows(
-    const KeptRows& kept, int count, const std::function<std::vector<double>(int)>& work);
+std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
+                                           const std::function<std::vector<double>(int)>& work);
 
 }  // namespace lilytank

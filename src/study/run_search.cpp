@@ -28,9 +28,8 @@ class SearchJob {
     Search& search = *result_.search;
     for (auto trials = search.ask(); !trials.empty(); trials = search.ask()) {
       if (!batch(trials)) {
-        result_.stopped = true;
         store_.checkpoint(search);
-        return std::move(result_);
+        throw Stopped();
       }
       search.tell(values_);
       store_.told(search);

@@ -152,7 +152,7 @@ TEST(Film, StopsWhenAskedAndLeavesNothing) {
   options.stop = &stop;
   int frames = 0;
   options.progress = [&](double) { stop = ++frames == 3; };
-  draw_film(sample::run(20), options, folder.file("a.mp4"));
+  EXPECT_THROW(draw_film(sample::run(20), options, folder.file("a.mp4")), Stopped);
   EXPECT_EQ(frames, 3);
   EXPECT_TRUE(folder.names().empty());
 }

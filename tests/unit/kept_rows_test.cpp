@@ -24,13 +24,12 @@ TEST(KeptRows, areReadFromTheFileAndOnlyTheMissingAreDone) {
   std::atomic<int> done = 0;
   const auto work = [&](int i) { return ++done, row_of(i); };
   const auto first = kept_rows(kept, 6, work);
-  ASSERT_TRUE(first);
   EXPECT_EQ(done, 6);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ((*first)[static_cast<std::size_t>(i)], row_of(i));
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(first[static_cast<std::size_t>(i)], row_of(i));
   const auto more = kept_rows(kept, 9, work);
   EXPECT_EQ(done, 9);
-  EXPECT_EQ(more->size(), 9u);
-  EXPECT_TRUE(std::equal(first->begin(), first->end(), more->begin()));
+  EXPECT_EQ(more.size(), 9u);
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), more.begin()));
 }
 
 TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
@@ -50,8 +49,8 @@ TEST(KeptRows, aNumberThatIsNoneStaysNone) {
   const auto nan = [](int) { return Row{1, std::nan(""), 2}; };
   for (int time = 0; time < 2; ++time) {
     const auto rows = kept_rows(kept, 1, nan);
-    EXPECT_TRUE(std::isnan(rows->front()[1]));
-    EXPECT_EQ(rows->front()[2], 2);
+    EXPECT_TRUE(std::isnan(rows.front()[1]));
+    EXPECT_EQ(rows.front()[2], 2);
   }
 }
 
@@ -75,13 +74,14 @@ TEST(KeptRows, stopKeepsWhatIsDone) {
   const TemporaryDirectory here;
   std::atomic<bool> stop = false;
   KeptRows kept{here.path("r.rows"), 5, 1, &stop};
-  EXPECT_FALSE(kept_rows(kept, 8, [&](int i) {
+  const auto until_third = [&](int i) {
     stop = i >= 3;
     return row_of(i);
-  }));
+  };
+  EXPECT_THROW(kept_rows(kept, 8, until_third), Stopped);
   stop = false;
   int done = 0;
-  EXPECT_TRUE(kept_rows(kept, 8, [&](int i) { return ++done, row_of(i); }));
+  EXPECT_EQ(kept_rows(kept, 8, [&](int i) { return ++done, row_of(i); }).size(), 8u);
   EXPECT_LT(done, 8);
   EXPECT_GT(done, 0);
 }

@@ -36,7 +36,7 @@ Experiment with_holes() {
 }
 
 TEST(Measurement, bodiesThatAreUnseenForLongAreTold) {
-  const Diagnosis d = diagnose(with_holes(), {}).value();
+  const Diagnosis d = diagnose(with_holes(), {});
   EXPECT_EQ(d.verdict, Verdict::measurement);
   ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings[0].effect, "lost_frames");
@@ -57,7 +57,7 @@ TEST(Measurement, ballsThatFlickerAreTold) {
   for (Track& t : e.recordings[0].tracks) t.first = 0;
   e.recordings[0].frames = 30;
   e.recordings.push_back(balls);
-  const Diagnosis d = diagnose(e, {}).value();
+  const Diagnosis d = diagnose(e, {});
   EXPECT_EQ(d.verdict, Verdict::measurement);
   EXPECT_EQ(d.findings.at(0).text, "bodies are unseen in 47 % of the frames");
 }
@@ -72,7 +72,7 @@ TEST(Measurement, replacesNoOtherDiagnosis) {
   EXPECT_THROW(diagnose(e, options), InputError);
   EXPECT_EQ(here.read("out/missing.toml"), "another's");
   options.force = true;
-  EXPECT_EQ(diagnose(e, options)->verdict, Verdict::measurement);
+  EXPECT_EQ(diagnose(e, options).verdict, Verdict::measurement);
   EXPECT_FALSE(here.has("out/missing.toml"));
 }
 

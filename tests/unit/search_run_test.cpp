@@ -41,7 +41,6 @@ SearchRunOptions in(const TemporaryDirectory& directory) {
 std::vector<std::string> expected() {
   const TemporaryDirectory directory;
   const auto done = run_search(swarm(), value, in(directory));
-  EXPECT_FALSE(done.stopped);
   EXPECT_EQ(done.evaluated, done.search->budget());
   std::vector<std::string> out;
   for (const char* file : kFiles) out.push_back(directory.read(std::string("search/") + file));
@@ -54,7 +53,7 @@ std::string first_checkpoint() {
   SearchRunOptions options = in(directory);
   const std::atomic<bool> stop{true};
   options.stop = &stop;
-  EXPECT_TRUE(run_search(swarm(), value, options).stopped);
+  EXPECT_THROW(run_search(swarm(), value, options), Stopped);
   return directory.read("search/search.state");
 }
 
@@ -88,14 +87,15 @@ TEST(SearchRun, StoppedAnywhereItEndsWithTheSameBytes) {
       ASSERT_LT(calls, 100);
       stop = false;
       std::atomic<int> evaluated{0};
-      const auto part = run_search(
-          swarm(),
-          [&](const Trial& trial) -> std::optional<double> {
-            if (++evaluated >= most) stop = true;
-            return value(trial);
-          },
-          options);
-      stopped = part.stopped;
+      const Objective objective = [&](const Trial& trial) -> std::optional<double> {
+        if (++evaluated >= most) stop = true;
+        return value(trial);
+      };
+      try {
+        run_search(swarm(), objective, options);
+        stopped = false;
+      } catch (const Stopped&) {
+      }
     }
     EXPECT_GE(calls, 72 / (most + 2));
     expect_files(directory, files);
@@ -110,7 +110,7 @@ TEST(SearchRun, KilledAnywhereItEndsWithTheSameBytes) {
     const TemporaryDirectory directory;
     directory.write("search/search.state", state);
     directory.write("search/evaluations.csv", files[1].substr(0, length));
-    EXPECT_FALSE(run_search(swarm(), value, in(directory)).stopped);
+    EXPECT_NO_THROW(run_search(swarm(), value, in(directory)));
     expect_files(directory, files);
   }
 }
