@@ -6,21 +6,20 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "1", 0, 0, 5, "added mass, as a fraction of the displaced water's mass"},
-};
-
 // A larger one gathers all modules in the middle, where the effect of a small one cannot be
 // learned.
-constexpr EffectDescription kEffects[] = {
-    {.order = 80,
-     .variable = "slip",
-     .amplitudes = {{"coefficient", 0.25}},
-     .split = split_by::kOtherBodies,
-     .growth = 2},
-};
-
 class AddedMass final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "1", 0, 0, 5, "added mass, as a fraction of the displaced water's mass"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 80,
+       .variable = "slip",
+       .amplitudes = {{"coefficient", 0.25}},
+       .split = split_by::kOtherBodies,
+       .growth = 2},
+  };
+
  public:
   std::string_view name() const override { return "added_mass"; }
   std::string_view summary() const override {

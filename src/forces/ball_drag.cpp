@@ -8,12 +8,12 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"C", "1", 2.266, 0, 10, "drag coefficient of a ball [Table 1: balls 2.266; a sphere 0.47]"},
-    {"draws", "1", 10, 1, 1000, "independent gusts that a ball averages over", true},
-};
-
 class BallDrag final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"C", "1", 2.266, 0, 10, "drag coefficient of a ball [Table 1: balls 2.266; a sphere 0.47]"},
+      {"draws", "1", 10, 1, 1000, "independent gusts that a ball averages over", true},
+  };
+
  public:
   std::string_view name() const override { return "ball_drag"; }
   std::string_view summary() const override { return "quadratic drag of the water on each ball"; }

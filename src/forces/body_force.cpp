@@ -4,20 +4,19 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"force_x", "N", 0, -1, 1, "push along +x"},
-    {"force_y", "N", 0, -1, 1, "push along +y"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 130,
-     .variable = "position",
-     .amplitudes = {{"force_x", 1.5e-3}, {"force_y", 1.5e-3}},
-     .two_sided = true,
-     .split = split_by::kTurnedCamera},
-};
-
 class BodyForce final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"force_x", "N", 0, -1, 1, "push along +x"},
+      {"force_y", "N", 0, -1, 1, "push along +y"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 130,
+       .variable = "position",
+       .amplitudes = {{"force_x", 1.5e-3}, {"force_y", 1.5e-3}},
+       .two_sided = true,
+       .split = split_by::kTurnedCamera},
+  };
+
  public:
   std::string_view name() const override { return "body_force"; }
   std::string_view summary() const override { return "a constant push on every body"; }

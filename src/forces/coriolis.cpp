@@ -5,19 +5,18 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"rate", "1/s", 0, -10, 10, "acceleration to the left by speed"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 120,
-     .variable = "slip",
-     .amplitudes = {{"rate", 0.4}},
-     .two_sided = true,
-     .split = split_by::kTurnedCamera},
-};
-
 class Coriolis final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"rate", "1/s", 0, -10, 10, "acceleration to the left by speed"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 120,
+       .variable = "slip",
+       .amplitudes = {{"rate", 0.4}},
+       .two_sided = true,
+       .split = split_by::kTurnedCamera},
+  };
+
  public:
   std::string_view name() const override { return "coriolis"; }
   std::string_view summary() const override {

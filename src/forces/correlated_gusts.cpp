@@ -10,13 +10,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"deviation", "m/s", 0, 0, 2, "standard deviation of the eddies' velocity per axis"},
-    {"time", "s", 0.5, 0.01, 100, "over which they fade by e"},
-    {"length", "m", 0.06, 0.005, 10, "over which the velocity of neighbours is alike"},
-    {"share", "1", 0, 0, 1, "of the variance of the flow's own gusts that are such eddies"},
-};
-
 constexpr EffectDescription of_scale(double time, double length) {
   return {.order = 210,
           .variable = "lag",
@@ -25,8 +18,6 @@ constexpr EffectDescription of_scale(double time, double length) {
           .scored = false,
           .mean_force = false};
 }
-constexpr EffectDescription kEffects[] = {of_scale(0.25, 0.03), of_scale(0.25, 0.08),
-                                          of_scale(1, 0.03), of_scale(1, 0.08)};
 
 // Waves u = amplitude (-sin a, cos a) cos(k . x + w t + phase), k along a, so the flow is free of
 // divergence. Normal k gives a correlation exp(-r^2 / (2 length^2)) of the stream function's
@@ -62,6 +53,15 @@ EddyWaves waves_of(std::uint64_t seed, double time, double length, double now, d
 }
 
 class CorrelatedGusts final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"deviation", "m/s", 0, 0, 2, "standard deviation of the eddies' velocity per axis"},
+      {"time", "s", 0.5, 0.01, 100, "over which they fade by e"},
+      {"length", "m", 0.06, 0.005, 10, "over which the velocity of neighbours is alike"},
+      {"share", "1", 0, 0, 1, "of the variance of the flow's own gusts that are such eddies"},
+  };
+  static constexpr EffectDescription kEffects[] = {of_scale(0.25, 0.03), of_scale(0.25, 0.08),
+                                                   of_scale(1, 0.03), of_scale(1, 0.08)};
+
  public:
   std::string_view name() const override { return "correlated_gusts"; }
   std::string_view summary() const override {

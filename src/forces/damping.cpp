@@ -4,14 +4,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"D_linear", "1", 0.332, 0, 0.999,
-     "share of the speed lost in a second [Table 1: Lilies 0.332, balls 0.3483]"},
-    {"D_angular", "1", 0.12, 0, 0.999,
-     "share of the spin lost in a second [Table 1: Lilies 0.12, balls 0.2476]"},
-};
-
 class Damping final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"D_linear", "1", 0.332, 0, 0.999,
+       "share of the speed lost in a second [Table 1: Lilies 0.332, balls 0.3483]"},
+      {"D_angular", "1", 0.12, 0, 0.999,
+       "share of the spin lost in a second [Table 1: Lilies 0.12, balls 0.2476]"},
+  };
+
  public:
   std::string_view name() const override { return "damping"; }
   std::string_view summary() const override {

@@ -8,25 +8,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"variable", "1", 0, 0, 7,
-     "0 radius (m), 1 heading (rad), 2 slip (m/s), 3 spin (rad/s), 4 time (s), 5 x, 6 y (m), 7 gap "
-     "between modules (m)",
-     true},
-    {"direction", "1", 0, 0, 8,
-     "0 x, 1 y, 2 outwards, 3 around, 4 along the slip, 5 to its left, 6 forward, 7 left, 8 "
-     "torque; of a gap 2 apart, 3 across, 8 torque",
-     true},
-    {"low", "1", 0, -1e6, 1e6, "the variable at the first value"},
-    {"high", "1", 1, -1e6, 1e6, "the variable at the last value; of headings one value further"},
-    {"v1", "N", 0, -1, 1, "force there; of a torque in N m"},
-    {"v2", "N", 0, -1, 1, "likewise"},
-    {"v3", "N", 0, -1, 1, "likewise"},
-    {"v4", "N", 0, -1, 1, "likewise"},
-    {"v5", "N", 0, -1, 1, "likewise"},
-    {"v6", "N", 0, -1, 1, "likewise"},
-};
-
 double size_at(const ForceCurve& curve, std::span<const double> p, double value) {
   const KnotShare at = place_on(curve, value);
   const double* v = &p[kFirstKnot];
@@ -49,6 +30,26 @@ void add_pairs(const Model& model, const Kinematics& k, const ForceCurve& curve,
 }
 
 class EmpiricalForce final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"variable", "1", 0, 0, 7,
+       "0 radius (m), 1 heading (rad), 2 slip (m/s), 3 spin (rad/s), 4 time (s), 5 x, 6 y (m), 7 "
+       "gap "
+       "between modules (m)",
+       true},
+      {"direction", "1", 0, 0, 8,
+       "0 x, 1 y, 2 outwards, 3 around, 4 along the slip, 5 to its left, 6 forward, 7 left, 8 "
+       "torque; of a gap 2 apart, 3 across, 8 torque",
+       true},
+      {"low", "1", 0, -1e6, 1e6, "the variable at the first value"},
+      {"high", "1", 1, -1e6, 1e6, "the variable at the last value; of headings one value further"},
+      {"v1", "N", 0, -1, 1, "force there; of a torque in N m"},
+      {"v2", "N", 0, -1, 1, "likewise"},
+      {"v3", "N", 0, -1, 1, "likewise"},
+      {"v4", "N", 0, -1, 1, "likewise"},
+      {"v5", "N", 0, -1, 1, "likewise"},
+      {"v6", "N", 0, -1, 1, "likewise"},
+  };
+
  public:
   std::string_view name() const override { return "empirical_force"; }
   std::string_view summary() const override {

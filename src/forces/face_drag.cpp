@@ -9,11 +9,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"K_F", "1", 0.442, 0, 10, "drag coefficient of a face [Table 1: Lilies 0.442]"},
-    {"segments", "1", 10, 1, kMostSegments, "segments of a face, N of Eq. 5", true},
-};
-
 // Bodies [first, first + count) as the kernel takes them; lanes beyond stay at rest in the centre.
 void load_block(const Kinematics& k, int first, int count, bool shadowing, DragBlock& block) {
   const auto load = [&](std::span<const double> from, float* to) {
@@ -27,6 +22,11 @@ void load_block(const Kinematics& k, int first, int count, bool shadowing, DragB
 }
 
 class FaceDrag final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"K_F", "1", 0.442, 0, 10, "drag coefficient of a face [Table 1: Lilies 0.442]"},
+      {"segments", "1", 10, 1, kMostSegments, "segments of a face, N of Eq. 5", true},
+  };
+
  public:
   std::string_view name() const override { return "face_drag"; }
   std::string_view summary() const override {

@@ -6,15 +6,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"rate", "1/s", 0, -0.1, 0.1, "relative growth of the flow a second"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 140, .variable = "time", .amplitudes = {{"rate", 5e-4}}, .two_sided = true},
-};
-
 class FlowDrift final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"rate", "1/s", 0, -0.1, 0.1, "relative growth of the flow a second"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 140, .variable = "time", .amplitudes = {{"rate", 5e-4}}, .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "flow_drift"; }
   std::string_view summary() const override { return "the whole flow grows or fades in time"; }

@@ -6,24 +6,23 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"share", "1", 0, 0, 1, "amplitude, as a fraction of the flow"},
-    {"frequency", "Hz", 0.9, 0, 20, "of the pulsation"},
-    {"phase", "rad", 0, -6.2832, 6.2832, "at time 0", false, ParameterKind::phase},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 200,
-     .variable = "time",
-     .amplitudes = {{"share", 0.15}},
-     .held = {{"frequency", 0.9}},
-     .scored = false,
-     .mean_force = false,
-     .growth = 2,
-     .estimated = Estimated::gain_and_frequency},
-};
-
 class FlowPulsation final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"share", "1", 0, 0, 1, "amplitude, as a fraction of the flow"},
+      {"frequency", "Hz", 0.9, 0, 20, "of the pulsation"},
+      {"phase", "rad", 0, -6.2832, 6.2832, "at time 0", false, ParameterKind::phase},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 200,
+       .variable = "time",
+       .amplitudes = {{"share", 0.15}},
+       .held = {{"frequency", 0.9}},
+       .scored = false,
+       .mean_force = false,
+       .growth = 2,
+       .estimated = Estimated::gain_and_frequency},
+  };
+
  public:
   std::string_view name() const override { return "flow_pulsation"; }
   std::string_view summary() const override { return "the whole flow rises and falls in time"; }

@@ -6,21 +6,20 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"impulse", "N s", 0, 0, 0.1, "standard deviation of an impulse per axis"},
-    {"rate", "1/s", 0.2, 0, 40, "knocks a second and module"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 240,
-     .variable = "lag",
-     .amplitudes = {{"impulse", 1.5e-3}},
-     .scored = false,
-     .mean_force = false,
-     .growth = 2},
-};
-
 class HeavyTailedKicks final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"impulse", "N s", 0, 0, 0.1, "standard deviation of an impulse per axis"},
+      {"rate", "1/s", 0.2, 0, 40, "knocks a second and module"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 240,
+       .variable = "lag",
+       .amplitudes = {{"impulse", 1.5e-3}},
+       .scored = false,
+       .mean_force = false,
+       .growth = 2},
+  };
+
  public:
   std::string_view name() const override { return "heavy_tailed_kicks"; }
   std::string_view summary() const override {

@@ -7,22 +7,21 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"extra", "1", 0, -0.9, 9, "mass and inertia beyond those of the others, as a fraction"},
-    {"module", "1", 0, 0, 9999, "which one", true, ParameterKind::module},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 190,
-     .variable = "module",
-     .amplitudes = {{"extra", 0.4}},
-     .scored = false,
-     .mean_force = false,
-     .growth = 2,
-     .estimated = Estimated::module},
-};
-
 class HeterogeneousModule final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"extra", "1", 0, -0.9, 9, "mass and inertia beyond those of the others, as a fraction"},
+      {"module", "1", 0, 0, 9999, "which one", true, ParameterKind::module},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 190,
+       .variable = "module",
+       .amplitudes = {{"extra", 0.4}},
+       .scored = false,
+       .mean_force = false,
+       .growth = 2,
+       .estimated = Estimated::module},
+  };
+
  public:
   std::string_view name() const override { return "heterogeneous_module"; }
   std::string_view summary() const override {

@@ -6,19 +6,18 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"strength", "N", 0, 0, 1, "force at contact"},
-    {"range", "m", 0.0002, 0.00005, 0.005, "gap over which the force falls by e"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 30,
-     .variable = "pair",
-     .amplitudes = {{"strength", 0.02}},
-     .split = split_by::kLatches},
-};
-
 class LatchStick final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"strength", "N", 0, 0, 1, "force at contact"},
+      {"range", "m", 0.0002, 0.00005, 0.005, "gap over which the force falls by e"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 30,
+       .variable = "pair",
+       .amplitudes = {{"strength", 0.02}},
+       .split = split_by::kLatches},
+  };
+
  public:
   std::string_view name() const override { return "latch_stick"; }
   std::string_view summary() const override { return "modules that touch cling together"; }

@@ -7,27 +7,24 @@
 namespace lilytank {
 namespace {
 
-constexpr int kBlock = 64;  // bodies at a time
-
-constexpr Parameter kParameters[] = {
-    {"speed_x", "m/s", 0, -2, 2, "of the added stream in its middle"},
-    {"speed_y", "m/s", 0, -2, 2, "of the added stream in its middle"},
-    {"x", "m", 0, -5, 5, "middle", false, ParameterKind::place},
-    {"y", "m", 0, -5, 5, "middle", false, ParameterKind::place},
-    {"width", "m", 0.05, 0.005, 5, "standard deviation of its Gaussian profile"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 150,
-     .variable = "position",
-     .amplitudes = {{"speed_x", 0.06}, {"speed_y", 0.06}},
-     .held = {{"x"}, {"y"}, {"width", 0.06, 0.02, 0.2}},
-     .two_sided = true,
-     .split = split_by::kOtherBodies,
-     .estimated = Estimated::place},
-};
-
 class LocalFlow final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"speed_x", "m/s", 0, -2, 2, "of the added stream in its middle"},
+      {"speed_y", "m/s", 0, -2, 2, "of the added stream in its middle"},
+      {"x", "m", 0, -5, 5, "middle", false, ParameterKind::place},
+      {"y", "m", 0, -5, 5, "middle", false, ParameterKind::place},
+      {"width", "m", 0.05, 0.005, 5, "standard deviation of its Gaussian profile"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 150,
+       .variable = "position",
+       .amplitudes = {{"speed_x", 0.06}, {"speed_y", 0.06}},
+       .held = {{"x"}, {"y"}, {"width", 0.06, 0.02, 0.2}},
+       .two_sided = true,
+       .split = split_by::kOtherBodies,
+       .estimated = Estimated::place},
+  };
+
  public:
   std::string_view name() const override { return "local_flow"; }
   std::string_view summary() const override {
@@ -42,6 +39,7 @@ class LocalFlow final : public ForceTerm {
   void stir(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
             Stirring& water) const override {
     const double width = 2 * p[4] * p[4];
+    constexpr int kBlock = 64;  // bodies at a time
     double share[kBlock];
     for (int from = 0; from < k.size(); from += kBlock) {
       const int count = std::min(kBlock, k.size() - from);

@@ -6,19 +6,18 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "N s/m", 0, 0, 10, "force by closing speed at contact"},
-    {"range", "m", 0.004, 0.0005, 0.05, "gap over which the force falls by e"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 40,
-     .variable = "pair",
-     .amplitudes = {{"coefficient", 0.15}},
-     .split = split_by::kLoneModule},
-};
-
 class Lubrication final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "N s/m", 0, 0, 10, "force by closing speed at contact"},
+      {"range", "m", 0.004, 0.0005, 0.05, "gap over which the force falls by e"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 40,
+       .variable = "pair",
+       .amplitudes = {{"coefficient", 0.15}},
+       .split = split_by::kLoneModule},
+  };
+
  public:
   std::string_view name() const override { return "lubrication"; }
   std::string_view summary() const override {

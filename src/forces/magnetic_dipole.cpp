@@ -6,26 +6,25 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"strength", "N", 0, 0, 1, "pull of two dipoles on one axis whose centres are a side apart"},
-    {"angle", "rad", 0, -6.2832, 6.2832, "direction of the dipole in the module's frame", false,
-     ParameterKind::direction},
-};
-
 // With the dipole along the module's axis (the default) and across.
-constexpr EffectDescription kEffects[] = {
-    {.order = 20,
-     .variable = "pair",
-     .amplitudes = {{"strength", 0.012}},
-     .split = split_by::kLoneModule},
-    {.order = 20,
-     .variable = "pair",
-     .amplitudes = {{"strength", 0.012}},
-     .held = {{"angle", kPi / 2}},
-     .split = split_by::kLoneModule},
-};
-
 class MagneticDipole final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"strength", "N", 0, 0, 1, "pull of two dipoles on one axis whose centres are a side apart"},
+      {"angle", "rad", 0, -6.2832, 6.2832, "direction of the dipole in the module's frame", false,
+       ParameterKind::direction},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 20,
+       .variable = "pair",
+       .amplitudes = {{"strength", 0.012}},
+       .split = split_by::kLoneModule},
+      {.order = 20,
+       .variable = "pair",
+       .amplitudes = {{"strength", 0.012}},
+       .held = {{"angle", kPi / 2}},
+       .split = split_by::kLoneModule},
+  };
+
  public:
   std::string_view name() const override { return "magnetic_dipole"; }
   std::string_view summary() const override {

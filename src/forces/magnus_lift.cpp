@@ -6,15 +6,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "1", 0, -5, 5, "share of the lift of an ideal cylinder of the module's area"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 90, .variable = "spin", .amplitudes = {{"coefficient", 0.3}}, .two_sided = true},
-};
-
 class MagnusLift final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "1", 0, -5, 5, "share of the lift of an ideal cylinder of the module's area"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 90, .variable = "spin", .amplitudes = {{"coefficient", 0.3}}, .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "magnus_lift"; }
   std::string_view summary() const override {

@@ -4,19 +4,18 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"forward", "m", 0, -0.02, 0.02, "of the centre of mass, along the module's own +x"},
-    {"left", "m", 0, -0.02, 0.02, "along the module's own +y"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 180,
-     .variable = "heading",
-     .amplitudes = {{"forward", 1e-3}, {"left", 1e-3}},
-     .two_sided = true},
-};
-
 class MassOffset final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"forward", "m", 0, -0.02, 0.02, "of the centre of mass, along the module's own +x"},
+      {"left", "m", 0, -0.02, 0.02, "along the module's own +y"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 180,
+       .variable = "heading",
+       .amplitudes = {{"forward", 1e-3}, {"left", 1e-3}},
+       .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "mass_offset"; }
   std::string_view summary() const override {

@@ -9,11 +9,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"strength", "N", 0, 0, 0.1, "force at contact"},
-    {"range", "m", 0.012, 0.001, 0.1, "gap over which the force falls by e"},
-};
-
 constexpr EffectDescription at_range(double range) {
   return {.order = 10,
           .variable = "pair",
@@ -34,6 +29,11 @@ constexpr EffectDescription kRepulsion[] = {opposite(kAttraction[0]), opposite(k
                                             opposite(kAttraction[2])};
 
 class PairForce final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"strength", "N", 0, 0, 0.1, "force at contact"},
+      {"range", "m", 0.012, 0.001, 0.1, "gap over which the force falls by e"},
+  };
+
  public:
   explicit constexpr PairForce(bool attracts) : attracts_(attracts) {}
   std::string_view name() const override {

@@ -6,15 +6,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "N m s", 0, -0.01, 0.01, "torque by spin relative to the water"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 110, .variable = "spin", .amplitudes = {{"coefficient", 5e-6}}, .two_sided = true},
-};
-
 class RotationalDrag final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "N m s", 0, -0.01, 0.01, "torque by spin relative to the water"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 110, .variable = "spin", .amplitudes = {{"coefficient", 5e-6}}, .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "rotational_drag"; }
   std::string_view summary() const override { return "the water turns a module along with itself"; }

@@ -4,19 +4,18 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"force_x", "N", 0, -1, 1, "along the module's own +x"},
-    {"force_y", "N", 0, -1, 1, "along the module's own +y"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 160,
-     .variable = "heading",
-     .amplitudes = {{"force_x", 1e-3}, {"force_y", 1e-3}},
-     .two_sided = true},
-};
-
 class SelfPropulsion final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"force_x", "N", 0, -1, 1, "along the module's own +x"},
+      {"force_y", "N", 0, -1, 1, "along the module's own +y"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 160,
+       .variable = "heading",
+       .amplitudes = {{"force_x", 1e-3}, {"force_y", 1e-3}},
+       .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "self_propulsion"; }
   std::string_view summary() const override {

@@ -4,15 +4,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"torque", "N m", 0, -0.01, 0.01, "counter-clockwise"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 170, .variable = "spin", .amplitudes = {{"torque", 1.2e-5}}, .two_sided = true},
-};
-
 class SpinTorque final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"torque", "N m", 0, -0.01, 0.01, "counter-clockwise"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 170, .variable = "spin", .amplitudes = {{"torque", 1.2e-5}}, .two_sided = true},
+  };
+
  public:
   std::string_view name() const override { return "spin_torque"; }
   std::string_view summary() const override { return "every module is turned the same way"; }

@@ -9,12 +9,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"by_radius", "N", 0, 0, 1,
-     "standard deviation per axis at the wall, growing in proportion to the radius"},
-    {"by_slip", "N s/m", 0, 0, 10, "standard deviation per axis and unit of relative speed"},
-};
-
 constexpr EffectDescription by(std::string_view parameter, double size, std::string_view variable) {
   return {.order = 230,
           .variable = variable,
@@ -23,10 +17,15 @@ constexpr EffectDescription by(std::string_view parameter, double size, std::str
           .mean_force = false,
           .growth = 2};
 }
-constexpr EffectDescription kEffects[] = {by("by_radius", 0.012, "radius"),
-                                          by("by_slip", 0.06, "slip")};
-
 class StateDependentNoise final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"by_radius", "N", 0, 0, 1,
+       "standard deviation per axis at the wall, growing in proportion to the radius"},
+      {"by_slip", "N s/m", 0, 0, 10, "standard deviation per axis and unit of relative speed"},
+  };
+  static constexpr EffectDescription kEffects[] = {by("by_radius", 0.012, "radius"),
+                                                   by("by_slip", 0.06, "slip")};
+
  public:
   std::string_view name() const override { return "state_dependent_noise"; }
   std::string_view summary() const override {

@@ -9,13 +9,13 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"sigma_stoch", "N", 12.682e-3, 0, 1,
-     "standard deviation per axis of one draw a 25 ms [Table 1, in 1e-4 N: Lilies 126.82, balls "
-     "195.25]"},
-};
-
 class StochasticForce final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"sigma_stoch", "N", 12.682e-3, 0, 1,
+       "standard deviation per axis of one draw a 25 ms [Table 1, in 1e-4 N: Lilies 126.82, balls "
+       "195.25]"},
+  };
+
  public:
   std::string_view name() const override { return "stochastic"; }
   std::string_view summary() const override {

@@ -6,20 +6,19 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "N s/m", 0, -10, 10, "force by relative speed"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 100,
-     .variable = "slip",
-     .amplitudes = {{"coefficient", 0.03}},
-     .two_sided = true,
-     .split = split_by::kPumpPower,
-     .growth = 2},
-};
-
 class ViscousDrag final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "N s/m", 0, -10, 10, "force by relative speed"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 100,
+       .variable = "slip",
+       .amplitudes = {{"coefficient", 0.03}},
+       .two_sided = true,
+       .split = split_by::kPumpPower,
+       .growth = 2},
+  };
+
  public:
   std::string_view name() const override { return "viscous_drag"; }
   std::string_view summary() const override {

@@ -9,11 +9,6 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"coefficient", "1", 0, 0, 5, "lift coefficient"},
-    {"frequency", "Hz", 0.43, 0, 20, "of shedding: about 0.13 relative speed / side"},
-};
-
 constexpr EffectDescription at_frequency(double frequency) {
   return {.order = 220,
           .variable = "lag",
@@ -24,9 +19,13 @@ constexpr EffectDescription at_frequency(double frequency) {
           .growth = 2,
           .estimated = Estimated::slip_and_frequency};
 }
-constexpr EffectDescription kEffects[] = {at_frequency(0.3), at_frequency(0.8)};
-
 class VortexShedding final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"coefficient", "1", 0, 0, 5, "lift coefficient"},
+      {"frequency", "Hz", 0.43, 0, 20, "of shedding: about 0.13 relative speed / side"},
+  };
+  static constexpr EffectDescription kEffects[] = {at_frequency(0.3), at_frequency(0.8)};
+
  public:
   std::string_view name() const override { return "vortex_shedding"; }
   std::string_view summary() const override {

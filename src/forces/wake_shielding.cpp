@@ -9,22 +9,8 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"share", "1", 0, 0, 1, "share of the relative flow that is missing right behind a module"},
-    {"length", "m", 0.08, 0.01, 0.5,
-     "distance downstream over which the wake decays by a factor e"},
-    {"width", "m", 0.02, 0.005, 0.2, "standard deviation of the wake across the stream"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 50,
-     .variable = "pair",
-     .amplitudes = {{"share", 0.4}},
-     .split = split_by::kLoneModule},
-};
-
-constexpr double kWide = 5;  // deviations beyond which the lee is nothing
-constexpr int kBlock = 64;   // modules in the lee that are looked at together
+constexpr double kWide = 5;            // deviations beyond which the lee is nothing
+constexpr int kShieldedTogether = 64;  // modules in the lee that are looked at together
 
 // The moment without what terms have added to the water so far.
 Moment still(Moment now) {
@@ -36,8 +22,8 @@ Moment still(Moment now) {
 void shield(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             int first, int last, Stirring& water) {
   const double far = 4 * p[1] + model.module.side, wide = kWide * p[2];
-  double left[kBlock];  // of the relative flow at each
-  std::fill(left, left + kBlock, 1.0);
+  double left[kShieldedTogether];  // of the relative flow at each
+  std::fill(left, left + kShieldedTogether, 1.0);
   for (int front = 0; front < k.modules; ++front) {
     const Vec2 slip = slip_of(model, k, now, front);
     const double size = slip.norm();
@@ -57,6 +43,19 @@ void shield(const Model& model, const Kinematics& k, const Moment& now, std::spa
 }
 
 class WakeShielding final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"share", "1", 0, 0, 1, "share of the relative flow that is missing right behind a module"},
+      {"length", "m", 0.08, 0.01, 0.5,
+       "distance downstream over which the wake decays by a factor e"},
+      {"width", "m", 0.02, 0.005, 0.2, "standard deviation of the wake across the stream"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 50,
+       .variable = "pair",
+       .amplitudes = {{"share", 0.4}},
+       .split = split_by::kLoneModule},
+  };
+
  public:
   std::string_view name() const override { return "wake_shielding"; }
   std::string_view summary() const override {
@@ -72,8 +71,8 @@ class WakeShielding final : public ForceTerm {
   bool stirs() const override { return true; }
   void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
             Stirring& water) const override {
-    for (int first = 0; first < k.modules; first += kBlock) {
-      shield(model, k, still(now), p, first, std::min(first + kBlock, k.modules), water);
+    for (int first = 0; first < k.modules; first += kShieldedTogether) {
+      shield(model, k, still(now), p, first, std::min(first + kShieldedTogether, k.modules), water);
     }
   }
 };

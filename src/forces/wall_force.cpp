@@ -7,12 +7,7 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"strength", "N", 0, -0.1, 0.1, "force towards the wall at contact"},
-    {"range", "m", 0.004, 0.0005, 0.1, "gap over which the force falls by e"},
-};
-
-constexpr EffectDescription at_range(double range, double strength) {
+constexpr EffectDescription near_wall(double range, double strength) {
   return {.order = 60,
           .variable = "radius",
           .amplitudes = {{"strength", strength}},
@@ -20,9 +15,13 @@ constexpr EffectDescription at_range(double range, double strength) {
           .two_sided = true,
           .split = split_by::kOtherBodies};
 }
-constexpr EffectDescription kEffects[] = {at_range(0.005, 0.01), at_range(0.02, 5e-3)};
-
 class WallForce final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"strength", "N", 0, -0.1, 0.1, "force towards the wall at contact"},
+      {"range", "m", 0.004, 0.0005, 0.1, "gap over which the force falls by e"},
+  };
+  static constexpr EffectDescription kEffects[] = {near_wall(0.005, 0.01), near_wall(0.02, 5e-3)};
+
  public:
   std::string_view name() const override { return "wall_force"; }
   std::string_view summary() const override {

@@ -8,22 +8,22 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"share", "1", 0, 0, 1, "share of the mean flow that is missing at the wall"},
-    {"thickness", "m", 0.01, 0.001, 0.1, "distance from the wall over which the layer falls by e"},
-};
-
-constexpr EffectDescription kEffects[] = {
-    {.order = 70,
-     .variable = "radius",
-     .amplitudes = {{"share", 0.6}},
-     .held = {{"thickness", 0.02, 0.005, 0.08}},
-     .split = split_by::kOtherBodies},
-};
-
 constexpr double kNothing = 1e-9;  // a share of the layer that nobody could see: far from the wall
 
 class WallLayer final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"share", "1", 0, 0, 1, "share of the mean flow that is missing at the wall"},
+      {"thickness", "m", 0.01, 0.001, 0.1,
+       "distance from the wall over which the layer falls by e"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.order = 70,
+       .variable = "radius",
+       .amplitudes = {{"share", 0.6}},
+       .held = {{"thickness", 0.02, 0.005, 0.08}},
+       .split = split_by::kOtherBodies},
+  };
+
  public:
   std::string_view name() const override { return "wall_layer"; }
   std::string_view summary() const override {

@@ -4,14 +4,14 @@
 namespace lilytank {
 namespace {
 
-constexpr Parameter kParameters[] = {
-    {"stiffness", "N/m", 0, 0, 1, "force by distance from the middle"},
-};
-constexpr EffectDescription kEffects[] = {
-    {.variable = "radius", .amplitudes = {{"stiffness", 0.02}}},
-};
-
 class SpringToMiddle final : public ForceTerm {
+  static constexpr Parameter kParameters[] = {
+      {"stiffness", "N/m", 0, 0, 1, "force by distance from the middle"},
+  };
+  static constexpr EffectDescription kEffects[] = {
+      {.variable = "radius", .amplitudes = {{"stiffness", 0.02}}},
+  };
+
  public:
   std::string_view name() const override { return "spring_to_middle"; }
   std::string_view summary() const override { return "a pull towards the middle of the tank"; }
