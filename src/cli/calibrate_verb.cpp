@@ -112,6 +112,17 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
   return c;
 }
 
+// The parameters' values where the last file overrides the others. Only these: a file of another
+// experiment has another tank and other modules.
+std::vector<double> start_values(const std::vector<std::string>& files,
+                                 const std::vector<std::string>& sets,
+                                 const std::vector<FitParameter>& parameters) {
+  const Model model = load_experiment(files, sets).base.model;
+  std::vector<double> values;
+  for (const FitParameter& p : parameters) values.push_back(parameter_value(model, p.path));
+  return values;
+}
+
 // --recover: no recordings are read, they are simulated.
 int recover_verb(const VerbOptions& options, const Arguments& arguments, CalibrationOptions job) {
   options.refuse_given({"start", "comparisons", "balls"}, "has no effect with --recover");
@@ -169,12 +180,7 @@ int calibrate_verb(const Arguments& arguments) {
   const Experiment experiment = load_experiment(files, options.list("set"));
   if (options.has("start")) {
     files.push_back(options.text("start"));
-    // Only values of the parameters: a file of another experiment has another tank and other
-    // modules.
-    const Model there = load_experiment(files, options.list("set")).base.model;
-    for (const FitParameter& p : job.parameters) {
-      job.start.push_back(parameter_value(there, p.path));
-    }
+    job.start = start_values(files, options.list("set"), job.parameters);
   }
   job.out = options.text(
       "out", (std::filesystem::path("out") / ("calibrate-" + experiment.name)).string());

@@ -83,6 +83,17 @@ std::uint64_t seed_of(const VerbOptions& options) {
   return static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
 }
 
+// `word`: paper, smooth or both.
+void estimate(const std::string& word, const std::vector<Recording>& recordings,
+              FlowReport& report) {
+  if (word != "smooth") {
+    report.estimates.push_back(estimate_paper(recordings, report.ball, report.options));
+  }
+  if (word != "paper") {
+    report.estimates.push_back(estimate_smooth(recordings, report.ball, report.options));
+  }
+}
+
 void measure_bias(const VerbOptions& options, const std::vector<Recording>& recordings,
                   FlowReport& report) {
   const FlowEstimate* smooth = nullptr;
@@ -147,12 +158,7 @@ int flow_verb(const Arguments& arguments) {
   const DirectoryJob job{"flow", identity_of(origin), flow_files()};
   const bool force = options.has("force");
   check_directory(dir, force, job);
-  if (word != "smooth") {
-    report.estimates.push_back(estimate_paper(experiment.recordings, report.ball, report.options));
-  }
-  if (word != "paper") {
-    report.estimates.push_back(estimate_smooth(experiment.recordings, report.ball, report.options));
-  }
+  estimate(word, experiment.recordings, report);
   const auto lock = claim_directory(dir, force, job);
   const auto write = [&] {
     ReportDocument document = flow_report(report);
