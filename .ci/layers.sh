@@ -98,7 +98,7 @@ home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize
 home calibrate calibration emulator local_model recovery
-home diagnose diagnosis predictor proof
+home diagnose diagnosis diagnosis_subject predictor proof
 home bodies bodies
 home render render
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
@@ -18,19 +17,6 @@ std::string unit_of(const FoundCurve& c) {
   return c.value_unit == "N" ? "force (mN)" : "acceleration (" + c.value_unit + ")";
 }
 
-// What the horizontal axis of a curve shows, of Lilies in a tank or of other bodies.
-std::string label_of(const FoundCurve& c, bool tank) {
-  const std::map<std::string, std::string> kLabels = {
-      {"radius", "distance from the centre"},
-      {"pair", tank ? "gap to another module" : "gap to another body"},
-      {"slip", tank ? "speed through the water" : "speed"},
-      {"position", "position x"},
-      {"turn", tank ? "rate of turning" : "speed"},  // of a body: pushes aside, over its speed
-  };
-  const auto known = kLabels.find(c.variable);
-  return (known == kLabels.end() ? c.variable : known->second) + " (" + c.unit + ")";
-}
-
 // A value that is this much less certain than most of its curve is told by next to nothing: bodies
 // were hardly ever there.
 constexpr double kUntold = 20;
@@ -42,10 +28,11 @@ std::string with_z(double z) {
 }
 
 // One curve with the band in which nothing would lie; gaps where the data tell nothing.
-Plot curve_plot(const FoundCurve& c, bool tank, bool small) {
+Plot curve_plot(const FoundCurve& c, const DiagnosisSubject& of, bool small) {
   Plot plot;
   plot.title = c.direction;
-  plot.x_label = label_of(c, tank), plot.y_label = unit_of(c);
+  plot.x_label = text_for(of.variables, c.variable) + " (" + c.unit + ")",
+  plot.y_label = unit_of(c);
   plot.zero_line = true;
   if (!c.at.empty()) {
     const auto [first, last] = std::minmax_element(c.at.begin(), c.at.end());
@@ -70,15 +57,15 @@ PlotPage maps_page(const Diagnosis& d) {
   PlotPage page;
   page.columns = 4;
   page.title = "What the baseline leaves unexplained (line), and 95 % of what chance would (band)";
-  if (!d.tank) page.title += ", all bodies together";
+  page.title += d.subject->curves_of;
   std::vector<FoundCurve> maps = d.maps;
   std::stable_sort(maps.begin(), maps.end(),
                    [](const FoundCurve& a, const FoundCurve& b) { return a.z > b.z; });
   for (const FoundCurve& c : maps) {
     if (page.plots.size() >= 12) break;
-    page.plots.push_back(curve_plot(c, d.tank, true));
+    page.plots.push_back(curve_plot(c, *d.subject, true));
     // A body's map tells how far it scatters, which is not what a finding's z is about.
-    if (d.tank) page.plots.back().title += with_z(c.z);
+    if (d.subject->curves_tested) page.plots.back().title += with_z(c.z);
   }
   return page;
 }
@@ -88,55 +75,29 @@ PlotPage laws_page(const Diagnosis& d) {
   page.columns = 2;
   for (const DiagnosisFinding& f : d.findings) {
     if (f.curve.at.empty()) continue;
-    Plot plot = curve_plot(f.curve, d.tank, false);
+    Plot plot = curve_plot(f.curve, *d.subject, false);
     plot.title = f.effect + ": " + plot.title + with_z(f.z);
-    if (!d.tank) plot.title += ", all bodies together";
+    plot.title += d.subject->curves_of;
     page.plots.push_back(std::move(plot));
   }
   return page;
 }
 
-// A group of numbers in words.
-std::string words_for(const std::string& group) {
-  static const std::map<std::string, std::string> kWords = {
-      {"balance", "balance of momentum"},
-      {"camera", "gaps at contact, across the image"},
-      {"contact", "bounces"},
-      {"displacement", "displacement (MSD)"},
-      {"kicks", "process noise between frames"},
-      {"module", "differences between modules"},
-      {"neighbours", "distance of neighbours"},
-      {"noise", "size and memory of gusts"},
-      {"place", "place in the tank, mean flow"},
-      {"spectrum", "rhythms"},
-      {"turning", "turning and its memory"},
-      {"velocity", "speed and its memory"},
-  };
-  const auto known = kWords.find(group);
-  return known == kWords.end() ? group : known->second;
-}
-
 // Mean squares of deviations, a row a group of numbers; of bodies, a row a group of them.
 Plot fit_plot(const Diagnosis& d) {
   Plot plot;
-  plot.title = !d.tank ? "A quarter of a run ahead, coefficients of all runs: before and after"
-               : d.nothing_held_out
-                   ? "Fitted recordings: distance from simulations, before and after"
-                   : "Held-out recordings: distance from simulations, before and after";
-  plot.x_label = d.tank ? "mean squared z (expected by chance: 1)"
-                        : "mean square error / noise of the measurement squared";
+  const DiagnosisSubject& of = *d.subject;
+  plot.title = of.fit(d.nothing_held_out).figure;
+  plot.x_label = of.measure_axis;
   constexpr double kRoom = 1.2;  // beside the outermost, chance included
   plot.log_x = true, plot.x_low = 1 / kRoom, plot.x_high = kRoom;
   plot.height = std::max(220, 120 + 36 * static_cast<int>(d.held_out.size()));
   Curve before{"baseline", {}, {}, {}, {}}, after{"with the findings", {}, {}, {}, {}};
-  Curve chance{d.tank ? "chance" : "noise alone",
-               {1, 1},
-               {-0.5, static_cast<double>(d.held_out.size()) - 0.5},
-               {},
-               {}};
+  Curve chance{
+      std::string(of.chance), {1, 1}, {-0.5, static_cast<double>(d.held_out.size()) - 0.5}, {}, {}};
   for (std::size_t k = 0; k < d.held_out.size(); ++k) {
     const std::string& group = d.held_out[k].group;
-    plot.y_names.push_back(d.tank ? words_for(group) : group);
+    plot.y_names.push_back(text_for(of.group_names, group));
     before.y.push_back(static_cast<double>(k)), after.y.push_back(static_cast<double>(k));
     before.x.push_back(std::max(1e-2, d.held_out[k].before));
     after.x.push_back(std::max(1e-2, d.held_out[k].after));
@@ -148,18 +109,6 @@ Plot fit_plot(const Diagnosis& d) {
   before.line = after.line = false;
   plot.curves = {before, after, chance};
   return plot;
-}
-
-std::string fit_caption(const Diagnosis& d) {
-  if (d.tank) {
-    return std::string("Before and after, on recordings that ") +
-           (d.nothing_held_out ? "the fit rests on, as none was held out" : "were not used") +
-           ": groups of numbers that describe the motion, each in units of what chance alone would "
-           "give.";
-  }
-  return "Before and after: mean square error of places a quarter of a run ahead, over the square "
-         "of the measurement's noise. The coefficients are those fitted to all runs, these "
-         "included.";
 }
 
 }  // namespace
@@ -174,7 +123,8 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& d, const ReportDocument
                        page});
   }
   if (!d.held_out.empty()) {
-    figures.push_back({"fit", fit_caption(d), {{fit_plot(d)}, 1}});
+    const std::string caption(d.subject->fit(d.nothing_held_out).figure_caption);
+    figures.push_back({"fit", caption, {{fit_plot(d)}, 1}});
   }
   if (!d.maps.empty()) {
     figures.push_back({"maps",

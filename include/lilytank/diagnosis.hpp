@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/diagnosis_subject.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/report.hpp"
 
@@ -118,7 +119,8 @@ struct Diagnosis {
   double strongest_left = 0;  ///< z of what is left after the findings
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
-  bool tank = true;  ///< of Lilies in a tank; false: of point bodies, by diagnose_bodies
+  /// What was recorded: wording and sections of the report. Never null.
+  const DiagnosisSubject* subject = &kLiliesInTank;
   /// No recording was held out: `held_out` is of those that the fit rests on.
   bool nothing_held_out = false;
   double seconds = 0;

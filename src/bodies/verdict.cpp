@@ -313,7 +313,7 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
 
 Diagnosis told(const Comparison& c) {
   Diagnosis d;
-  d.name = c.experiment->name, d.tank = false;
+  d.name = c.experiment->name, d.subject = &kPointBodies;
   d.recordings = static_cast<int>(c.experiment->runs.size());
   d.checks = c.experiment->left_out;
   for (const BodyRun& r : c.experiment->runs) {

@@ -93,10 +93,8 @@ ReportCard card_of(const Diagnosis& d) {
   }
   const double removed = d.removed();
   if (d.verdict == Verdict::missing && !std::isnan(removed)) {
-    card.facts.emplace_back("mismatch removed",
-                            percent(removed) + (!d.tank              ? ", a quarter of a run ahead"
-                                                : d.nothing_held_out ? ", on the fitted recordings"
-                                                                     : ", on held-out recordings"));
+    const std::string where(d.subject->fit(d.nothing_held_out).where);
+    card.facts.emplace_back("mismatch removed", percent(removed) + where);
   }
   if (const std::string next = next_step(d); !next.empty()) card.facts.emplace_back("next", next);
   return card;
@@ -123,37 +121,25 @@ ReportSection section_of(const DiagnosisFinding& f) {
   return section;
 }
 
-/// Recordings of a tank against simulations; bodies by how far a quarter of a run ahead they are
-/// from where they should be, by coefficients of all runs.
 ReportSection fit_section(const Diagnosis& d) {
+  const DiagnosisSubject& of = *d.subject;
   ReportSection section;
-  if (d.tank) {
-    section.title = d.nothing_held_out ? "Fit to the recordings (none was held out)"
-                                       : "Fit to the held-out recordings";
-    section.above = {
-        "Mean squared z of groups of summary statistics against simulations, before and "
-        "after; 1 is expected by chance."};
-  } else {
-    section.title = "Prediction a quarter of a run ahead";
-    section.above = {
-        "Mean square error over that of the noise, before and after; coefficients of "
-        "all runs."};
-  }
-  section.table.head = {d.tank ? "statistics" : "bodies", "before", "after", "fraction removed"};
+  section.title = of.fit(d.nothing_held_out).section;
+  section.above = {std::string(of.measure)};
+  section.table.head = {std::string(of.groups), "before", "after", "fraction removed"};
   for (const GroupFit& g : d.held_out) {
     section.table.rows.push_back(
         {g.group, digits(g.before), digits(g.after), g.clear() ? percent(g.removed()) : "-"});
   }
-  if (d.tank) {
+  if (of.eq9) {
     section.below.push_back("Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) +
                             " after, floor " + digits(d.msd_floor) + " m^2; fraction removed " +
                             percent(d.msd_removed) + " [" + digits(100 * d.msd_low) + ", " +
                             digits(100 * d.msd_high) + "]");
   }
   const DiagnosisFinding& f = d.findings.front();
-  section.below.push_back(std::string(d.tank ? "One step ahead" : "Held-out runs") +
-                          ": log-likelihood gain " + digits(f.gain) + " nat [" +
-                          digits(f.gain_low) + ", " + digits(f.gain_high) + "]");
+  section.below.push_back(std::string(of.gain) + ": log-likelihood gain " + digits(f.gain) +
+                          " nat [" + digits(f.gain_low) + ", " + digits(f.gain_high) + "]");
   return section;
 }
 
@@ -176,13 +162,13 @@ ReportSection parameters_section(const Diagnosis& d) {
   return section;
 }
 
-/// In a tank, false positives are shared by effects, force laws and all statistics together.
+/// Where curves are tested, effects, force laws and all statistics share the false positives.
 ReportSection ranking_section(const Diagnosis& d) {
   ReportSection section;
   section.title = "Strongest effects, each tested alone";
   section.detail = true;
   const std::string share = percent(d.false_alarms) + " of null experiments ";
-  if (d.tank) {
+  if (d.subject->curves_tested) {
     section.above.push_back(share + "have an effect beyond z " + digits(d.effect_threshold) +
                             ", a force law beyond z " + digits(d.shape_threshold) +
                             ", or too large a residual; residual after the findings: z " +
@@ -222,7 +208,7 @@ ReportDocument diagnosis_report(const Diagnosis& d) {
   report.title = "Diagnosis of " + d.name;
   report.subtitle = std::to_string(d.recordings) +
                     (d.recordings == 1 ? " recording" : " recordings") + " of up to " +
-                    std::to_string(d.modules) + (d.tank ? " Lilies, " : " bodies, ") +
+                    std::to_string(d.modules) + " " + std::string(d.subject->bodies) + ", " +
                     digits(d.seconds) + " s in all; verdict \"" + name_of(d.verdict) + "\"";
   report.card = card_of(d);
   report.warnings = d.warnings;

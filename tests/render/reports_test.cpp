@@ -12,9 +12,9 @@ namespace {
 
 using sample::Folder;
 
-Diagnosis found(bool tank) {
+Diagnosis found(const DiagnosisSubject& subject) {
   Diagnosis d;
-  d.name = "found", d.tank = tank, d.verdict = Verdict::missing;
+  d.name = "found", d.subject = &subject, d.verdict = Verdict::missing;
   FoundCurve curve{"pair", "outwards", "m", "N", {0.01, 0.02, 0.03}, {2, 1, 0}, {1, 1, 1}, 90};
   DiagnosisFinding finding;
   finding.effect = "pair_attraction", finding.z = 7, finding.curve = curve;
@@ -31,41 +31,42 @@ std::string drawn(const Diagnosis& d, const std::string& name) {
 }
 
 TEST(DiagnosisFigures, OfBodiesDoNotSpeakOfHeldOutRecordings) {
-  const std::string tank = drawn(found(true), "report.html");
-  const std::string bodies = drawn(found(false), "report.html");
+  const std::string tank = drawn(found(kLiliesInTank), "report.html");
+  const std::string bodies = drawn(found(kPointBodies), "report.html");
   EXPECT_NE(tank.find("recordings that were not used"), std::string::npos);
   EXPECT_EQ(bodies.find("not used"), std::string::npos);
   EXPECT_EQ(bodies.find("chance alone would give"), std::string::npos);
   EXPECT_NE(bodies.find("a quarter of a run ahead"), std::string::npos);
   EXPECT_NE(bodies.find("fitted to all runs"), std::string::npos);
-  EXPECT_FALSE(drawn(found(true), "fit.png") == drawn(found(false), "fit.png"));
+  EXPECT_FALSE(drawn(found(kLiliesInTank), "fit.png") == drawn(found(kPointBodies), "fit.png"));
 }
 
 TEST(DiagnosisFigures, GroupsOfBodiesKeepTheirNames) {
-  Diagnosis d = found(false), other = d;
+  Diagnosis d = found(kPointBodies), other = d;
   other.held_out[0].group = "bounces";  // what "contact" reads as in a tank
   EXPECT_FALSE(drawn(d, "fit.png") == drawn(other, "fit.png"));
-  d.tank = other.tank = true;
+  d.subject = other.subject = &kLiliesInTank;
   EXPECT_TRUE(drawn(d, "fit.png") == drawn(other, "fit.png"));
 }
 
 TEST(DiagnosisFigures, TellTheFindingsOwnZ) {
-  for (const bool tank : {true, false}) {
-    const Diagnosis d = found(tank);
+  for (const DiagnosisSubject* subject : {&kLiliesInTank, &kPointBodies}) {
+    const Diagnosis d = found(*subject);
     Diagnosis other = d;
     other.findings[0].curve.z = 5;
-    EXPECT_TRUE(drawn(d, "laws.png") == drawn(other, "laws.png")) << tank;
+    EXPECT_TRUE(drawn(d, "laws.png") == drawn(other, "laws.png")) << subject->bodies;
     other.findings[0].z = 6;
-    EXPECT_FALSE(drawn(d, "laws.png") == drawn(other, "laws.png")) << tank;
+    EXPECT_FALSE(drawn(d, "laws.png") == drawn(other, "laws.png")) << subject->bodies;
     other = d;
     other.maps[0].z = 5;
-    EXPECT_EQ(drawn(d, "maps.png") == drawn(other, "maps.png"), !tank) << "of bodies there is none";
+    EXPECT_EQ(drawn(d, "maps.png") == drawn(other, "maps.png"), !subject->curves_tested)
+        << "of bodies there is none";
   }
 }
 
 TEST(DiagnosisFigures, OfOneGroupHaveRoomForTheirLegend) {
   const Folder folder;
-  draw_diagnosis(found(false), diagnosis_report(found(false)), folder.path());
+  draw_diagnosis(found(kPointBodies), diagnosis_report(found(kPointBodies)), folder.path());
   EXPECT_GE(sample::png_size(folder.file("fit.png")).height, 400);
 }
 
