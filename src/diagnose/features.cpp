@@ -13,11 +13,13 @@ constexpr double kGusty = 0.1;     // share of the gusts, likewise
 
 }  // namespace
 
-Features::Features(const ScorePlan& plan, const Model& model) : model_(model) {
-  for (const Effect& effect : plan.effects) {
+Features::Features(const std::vector<Effect>& effects, const std::vector<Effect>& beside,
+                   const Model& model)
+    : model_(model) {
+  for (const Effect& effect : effects) {
     for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) add(effect, c);
   }
-  for (const Effect& effect : plan.beside) {
+  for (const Effect& effect : beside) {
     for (std::size_t c = 0; c < effect.paths.size(); ++c) add(effect, c);
   }
   // The list has its place now.

@@ -1,9 +1,9 @@
-// The forces that the effects of a plan would exert on modules where they are.
+// The forces that effects would exert on modules where they are.
 #pragma once
 #include <memory>
 #include <vector>
 
-#include "diagnose/score_plan.hpp"
+#include "diagnose/effects.hpp"
 #include "forces/force_sum.hpp"
 
 namespace lilytank {
@@ -15,7 +15,8 @@ namespace lilytank {
 class Features {
  public:
   /// `model`: of these modules; must outlive this.
-  Features(const ScorePlan& plan, const Model& model);
+  Features(const std::vector<Effect>& effects, const std::vector<Effect>& beside,
+           const Model& model);
   void find(const Kinematics& k, const Moment& now);
   std::size_t size() const { return features_.size(); }
   const Wrench& at(std::size_t feature, std::size_t i) const { return wrenches_[feature][i]; }

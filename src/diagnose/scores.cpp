@@ -148,7 +148,7 @@ class Scorer {
     // Every recording has a model of its own, perhaps where the last one's was.
     if (frame.model != model_ || frame.recording != recording_) {
       model_ = frame.model, recording_ = frame.recording;
-      features_ = std::make_unique<Features>(plan_, *model_);
+      features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);
     }
     const Moment now{.time = frame.time, .gusts = false, .expected = true};
     features_->find(frame.now, now);

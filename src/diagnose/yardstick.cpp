@@ -46,7 +46,7 @@ class Regression {
   void add(const Recording& recording) {
     Model model = plan_.model;
     model.module.count = static_cast<int>(recording.tracks.size());
-    Features features(plan_, model);
+    Features features(plan_.effects, plan_.beside, model);
     if (normal_.size() == 0) {
       const auto n = static_cast<Eigen::Index>(features.size());
       normal_ = Matrix::Zero(n, n), right_ = Vector::Zero(n);
