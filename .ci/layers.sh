@@ -98,7 +98,9 @@ home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize
 home calibrate calibration emulator local_model recovery
-home diagnose diagnosis diagnosis_subject predictor proof
+home filter predictor
+home finder diagnosis diagnosis_subject
+home proof proof
 home bodies bodies
 home render render
 
@@ -137,9 +139,12 @@ layer study synthesis jobs search assemblies io "${base[@]}"
 layer optimize study synthesis jobs search assemblies io "${base[@]}"
 base+=(io assemblies recording smoothing tracks flow)
 layer calibrate study jobs search "${base[@]}"
-layer diagnose calibrate study jobs forces "${base[@]}"
-layer bodies diagnose study jobs "${base[@]}"
-base+=(bodies diagnose calibrate optimize study search synthesis jobs)
+layer filter "${base[@]}"
+layer effects calibrate study forces "${base[@]}"
+layer finder effects filter calibrate study jobs forces "${base[@]}"
+layer proof finder effects filter calibrate study jobs forces "${base[@]}"
+layer bodies finder study jobs "${base[@]}"
+base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
 layer render "${base[@]}"
 layer cli render forces "${base[@]}"
 

@@ -2,7 +2,7 @@
 // amplitudes can be calibrated.
 #include <cstdio>
 
-#include "diagnose/effects.hpp"
+#include "effects/effects.hpp"
 #include "lilytank/model_parameter.hpp"
 
 int main() {

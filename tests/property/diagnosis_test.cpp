@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "diagnose/diagnoser.hpp"
+#include "finder/diagnoser.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "diagnose/scores.hpp"
+#include "finder/scores.hpp"
 #include "lilytank/emulator.hpp"
 #include "support/worlds.hpp"
 

@@ -1,5 +1,5 @@
 // The catalogue of effects, as the force terms describe it and as reports show it.
-#include "diagnose/effects.hpp"
+#include "effects/effects.hpp"
 
 #include <gtest/gtest.h>
 

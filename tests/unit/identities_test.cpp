@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "diagnose/scores.hpp"
+#include "finder/scores.hpp"
 #include "lilytank/predictor.hpp"
 #include "support/filmed.hpp"
 

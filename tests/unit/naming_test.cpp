@@ -1,5 +1,5 @@
 // Which effects explain residuals, on numbers of which everything is known.
-#include "diagnose/naming.hpp"
+#include "finder/naming.hpp"
 
 #include <gtest/gtest.h>
 

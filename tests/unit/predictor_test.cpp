@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/nuisances.hpp"
-#include "diagnose/scan.hpp"
-#include "diagnose/scores.hpp"
-#include "diagnose/show.hpp"
-#include "diagnose/slack.hpp"
+#include "finder/nuisances.hpp"
+#include "finder/scan.hpp"
+#include "finder/scores.hpp"
+#include "finder/show.hpp"
+#include "finder/slack.hpp"
 #include "forces/library.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"

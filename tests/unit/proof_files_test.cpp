@@ -2,12 +2,12 @@
 // damaged.
 #include <gtest/gtest.h>
 
-#include "diagnose/proof_files.hpp"
-#include "diagnose/sealed.hpp"
 #include "io/file_digest.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/proof.hpp"
+#include "proof/proof_files.hpp"
+#include "proof/sealed.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace lilytank {

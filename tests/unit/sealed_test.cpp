@@ -1,5 +1,5 @@
 // What stands in sealed envelopes can be simulated, and is not what the catalogue has.
-#include "diagnose/sealed.hpp"
+#include "proof/sealed.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Amplitudes of pushes in innovations, against the recursion done one by one in double precision.
-#include "diagnose/sensitivity.hpp"
+#include "filter/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

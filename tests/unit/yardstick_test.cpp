@@ -2,9 +2,9 @@
 // that is far stronger than its noise, and it finds something where nothing is.
 #include <gtest/gtest.h>
 
-#include "diagnose/yardstick.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
+#include "proof/yardstick.hpp"
 
 namespace lilytank {
 namespace {

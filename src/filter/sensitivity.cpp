@@ -1,0 +1,164 @@
+#include "filter/sensitivity.hpp"
+
+#include <algorithm>
+
+#include "statistics/linear.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+// Products are summed in one frame of so many: sums of a hundred thousand are known well enough.
+constexpr int kEvery = 3;
+constexpr std::size_t kFlush = 768;  // passings whose sums are in single precision
+constexpr double kLeastLeft = 1e-3;  // share of an information that nuisances leave at least
+
+// Precision of the nuisances' amplitudes, by their products and what is known before.
+Matrix precision(const Matrix& products, const Matrix& known) {
+  const Matrix own = products.bottomRows(known.rows());
+  return 0.5 * (own + own.transpose()) + known;
+}
+
+}  // namespace
+
+Sensitivities::Sensitivities(std::size_t features, std::size_t modules, std::size_t partners)
+    : features_(features),
+      partners_(partners),
+      wide_(Pushes::in_lanes(features)),
+      score_(wide_),
+      information_(wide_),
+      shared_(partners * wide_),
+      recent_score_(wide_),
+      recent_information_(wide_),
+      recent_shared_(partners * wide_),
+      rows_(kRowsAtOnce * wide_),
+      now_(wide_) {
+  for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) of->assign(wide_ * modules, 0.0f);
+}
+
+void Sensitivities::forget(std::size_t module) {
+  for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) {
+    const auto begin = of->begin() + static_cast<std::ptrdiff_t>(module * wide_);
+    std::fill(begin, begin + static_cast<std::ptrdiff_t>(wide_), 0.0f);
+  }
+}
+
+void Sensitivities::pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x,
+                              float* v) {
+  const bool told = axis.weight > 0;
+  float* now = told && summed ? &rows_[kept_ * wide_] : now_.data();
+  pass_features(axis, wide_, push, x, v, now, recent_score_.data(), recent_information_.data());
+  if (!told) return;
+  if (summed) {
+    taken_ += 1;
+    if (++kept_ == kRowsAtOnce) add_rows();
+  }
+  if (++passed_ % kFlush == 0) flush();
+}
+
+void Sensitivities::add_rows() {
+  std::fill(rows_.begin() + static_cast<std::ptrdiff_t>(kept_ * wide_), rows_.end(), 0.0f);
+  add_products(rows_.data(), wide_, features_ - partners_, partners_, recent_shared_.data());
+  kept_ = 0;
+}
+
+void Sensitivities::flush() {
+  const auto move = [](std::vector<float>& recent, std::vector<double>& all) {
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] += static_cast<double>(recent[k]);
+    std::fill(recent.begin(), recent.end(), 0.0f);
+  };
+  move(recent_score_, score_), move(recent_information_, information_);
+  move(recent_shared_, shared_);
+}
+
+void Sensitivities::pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame,
+                         std::size_t i, double loss, bool told) {
+  const std::size_t at = module * wide_;
+  const auto dt = static_cast<float>(frame.interval);
+  const auto axis = [&](double innovation, double sd, double gain_x, double gain_v) {
+    const double weight = told ? 1 / (sd * sd) : 0;
+    return FeatureAxis{dt,
+                       static_cast<float>(1 - loss * frame.interval),
+                       static_cast<float>(gain_x),
+                       static_cast<float>(gain_v),
+                       told ? static_cast<float>(weight * innovation) : 0.0f,
+                       static_cast<float>(weight)};
+  };
+  const auto place = [&](double innovation) {
+    return axis(innovation, frame.sd_x[i], frame.gain_x[i], frame.gain_v[i]);
+  };
+  const bool summed = partners_ > 0 && frame.frame % kEvery == 0;
+  pass_axis(place(frame.dx[i]), summed, pushes.x.data(), &x_[at], &vx_[at]);
+  pass_axis(place(frame.dy[i]), summed, pushes.y.data(), &y_[at], &vy_[at]);
+  pass_axis(axis(frame.dtheta[i], frame.sd_theta[i], frame.gain_theta[i], frame.gain_omega[i]),
+            summed, pushes.turn.data(), &t_[at], &w_[at]);
+}
+
+void Sensitivities::finish() {
+  if (kept_ > 0) add_rows();
+  flush();
+}
+
+Matrix Sensitivities::products(Eigen::Index count) const {
+  const auto features = static_cast<Eigen::Index>(features_);
+  const double all = taken_ > 0 ? static_cast<double>(passed_) / static_cast<double>(taken_) : 0;
+  Matrix out(features, count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto partner = partners_ - static_cast<std::size_t>(count - k);
+    for (Eigen::Index f = 0; f < features; ++f) {
+      const std::size_t at = partner * wide_ + static_cast<std::size_t>(f);
+      out(f, k) = all * shared_[at];
+    }
+  }
+  return out;
+}
+
+std::vector<Sensitivities::Amplitude> Sensitivities::amplitudes(const Matrix& known) const {
+  const auto features = static_cast<Eigen::Index>(features_);
+  const Eigen::Index n = known.rows();
+  std::vector<Amplitude> out(static_cast<std::size_t>(features - n));
+  Vector blamed = Vector::Zero(features), taken = blamed;
+  if (n > 0) {
+    const Matrix shared = products(n);
+    const Matrix solved = solve_symmetric(precision(shared, known), Matrix(shared.transpose()));
+    blamed = solved.transpose() * last_scores(n);
+    taken = (shared.transpose().array() * solved.array()).colwise().sum().transpose().matrix();
+  }
+  for (std::size_t f = 0; f < out.size(); ++f) {
+    if (!(information_[f] > 0)) continue;
+    const auto k = static_cast<Eigen::Index>(f);
+    const double left = std::max(information_[f] - taken(k), kLeastLeft * information_[f]);
+    out[f] = {(score_[f] - blamed(k)) / left, left};
+  }
+  return out;
+}
+
+double Sensitivities::absorbed(const Matrix& known) const {
+  const Eigen::Index n = known.rows();
+  if (n == 0) return 0;
+  const Vector scores = last_scores(n);
+  return scores.dot(solve_symmetric(precision(products(n), known), scores));
+}
+
+Eigen::Map<const Vector> Sensitivities::last_scores(Eigen::Index count) const {
+  return {score_.data() + static_cast<Eigen::Index>(features_) - count, count};
+}
+
+Matrix Sensitivities::informations(const Matrix& known) const {
+  const Eigen::Index n = known.rows(), told = static_cast<Eigen::Index>(features_) - n;
+  const Matrix all = products(static_cast<Eigen::Index>(features_));
+  const Matrix shared = all.topRightCorner(told, n);
+  const Matrix normal = all.bottomRightCorner(n, n) + known;
+  const Matrix left =
+      all.topLeftCorner(told, told) - shared * solve_symmetric(normal, Matrix(shared.transpose()));
+  Matrix out = 0.5 * (left + left.transpose());
+  for (Eigen::Index k = 0; k < told; ++k) {
+    if (out(k, k) > kLeastLeft * all(k, k)) continue;
+    out.row(k).setZero(), out.col(k).setZero();
+  }
+  return out;
+}
+
+}  // namespace lilytank

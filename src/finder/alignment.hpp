@@ -1,0 +1,46 @@
+// What the filter itself says of an effect: how much of it every score would show in the very
+// recordings that are judged.
+//
+// A score is linear in forces at the places where modules were, however strong these are, and the
+// information that two effects share is known from the recordings without any noise. Simulations
+// are then asked only for what the filter does not know: by which factor it shows less than there
+// is, and what else an effect changes.
+#pragma once
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "finder/atlas.hpp"
+
+namespace lilytank {
+
+class Alignment {
+ public:
+  /// `atlas` and `recordings` must outlive this.
+  Alignment(const Atlas& atlas, const std::vector<Recording>& recordings);
+
+  /// The fingerprint with its scores as the filter has them, times the factor that its simulations
+  /// ask for, and beside that only what they clearly say.
+  Fingerprint aligned(Fingerprint of, const Effect& effect);
+  const std::vector<Recording>& recordings() const { return recordings_; }
+  /// Variance that the named numbers' residuals have beyond that of nulls, where modules of these
+  /// recordings felt less of an effect.
+  Eigen::VectorXd further_variance() const;
+
+ private:
+  const Eigen::MatrixXd& response(const Effect& effect);
+  Eigen::MatrixXd from_informations(const Eigen::MatrixXd& informations, Eigen::Index first,
+                                    Eigen::Index count) const;
+  Eigen::VectorXd clear(const Eigen::VectorXd& scores, double error) const;
+  double factor(const Eigen::VectorXd& scores, const Eigen::VectorXd& expected) const;
+
+  const Atlas& atlas_;
+  const std::vector<Recording>& recordings_;
+  Eigen::Index scores_;           ///< numbers of the atlas that are scores
+  Eigen::MatrixXd own_;           ///< information of the plan's scores
+  Eigen::MatrixXd plain_, root_;  ///< takes expected correlations out, and its inverse
+  std::map<std::string, Eigen::MatrixXd> told_;  ///< by variant: of residuals by each amplitude
+};
+
+}  // namespace lilytank

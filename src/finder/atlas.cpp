@@ -1,0 +1,372 @@
+#include "finder/atlas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "calibrate/cross_fit.hpp"
+#include "calibrate/design.hpp"
+#include "finder/slack.hpp"
+#include "lilytank/emulator.hpp"
+#include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
+#include "statistics/median.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+#include "tracks/summary_parts.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
+constexpr int kAtlasFolds = 8;
+constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
+// Of the design, about what was found: parameters are known better than what nulls are spread over.
+constexpr double kNarrow = 0.6;
+constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
+constexpr double kBend = 1;         // one over the square of a second order that is expected
+constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
+constexpr double kFarOff = 100;     // deviations
+// Of a fingerprint about found amplitudes: one over the square of an error of the slopes that is
+// expected, and the degrees of freedom that a slope takes, being held so.
+constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
+// Of how an effect grows: of squares that chance has, by which it is clear, and of the amplitudes'
+// logarithms.
+constexpr double kClearly = 0.5, kLeastScoreSpread = 0.03, kMostGrowth = 2.5;
+
+FitBounds within() {
+  FitBounds out;
+  out.reach = kCalibrationReach;
+  return out;
+}
+
+// Scores less their mean at the parameters that the summary asks for, of every experiment by local
+// models that did not know it: as it will be with data.
+Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
+  Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
+  for (int fold = 0; fold < kAtlasFolds; ++fold) {
+    const LocalModel parameters(without_fold(summaries, fold, kAtlasFolds));
+    const LocalModel scores(without_fold(numbers, fold, kAtlasFolds));
+    for (Eigen::Index i = fold; i < out.rows(); i += kAtlasFolds) {
+      const Vector at =
+          parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
+      out.row(i) = numbers.numbers.row(i) - scores.mean(at).transpose();
+    }
+  }
+  return out;
+}
+
+Vector to_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// Amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs where it may have
+// both, and of several at once so that none is always there.
+Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  Matrix out(count, m);
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index c = 0; c < m; ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
+      out(i, c) = (kLeastSize + (kLearnedSize - kLeastSize) * u) * (negative ? -1 : 1);
+    }
+  }
+  return out;
+}
+
+// Amplitudes about found ones, in pairs opposite each other.
+Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
+  Matrix out(count, amplitudes.size());
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index c = 0; c < out.cols(); ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
+    }
+  }
+  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
+  return out.cwiseMax(two_sided ? -1e9 : 0);
+}
+
+// Power of the amplitudes with which the length of residuals grows, where it is clear.
+double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
+  const auto numbers = static_cast<double>(residuals.cols());
+  MeanSum x, y, xx, xy;
+  for (Eigen::Index i = 0; i < residuals.rows(); ++i) {
+    const double square = residuals.row(i).squaredNorm() - numbers;
+    if (!(square > kClearly * numbers)) continue;
+    const double a = std::log(amplitudes.row(i).norm()), f = 0.5 * std::log(square);
+    x.add(a), y.add(f), xx.add(a * a), xy.add(a * f);
+  }
+  const double spread = xx.mean() - x.mean() * x.mean();
+  if (!(spread > kLeastScoreSpread)) return 1;
+  return std::clamp((xy.mean() - x.mean() * y.mean()) / spread, 1.0, kMostGrowth);
+}
+
+// By the variance of what calibration is off, beside that of the parameters themselves: all of
+// theirs where it tells nothing of them.
+Vector told_by(const Matrix& points, const Matrix& off) {
+  const auto variance = [](const Matrix& of) {
+    return Vector((of.rowwise() - of.colwise().mean()).colwise().squaredNorm().transpose());
+  };
+  const Vector share = variance(off).cwiseQuotient(variance(points).cwiseMax(kNeverVaries));
+  return (1 - share.array()).cwiseMax(0).matrix();
+}
+
+}  // namespace
+
+Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
+             const Matrix& spread, const AtlasOptions& options)
+    : stages_(stages),
+      maps_(maps),
+      plan_(std::move(plan)),
+      options_(options),
+      centre_(centre),
+      spread_(spread) {
+  const CalibrationSetup& setup = stages.setup();
+  const Design all =
+      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
+               spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
+  const auto p = centre.size();
+  summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
+  const Design numbers{summaries_.points,
+                       all.numbers.rightCols(all.numbers.cols() - summary_numbers())};
+  const Eigen::Index n = all.points.rows();
+  parameters_ = std::make_unique<LocalModel>(summaries_);
+  scores_ = std::make_unique<LocalModel>(numbers);
+  named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
+  informations_ = score_informations(plan_, setup.training);
+  null_residuals_ = held_out_residuals(summaries_, numbers, prior());
+  const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
+  deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
+  // Numbers that hardly ever vary would make a wonder of whatever varies them.
+  for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
+    const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
+    if (deviation_(k) < kNeverVaries * std::max(size, 1e-3)) deviation_(k) = kNoWeight;
+  }
+  // A knot that bodies hardly ever visit is known no better than its neighbours.
+  for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+    auto knots = deviation_.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots);
+    std::vector<double> told;
+    std::copy_if(knots.begin(), knots.end(), std::back_inserter(told),
+                 [](double d) { return d < kNoWeight; });
+    if (!told.empty()) knots = knots.cwiseMax(median(told));
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());
+  }
+  std::uint64_t number = kEffectSeed;
+  for (std::size_t e = 0; e < plan_.effects.size(); ++e) {
+    fingerprints_.push_back(fingerprint(plan_.effects[e], "effect " + std::to_string(e),
+                                        derived_seed(options.seed, number++)));
+  }
+}
+
+Eigen::Index Atlas::summary_numbers() const {
+  return static_cast<Eigen::Index>(stages_.setup().entries().size());
+}
+
+Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
+  return {to_vector(stages_.setup().numbers(recordings)),
+          to_vector(score(plan_, recordings, details))};
+}
+
+Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Vector& about,
+                       const Matrix& spread, const Matrix& amplitudes, const Effect* effect,
+                       std::uint64_t seed) {
+  const Matrix points =
+      scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
+  std::vector<ParameterInfo> bounds;
+  std::vector<double> absent;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(amplitudes.cols()); ++k) {
+    bounds.push_back(emulator_parameter(effect->paths[k]));
+    absent.push_back(effect->absent(stages_.setup().model, k));
+  }
+  const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
+    std::vector<double> values = stages_.from_scale(points.row(i));
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      const double amplitude = amplitudes(i, static_cast<Eigen::Index>(k));
+      values.push_back(
+          std::clamp(absent[k] + amplitude * effect->sizes[k], bounds[k].low, bounds[k].high));
+    }
+    const auto field = loosened(maps_, derived_seed(seed, kFieldSeed), seed, i);
+    const auto made =
+        emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+    if (!made) return std::vector<double>{};
+    const Vectors both = vectors(*made);
+    std::vector<double> row(both.summary.begin(), both.summary.end());
+    row.insert(row.end(), both.scores.begin(), both.scores.end());
+    return row;
+  });
+  Matrix where(points.rows(), points.cols() + amplitudes.cols());
+  where << points, amplitudes;
+  return design_of(where, rows);
+}
+
+Prior Atlas::prior() const {
+  return {centre_, spread_.diagonal()};
+}
+
+LocalFit Atlas::nearest(const Vector& summary) const {
+  return parameters_->fit(summary, within());
+}
+
+Vector Atlas::calibrated(const Vector& summary) const {
+  return parameters_->fit(summary, within(), prior()).fit.point;
+}
+
+Scatter Atlas::told(const Vector& summary, const Prior& before) const {
+  return turned_back(summaries_, centre_, before, summary).answer;
+}
+
+Vector Atlas::residual(const Vectors& vectors) const {
+  return residual_at(vectors.scores, calibrated(vectors.summary));
+}
+
+// What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
+// ever vary must not outweigh all others.
+Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
+  const Vector off = scores - scores_->mean(point);
+  return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
+}
+
+Vector Atlas::uncalibrated(const Vector& scores) const {
+  return scores - scores_->mean(centre_);
+}
+
+Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
+                              const Matrix& spread, const Matrix& amplitudes, std::uint64_t seed) {
+  const CalibrationSetup& setup = stages_.setup();
+  std::vector<double> absent;
+  for (std::size_t c = 0; c < effect.paths.size(); ++c) {
+    absent.push_back(effect.absent(setup.model, c));
+  }
+  std::vector<std::string> paths = setup.paths();
+  paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
+  const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
+                          {.moment_matched = false});
+  const Design made = simulate(stage, emulator, about, spread, amplitudes, &effect, seed);
+  const Eigen::Index n = made.points.rows();
+  Answers out{made.points.rightCols(amplitudes.cols()), made.points.leftCols(about.size()),
+              Matrix(n, deviation_.size()), Matrix(n, about.size())};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vectors v{made.numbers.row(i).head(summary_numbers()),
+                    made.numbers.row(i).tail(deviation_.size())};
+    const Vector at = calibrated(v.summary);
+    out.residuals.row(i) = residual_at(v.scores, at).transpose();
+    out.moved.row(i) = at.transpose() - out.points.row(i);
+  }
+  return out;
+}
+
+double Atlas::displacement_misfit(const Vector& summary) const {
+  const std::vector<SummaryEntry> entries = stages_.setup().entries();
+  std::vector<Eigen::Index> of;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].group == "displacement") of.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Vector off = (summary - parameters_->mean(nearest(summary).point))(of);
+  const Matrix covariance = parameters_->covariance()(of, of);
+  return off.dot(solve_symmetric(covariance, off));
+}
+
+Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  const int count = options_.experiments * static_cast<int>(m);
+  const Answers made =
+      answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
+  Matrix x(made.amplitudes.rows(), 2 * m);
+  x << made.amplitudes, made.amplitudes.array().square().matrix();
+  // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
+  // residuals are.
+  Matrix normal = x.transpose() * x;
+  for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
+  const Matrix seen = solve_symmetric(normal, Matrix(x.transpose() * made.residuals));
+  Matrix plain = made.amplitudes.transpose() * made.amplitudes;
+  plain.diagonal().array() += kBend;
+  const Matrix moved = solve_symmetric(plain, Matrix(made.amplitudes.transpose() * made.moved));
+  Fingerprint out;
+  out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
+  out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
+  out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
+  out.told = told_by(made.points, made.moved - made.amplitudes * moved);
+  out.experiments = options_.experiments, out.two_sided = effect.two_sided;
+  out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
+  return out;
+}
+
+Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, const Vector& point,
+                            int experiments, const std::string& stage, std::uint64_t seed) {
+  const Matrix at = amplitudes.transpose().replicate(experiments, 1);
+  return answers(effect, stage, point, kNarrow * spread_, at, seed)
+      .residuals.colwise()
+      .mean()
+      .transpose();
+}
+
+Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
+                                     const Effect& effect, const Vector& calibrated,
+                                     const std::string& name, LearnedFingerprints& learned,
+                                     int experiments) {
+  const Eigen::Index m = amplitudes.size();
+  const FitBounds bounds = stages_.bounds();
+  // What a calibration no longer tells beside the effect stays where it is expected.
+  const Vector away = from.told.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
+  const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
+  std::vector<LearnedFingerprint>& own = learned[name];
+  if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
+    return known->fingerprint;
+  }
+  // By what is simulated, not by who asked first.
+  Fnv place;
+  place.add(std::span(amplitudes.data(), static_cast<std::size_t>(m)));
+  place.add(std::span(point.data(), static_cast<std::size_t>(point.size())));
+  const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
+  std::string stage = "sharp " + name + " " + hex(place.value());
+  if (experiments != kAbout) stage += " of " + std::to_string(experiments);
+  const Answers made = answers(effect, stage, point, kNarrow * spread_,
+                               about(amplitudes, experiments, effect.two_sided, seed), seed);
+  // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
+  const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
+  const Matrix secant =
+      from.first + from.second * (amplitudes - from.about).asDiagonal().toDenseMatrix();
+  Matrix x(off.rows(), 1 + m);
+  x << Vector::Ones(off.rows()), off;
+  Matrix normal = x.transpose() * x;
+  for (Eigen::Index c = 0; c < m; ++c) normal(1 + c, 1 + c) += kSlopeKnown;
+  const Matrix solved =
+      solve_symmetric(normal, Matrix(x.transpose() * (made.residuals - off * secant.transpose())));
+  Fingerprint out = from;
+  out.about = amplitudes, out.base = solved.row(0).transpose();
+  out.first = secant + solved.bottomRows(m).transpose();
+  out.second = Matrix::Zero(out.first.rows(), m);
+  out.moved_base = made.moved.colwise().mean().transpose();
+  out.told = told_by(made.points, made.moved);
+  const auto n = static_cast<double>(off.rows());
+  out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
+                std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
+  out.experiments = static_cast<int>(off.rows()), out.exact = 0;
+  own.push_back({point, out, experiments});
+  return out;
+}
+
+// The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
+const LearnedFingerprint* Atlas::nearest_of(const std::vector<LearnedFingerprint>& learned,
+                                            const Vector& amplitudes, const Vector& point,
+                                            int experiments) const {
+  const LearnedFingerprint* nearest = nullptr;
+  double least = 1;
+  for (const LearnedFingerprint& one : learned) {
+    if (one.experiments < experiments) continue;
+    const Vector& at = one.fingerprint.about;
+    const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();
+    const double off = solve_lower(spread_, point - one.point).cwiseAbs().maxCoeff();
+    if (std::max(far, off) <= least) least = std::max(far, off), nearest = &one;
+  }
+  return nearest;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,130 @@
+// What experiments in a tank look like if the baseline is all there is, and if an effect is there
+// too: learned from simulations, once for a tank, and then asked for any number of experiments.
+//
+// The vector of an experiment is its motion summary, from which parameters are calibrated, and its
+// scores (scores.hpp). Simulations at scattered parameters, each in another flow that the balls
+// allow, give its mean as a function of the parameters; calibrating every one of them as if it were
+// data gives residuals, and these the covariance that remains after calibration: what calibration
+// can absorb is gone from it. Experiments with an effect, calibrated without it, give the effect's
+// fingerprint in residuals. [Gallant and Tauchen 1996; Allen and Tett 1999]
+#pragma once
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/estimate_line.hpp"
+#include "calibrate/stages.hpp"
+#include "finder/fingerprint.hpp"
+#include "finder/scores.hpp"
+#include "lilytank/local_model.hpp"
+
+namespace lilytank {
+
+/// Fingerprints about amplitudes that were found, by the names of effects and shapes, and the
+/// parameters they were learned at. Each judgement learns its own: what is said of one experiment
+/// must not depend on which others were asked before.
+struct LearnedFingerprint {
+  Eigen::VectorXd point;
+  Fingerprint fingerprint;
+  int experiments = 0;  ///< that were asked for
+};
+using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
+
+struct AtlasOptions {
+  int nulls = 300;       ///< experiments simulated without any effect
+  int experiments = 14;  ///< with an effect, for each of its amplitudes
+  std::uint64_t seed = 1;
+};
+
+/// An experiment's vector, its two parts.
+struct Vectors {
+  Eigen::VectorXd summary, scores;
+};
+
+class Atlas {
+ public:
+  /// Simulates what is not kept yet. Throws Stopped, InputError.
+  Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Eigen::VectorXd& centre,
+        const Eigen::MatrixXd& spread, const AtlasOptions& options);
+
+  static constexpr int kAbout = 10;  ///< experiments of a fingerprint about found amplitudes
+
+  const ScorePlan& plan() const { return plan_; }
+  Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
+  /// Parameters (fitted scale) that explain a summary best.
+  LocalFit nearest(const Eigen::VectorXd& summary) const;
+  /// Those that a summary asks for as far as a baseline explains it: where it does not, they stay
+  /// where experiments are simulated, and do not imitate what is missing.
+  Eigen::VectorXd calibrated(const Eigen::VectorXd& summary) const;
+  /// What a summary says of the parameters if a baseline is all there is, and how surely: by what
+  /// models of the other nulls say of each.
+  Scatter told(const Eigen::VectorXd& summary, const Prior& before) const;
+  /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
+  /// numbers, shapes' knots at the end.
+  Eigen::VectorXd residual(const Vectors& vectors) const;
+  /// Scores less their mean at the parameters about which the atlas was simulated: an effect's own
+  /// score estimates its amplitude to some tenths, whatever a calibration makes of the effect.
+  Eigen::VectorXd uncalibrated(const Eigen::VectorXd& scores) const;
+  /// How far the displacements alone are from what the calibrated baseline gives, a squared
+  /// distance by their covariance: all that a comparison of MSDs could see.
+  double displacement_misfit(const Eigen::VectorXd& summary) const;
+  /// Of every null, a row each.
+  const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
+  int experiments() const { return options_.experiments; }
+  Eigen::Index named_numbers() const { return named_; }  ///< those before the shapes
+  /// Of the scores of effects, the first of the named numbers, in the calibrated recordings.
+  const Eigen::MatrixXd& informations() const { return informations_; }
+  const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
+  /// The fingerprint of an effect that is not in the plan's list.
+  Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
+  /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
+  /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
+  /// that was learned there before, by no fewer experiments (an even number), serves again; a new
+  /// one is added. `name`: of the effect or shape, its own.
+  Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
+                                const Effect& effect, const Eigen::VectorXd& calibrated,
+                                const std::string& name, LearnedFingerprints& learned,
+                                int experiments = kAbout);
+  /// Mean residual of `experiments` simulated with an effect at these amplitudes and parameters;
+  /// kept as `stage`.
+  Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
+                                const Eigen::VectorXd& point, int experiments,
+                                const std::string& stage, std::uint64_t seed);
+  const LocalModel& parameters() const { return *parameters_; }
+  const Eigen::VectorXd& deviations() const { return deviation_; }
+
+ private:
+  /// Experiments about a point: parameters and amplitudes, summaries and scores, a row each.
+  Design simulate(const std::string& stage, const Emulator& emulator, const Eigen::VectorXd& about,
+                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                  const Effect* effect, std::uint64_t seed);
+  /// Experiments with an effect, calibrated without it.
+  struct Answers {
+    Eigen::MatrixXd amplitudes, points, residuals, moved;  ///< a row each
+  };
+  Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
+                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                  std::uint64_t seed);
+  const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
+                                       const Eigen::VectorXd& amplitudes,
+                                       const Eigen::VectorXd& point, int experiments) const;
+  Prior prior() const;
+  Eigen::Index summary_numbers() const;
+  Eigen::VectorXd residual_at(const Eigen::VectorXd& scores, const Eigen::VectorXd& point) const;
+  Stages& stages_;
+  const FlowMaps& maps_;
+  ScorePlan plan_;
+  AtlasOptions options_;
+  Eigen::VectorXd centre_;
+  Eigen::MatrixXd spread_;
+  Design summaries_;  ///< of nulls
+  std::unique_ptr<LocalModel> parameters_, scores_;
+  Eigen::VectorXd deviation_;
+  Eigen::MatrixXd null_residuals_, informations_;
+  Eigen::Index named_ = 0;
+  std::vector<Fingerprint> fingerprints_;
+};
+
+}  // namespace lilytank

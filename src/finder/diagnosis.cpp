@@ -1,0 +1,154 @@
+#include "lilytank/diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finder/diagnoser.hpp"
+#include "jobs/job_directory.hpp"
+#include "lilytank/emulator.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kMostMissing = 0.1;  // share of unseen frames beyond which cameras are at fault
+
+// In how many body frames of a recording a body should have been seen. Of Lilies all frames count,
+// holes that cut tracks as well as those within, for as many bodies as one frame of a hundred or
+// more shows: one that a tracker makes up now and then is none. Balls may come and go.
+double expected_sightings(const Recording& r, std::vector<int> seen) {
+  double all = 0;
+  if (r.body != BodyKind::lily) {
+    for (const Track& t : r.tracks) all += static_cast<double>(t.x.size());
+    return all;
+  }
+  if (seen.empty()) return 0;
+  const auto at = seen.begin() + static_cast<std::ptrdiff_t>(99 * seen.size() / 100);
+  std::nth_element(seen.begin(), at, seen.end());
+  return static_cast<double>(*at) * r.frames;
+}
+
+// Of Lilies or of balls, whichever were seen less.
+double unseen_share(const Experiment& experiment) {
+  double worst = 0;
+  for (const bool lilies : {true, false}) {
+    double all = 0, sightings = 0;
+    for (const Recording& r : experiment.recordings) {
+      if ((r.body == BodyKind::lily) != lilies) continue;
+      const std::vector<int> seen = seen_by_frame(r);
+      for (const int n : seen) sightings += n;
+      all += expected_sightings(r, seen);
+    }
+    if (all > 0) worst = std::max(worst, 1 - sightings / all);
+  }
+  return worst;
+}
+
+// Faults of the camera and the tracker: named as such, and no force is looked for behind them.
+bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
+  constexpr int kListed = 1;  // of each kind in each file; `lilytank recording check` lists all
+  out.checks = finding_texts(experiment.findings, kListed);
+  int swaps = 0, clocks = 0;
+  for (const Finding& f : experiment.findings) {
+    swaps += f.check == Check::swap ? 1 : 0;
+    clocks += f.check == Check::clock ? 1 : 0;
+  }
+  const auto blame = [&](const std::string& effect, const std::string& variable,
+                         const std::string& text) {
+    DiagnosisFinding f;
+    f.effect = effect, f.variable = variable, f.text = text, f.confidence = 1;
+    out.findings.push_back(f);
+  };
+  if (swaps > 0) {
+    blame("identity_swap", "module",
+          std::to_string(swaps) + " times two bodies go on in each other's places");
+  }
+  const double missed = unseen_share(experiment);
+  if (clocks > 0 || missed > kMostMissing) {
+    blame("lost_frames", "time",
+          clocks > 0 ? std::to_string(clocks) + " times the clock disagrees with the frames"
+                     : "bodies are unseen in " + std::to_string(std::lround(100 * missed)) +
+                           " % of the frames");
+  }
+  return !out.findings.empty();
+}
+
+// Of recordings that no model is calibrated to.
+std::string identity_of(const Experiment& experiment) {
+  Fnv hash;
+  hash.add(std::to_string(experiment.base.identity));
+  add_recordings(experiment.recordings, hash);
+  return hex(hash.value());
+}
+
+}  // namespace
+
+std::string Detectable::parameter() const {
+  return own_name(path);
+}
+
+bool GroupFit::clear() const {
+  return deviation > 0 ? before > chance + 3 * deviation : before > 2 * chance;
+}
+
+double GroupFit::removed() const {
+  if (before <= chance) return 0;
+  return std::clamp(1 - std::max(0.0, after - chance) / (before - chance), -1.0, 1.0);
+}
+
+double Diagnosis::removed() const {
+  double before = 0, after = 0;
+  for (const GroupFit& g : held_out) {
+    if (g.clear()) before += g.before - g.chance, after += std::max(0.0, g.after - g.chance);
+  }
+  return before > 0 ? 1 - after / before : std::nan("");
+}
+
+std::string name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::complete:
+      return "complete";
+    case Verdict::missing:
+      return "missing";
+    case Verdict::measurement:
+      return "measurement";
+    default:
+      return "undecided";
+  }
+}
+
+Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
+  Diagnosis out;
+  out.name = experiment.name;
+  for (const Recording& r : experiment.recordings) {
+    if (r.body != BodyKind::lily) continue;
+    if (r.latches) {
+      throw InputError(r.name +
+                       " was recorded with latches on: a diagnosis needs recordings with "
+                       "latches = \"off\", or modules would move as one for other reasons");
+    }
+    if (!r.has_heading()) {
+      throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
+    }
+    const std::vector<int> seen = seen_by_frame(r);
+    if (!seen.empty()) out.modules = std::max(out.modules, *std::ranges::max_element(seen));
+    out.recordings += 1, out.seconds += r.frames / r.rate;
+  }
+  if (recordings_at_fault(experiment, out)) {
+    const auto lock =
+        claim_directory(options.out, options.force,
+                        {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
+    if (options.lock != nullptr) *options.lock = lock;
+    out.verdict = Verdict::measurement;
+    return out;
+  }
+  Diagnoser diagnoser(experiment, options);
+  const auto lock = claim_directory(options.out, options.force,
+                                    {"diagnosis", diagnoser.identity(), diagnosis_files()});
+  if (options.lock != nullptr) *options.lock = lock;
+  diagnoser.run(out);
+  return out;
+}
+
+}  // namespace lilytank

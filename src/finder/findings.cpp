@@ -1,0 +1,206 @@
+// What a diagnosis tells: findings, maps, ranking, smallest sizes.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "finder/diagnoser.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double kSame = 4;  // gains that differ by less do not tell effects apart
+
+// A curve's variable before its value.
+std::string place_words(const std::string& variable) {
+  static const std::map<std::string, std::string> kWords = {
+      {"radius", "a distance from the centre of"},
+      {"pair", "a gap between modules of"},
+      {"slip", "a speed through the water of"},
+      {"position", "x ="},
+      {"turn", "a rate of turning of"},
+      {"time", "a time of"}};
+  const auto known = kWords.find(variable);
+  return known == kWords.end() ? variable : known->second;
+}
+
+}  // namespace
+
+void Diagnoser::tell_ranking(const Naming& naming, const Vector& residual, const Explanation& e,
+                             Diagnosis& out) const {
+  for (const EffectFit& f : naming.effects(residual)) {
+    const auto k = static_cast<std::size_t>(f.effect);
+    if (f.effect < 0) continue;
+    const Effect& effect = atlas_->plan().effects[k];
+    out.ranking.push_back({effect.name, effect.variant(), f.z});
+  }
+  out.effect_threshold = naming.effect_threshold();
+  out.shape_threshold = naming.shape_threshold(), out.false_alarms = options_.false_alarms;
+  out.strongest_left = std::max(e.left_effect.z, e.left_shape.z);
+  std::vector<double> z(atlas_->plan().shapes.size(), 0.0);
+  for (const EffectFit& f : naming.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
+  for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(residual, s, z[s]));
+}
+
+FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) const {
+  const Shape& shape = atlas_->plan().shapes[s];
+  FoundCurve c;
+  c.variable = shape.variable, c.direction = shape.direction, c.unit = shape.unit;
+  if (shape.curve.along == Along::x || shape.curve.along == Along::y) {
+    c.variable += shape.curve.along == Along::x ? " x" : " y";
+  }
+  c.value_unit = shape.curve.toward == Toward::torque ? "N m" : "N", c.z = z;
+  for (int k = 0; k < kKnots; ++k) {
+    const Eigen::Index at = atlas_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
+    c.at.push_back(knot_at(shape.curve, k));
+    c.value.push_back(residual(at) * atlas_->deviations()(at) * shape.size);
+    c.deviation.push_back(atlas_->deviations()(at) * shape.size);
+  }
+  return c;
+}
+
+void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
+  for (std::size_t e = 0; e < atlas_->plan().effects.size(); ++e) {
+    const Effect& effect = atlas_->plan().effects[e];
+    const double least = naming.smallest_seen(static_cast<int>(e)) * effect.sizes[0];
+    const double tried = kLearnedSize * effect.sizes[0];
+    const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
+                                   [&](const Detectable& d) { return d.path == effect.paths[0]; });
+    if (same == out.detectable.end()) {
+      out.detectable.push_back({effect.name, effect.paths[0], least, tried, effect.units[0]});
+    } else {
+      same->smallest = std::max(same->smallest, least);  // whatever its range
+      same->tried = std::max(same->tried, tried);
+    }
+  }
+}
+
+// The map in which a finding shows most.
+const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
+  const FoundCurve* best = nullptr;
+  for (std::size_t s = 0; s < out.maps.size(); ++s) {
+    if (atlas_->plan().shapes[s].variable != variable) continue;
+    if (best == nullptr || out.maps[s].z > best->z) best = &out.maps[s];
+  }
+  return best;
+}
+
+void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
+  f.curve = curve, f.unit = curve.unit;
+  std::size_t peak = 0;
+  const auto strength = [&](std::size_t k) {
+    return std::fabs(curve.value[k]) / std::max(curve.deviation[k], 1e-300);
+  };
+  for (std::size_t k = 0; k < curve.at.size(); ++k) {
+    if (strength(k) > strength(peak)) peak = k;
+  }
+  std::size_t first = peak, last = peak;
+  while (first > 0 && strength(first - 1) > 2) --first;
+  while (last + 1 < curve.at.size() && strength(last + 1) > 2) ++last;
+  const double half = 0.5 * (curve.at[1] - curve.at[0]);
+  f.from = curve.at[first] - (first == 0 ? 0 : half);
+  f.to = curve.at[last] + (last + 1 == curve.at.size() ? 0 : half);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "strongest %s, at %s %.3g %s, where the baseline is off by %.2g +- %.2g %s",
+                curve.direction.c_str(), place_words(curve.variable).c_str(), curve.at[peak],
+                curve.unit.c_str(), curve.value[peak], curve.deviation[peak],
+                curve.value_unit.c_str());
+  f.text = text;
+}
+
+// Whether an effect of its family is a finding itself.
+bool Diagnoser::is_told(const Explanation& e, const Effect& one) const {
+  return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
+    return fit.effect >= 0 && effect(fit).family == one.family;
+  });
+}
+
+void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, const Explanation& e,
+                              Diagnosis& out) const {
+  const std::vector<EffectFit> ranked = naming.effects(residual);
+  for (std::size_t i = 0; i < e.found.size(); ++i) {
+    const EffectFit& fit = e.found[i];
+    DiagnosisFinding f;
+    f.z = fit.z, f.confidence = naming.confidence(fit);
+    if (fit.effect >= 0) {
+      const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
+      f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
+      const auto own = std::find_if(ranked.begin(), ranked.end(),
+                                    [&](const EffectFit& one) { return one.effect == fit.effect; });
+      std::set<int> rivals;
+      for (const EffectFit& other : ranked) {
+        if (other.effect < 0 || i > 0) continue;
+        const Effect& rival = atlas_->plan().effects[static_cast<std::size_t>(other.effect)];
+        if (own->gain - other.gain >= kSame || is_told(e, rival)) continue;
+        if (rivals.insert(rival.family).second) f.alternatives.push_back(rival.name);
+      }
+      if (!f.alternatives.empty()) f.split = effect.split;
+      if (const FoundCurve* map = map_of(f.variable, out)) tell_where(*map, f);
+    } else {
+      const auto s = static_cast<std::size_t>(fit.shape);
+      f.effect = "unnamed", f.variable = atlas_->plan().shapes[s].variable;
+      f.equation = "F = f(" + f.variable + ") " + atlas_->plan().shapes[s].direction +
+                   ", the curve that is drawn";
+      tell_where(out.maps[s], f);
+    }
+    out.findings.push_back(std::move(f));
+  }
+  out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
+  blame_camera(e, out);
+  if (e.found.empty() && naming.leaves_something(e)) out.verdict = Verdict::undecided;
+  if (e.found.empty()) return;
+  if (naming.fails(e)) {
+    disown(e, out);
+  } else if (out.verdict == Verdict::missing && naming.leaves_something(e)) {
+    warn_of_rest(e, out);
+  }
+}
+
+// Findings that leave more than a complete experiment has, and no name for the rest.
+void Diagnoser::warn_of_rest(const Explanation& e, Diagnosis& out) const {
+  std::string text = "the remaining discrepancy exceeds that of null experiments";
+  if (e.left_shape.z > out.shape_threshold) {
+    const Shape& shape = atlas_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
+    text += ", most over " + shape.variable + " " + shape.direction + " (z " +
+            significant(e.left_shape.z, 2) + ")";
+  }
+  out.warnings.push_back(text + ": another effect may be omitted, or a law has another form");
+}
+
+// Names that leave most of the mismatch are not told as findings.
+void Diagnoser::disown(const Explanation& e, Diagnosis& out) {
+  std::string names;
+  for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
+  char share[40];
+  std::snprintf(share, sizeof share, "%.0f %%", 100 * e.share_left);
+  out.warnings.push_back("nothing that is known explains these recordings: what comes nearest, " +
+                         names + ", leaves " + share + " of the mismatch");
+  out.verdict = Verdict::undecided, out.findings.clear();
+}
+
+// Where the camera is at fault, what else was found may be its shadow: forces are not told.
+void Diagnoser::blame_camera(const Explanation& e, Diagnosis& out) const {
+  std::vector<DiagnosisFinding> faults;
+  for (std::size_t i = 0; i < e.found.size(); ++i) {
+    if (e.found[i].effect < 0) continue;
+    const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(e.found[i].effect)];
+    if (!effect.camera()) continue;
+    DiagnosisFinding f = out.findings[i];
+    for (std::size_t c = 0; c < effect.paths.size(); ++c) {
+      const double value = e.found[i].amplitudes(static_cast<Eigen::Index>(c)) * effect.sizes[c];
+      f.parameters.push_back(
+          {own_name(effect.paths[c]), effect.paths[c], value, value, value, effect.units[c]});
+    }
+    faults.push_back(std::move(f));
+  }
+  if (faults.empty()) return;
+  out.verdict = Verdict::measurement, out.findings = std::move(faults);
+}
+
+}  // namespace lilytank

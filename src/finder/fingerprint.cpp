@@ -1,0 +1,56 @@
+#include "finder/fingerprint.hpp"
+
+#include <algorithm>
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr double kApartShare = 0.25, kApartLeast = 0.5;  // of amplitudes, and in sizes
+
+}  // namespace
+
+Vector apart(const Vector& amplitudes) {
+  return kApartShare * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+}
+
+double Fingerprint::noise_at(const Vector& amplitudes) const {
+  const double n = std::max(1, experiments);
+  return local() ? 1 / n : amplitudes.squaredNorm() / (kLearnedSquare * n);
+}
+
+Vector Fingerprint::moved(const Vector& amplitudes) const {
+  if (local()) return moved_base;
+  // Beyond the sizes it was learned at, calibration soon cannot follow any more.
+  return moved_first * amplitudes * std::min(1.0, kLearnedSize / amplitudes.cwiseAbs().maxCoeff());
+}
+
+Fingerprint together(const std::vector<Fingerprint>& fingerprints,
+                     const std::vector<Vector>& amplitudes) {
+  Eigen::Index m = 0, at = 0;
+  for (const Vector& a : amplitudes) m += a.size();
+  const Fingerprint& one = fingerprints.front();
+  Fingerprint out;
+  out.about.resize(m), out.base = Vector::Zero(one.base.size());
+  out.first.resize(one.base.size(), m), out.second = Matrix::Zero(one.base.size(), m);
+  out.moved_first = Matrix::Zero(one.moved_base.size(), m);
+  out.moved_base = Vector::Zero(one.moved_base.size());
+  out.told = one.told;
+  out.experiments = one.experiments;
+  for (std::size_t i = 0; i < fingerprints.size(); ++i) {
+    const Fingerprint& f = fingerprints[i];
+    const Vector& a = amplitudes[i];
+    out.about.segment(at, a.size()) = a;
+    out.first.middleCols(at, a.size()) = f.slope(a);
+    out.two_sided = out.two_sided || f.two_sided;
+    out.base += f.at(a), out.moved_base += f.moved(a);
+    out.told = out.told.cwiseMin(f.told);
+    out.experiments = std::min(out.experiments, f.experiments);
+    at += a.size();
+  }
+  return out;
+}
+
+}  // namespace lilytank

@@ -1,0 +1,310 @@
+#include "finder/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "calibrate/cross_fit.hpp"
+#include "calibrate/design.hpp"
+#include "calibrate/estimate_line.hpp"
+#include "finder/joint_parameters.hpp"
+#include "finder/slack.hpp"
+#include "lilytank/random.hpp"
+#include "statistics/linear.hpp"
+#include "text/fnv.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+constexpr int kMostRounds = 5;
+constexpr double kSettled = 1;       // deviations of the design
+constexpr double kJointReach = 2.5;  // likewise, that an answer may be off
+// Designs, in an answer's errors, of which slopes would else be noise, and in parameters' ranges.
+constexpr double kJointWiderThanError = 1.5, kJointWideEnough = 0.67, kMostJointSpread = 0.1;
+constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
+constexpr double kLater = 0.625;  // of a round, where others are near
+constexpr int kChecks = 60;       // experiments at the answer
+constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
+
+// Summary, named scores, and those of the curves that are fitted, the scores by their deviations;
+// those of effects without the correlations that they should have, so that few simulations need not
+// tell these.
+class Numbers {
+ public:
+  Numbers(const Atlas& atlas, const std::vector<JointEffect>& effects) : atlas_(atlas) {
+    for (Eigen::Index k = 0; k < atlas.named_numbers(); ++k) scores_.push_back(k);
+    for (const JointEffect& e : effects) {
+      for (int k = 0; e.shape >= 0 && k < kKnots; ++k) {
+        scores_.push_back(atlas.named_numbers() + e.shape * kKnots + k);
+      }
+    }
+    Matrix alike = correlations_of(atlas.informations());
+    alike.diagonal().array() += kUnalike;
+    alike_ = lower_root(alike);
+  }
+  Vector operator()(const Vectors& v) const {
+    Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()));
+    out << v.summary, v.scores(scores_).cwiseQuotient(atlas_.deviations()(scores_));
+    auto own = out.segment(v.summary.size(), alike_.rows());
+    own = solve_lower(alike_, own);
+    return out;
+  }
+
+ private:
+  const Atlas& atlas_;
+  Matrix alike_;
+  std::vector<Eigen::Index> scores_;
+};
+
+class Joint {
+ public:
+  Joint(Stages& stages, const FlowMaps& maps, const Atlas& atlas, const Numbers& numbers,
+        JointFit& fit)
+      : stages_(stages),
+        maps_(maps),
+        atlas_(atlas),
+        numbers_(numbers),
+        fit_(fit),
+        emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
+
+  Design simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
+    // Kept by what is simulated: another start of the same recordings is another set.
+    Fnv place;
+    for (const FitParameter& p : fit_.parameters) place.add(p.path);
+    place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
+    const std::string name = stage + " " + hex(place.value());
+    const auto rows = stages_.rows(name, static_cast<int>(points.rows()), [&](int i) {
+      const auto field = loosened(maps_, derived_seed(seed, kMix), seed, i);
+      const auto made = emulator_.record(
+          values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+      if (!made) return std::vector<double>{};
+      const Vector all = numbers_(atlas_.vectors(*made));
+      return std::vector<double>(all.begin(), all.end());
+    });
+    return design_of(points, rows);
+  }
+  std::vector<double> values(const Vector& point) const {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < fit_.parameters.size(); ++i) {
+      const FitParameter& p = fit_.parameters[i];
+      out.push_back(std::clamp(p.from_scale(point(static_cast<Eigen::Index>(i))), p.low, p.high));
+    }
+    return out;
+  }
+
+ private:
+  static std::vector<std::string> paths(const JointFit& fit) {
+    std::vector<std::string> out;
+    for (const FitParameter& p : fit.parameters) out.push_back(p.path);
+    return out;
+  }
+  Stages& stages_;
+  const FlowMaps& maps_;
+  const Atlas& atlas_;
+  const Numbers& numbers_;
+  JointFit& fit_;
+  Emulator emulator_;
+};
+
+Vector vector_of(const std::vector<double>& of) {
+  return Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size()));
+}
+
+// More simulations below those that there are.
+void append(const Design& more, Design& all) {
+  if (all.points.size() == 0) {
+    all = more;
+    return;
+  }
+  const Eigen::Index before = all.points.rows();
+  all.points.conservativeResize(before + more.points.rows(), Eigen::NoChange);
+  all.numbers.conservativeResize(before + more.points.rows(), Eigen::NoChange);
+  all.points.bottomRows(more.points.rows()) = more.points;
+  all.numbers.bottomRows(more.points.rows()) = more.numbers;
+}
+
+// Simulations of all rounds that are about the centre.
+Design about(const Design& all, const Vector& centre, const Matrix& width) {
+  if (all.points.size() == 0) return all;
+  std::vector<Eigen::Index> near;
+  const Vector inverse = width.diagonal().cwiseInverse();
+  for (Eigen::Index i = 0; i < all.points.rows(); ++i) {
+    const Vector off = inverse.cwiseProduct(all.points.row(i).transpose() - centre);
+    if (off.squaredNorm() <= kOverlap * kOverlap * static_cast<double>(off.size())) {
+      near.push_back(i);
+    }
+  }
+  return {all.points(near, Eigen::all), all.numbers(near, Eigen::all)};
+}
+
+// The answer by experiments simulated where it is, estimated as the data were. Those of a design
+// scatter more: slopes' errors and laws that are not straight move estimates of what is far from
+// its centre, and the data are not far.
+Scatter checked(const TurnedBack& last, const Vector& at, const Matrix& numbers,
+                const Prior& prior) {
+  Matrix estimates(numbers.rows(), at.size());
+  for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
+    estimates.row(i) = last.by_others.of(numbers.row(i).transpose()).point.transpose();
+  }
+  Line line = line_through(Matrix::Zero(estimates.rows(), at.size()), estimates);
+  // Of few experiments the inverse of a covariance is too large [Hartlap, Simon and Schneider
+  // 2007].
+  const auto n = static_cast<double>(estimates.rows()), p = static_cast<double>(at.size());
+  line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
+  line.freedom = std::max(1.0, n - 1 - p);
+  line.slope = last.line.slope;
+  return scatter_of(line, at, last.by_others.answer, prior);
+}
+
+void tell(const Scatter& answer, JointFit& fit) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const FitParameter& p = fit.parameters[i];
+    const double middle = answer.estimate(k), half = answer.wide * answer.deviation(k);
+    const auto within = [&](double v) { return std::clamp(p.from_scale(v), p.low, p.high); };
+    fit.value.push_back(within(middle));
+    fit.low.push_back(within(middle - half)), fit.high.push_back(within(middle + half));
+  }
+}
+
+// The next design: about the answer, as far as this one reaches, and as wide as the answer's errors
+// ask for. True if it is where this one is.
+bool settled(const Scatter& answer, const FitBounds& bounds, Vector& centre, Matrix& width) {
+  const Vector reach = kJointReach * width.diagonal();
+  const Vector next = answer.estimate.cwiseMax(bounds.low).cwiseMin(bounds.high);
+  const Vector moved = (next - centre).cwiseQuotient(width.diagonal());
+  const Vector wide = (kJointWiderThanError * answer.deviation)
+                          .cwiseMin(kMostJointSpread * (bounds.high - bounds.low));
+  const bool stays = moved.cwiseAbs().maxCoeff() < kSettled;
+  const bool enough = (kJointWideEnough * wide - width.diagonal()).maxCoeff() < 0;
+  if (stays && enough) return true;
+  centre = next.cwiseMax(centre - reach).cwiseMin(centre + reach);
+  width.diagonal() = width.diagonal().cwiseMax(wide);
+  return false;
+}
+
+// Rounds of simulations, each about the answer of the one before.
+class Rounds {
+ public:
+  Rounds(Stages& stages, const FlowMaps& maps, const Atlas& atlas, std::vector<JointEffect> effects,
+         const Vectors& observed, JointStart baseline, JointRounds rounds)
+      : stages_(stages),
+        maps_(maps),
+        atlas_(atlas),
+        effects_(std::move(effects)),
+        numbers_(atlas, effects_),
+        data_(numbers_(observed)),
+        baseline_(std::move(baseline)),
+        rounds_(std::move(rounds)) {
+    for (std::size_t e = 0; e < effects_.size(); ++e) fit_.kept.push_back(e);
+    begin_anew();
+  }
+
+  JointFit run() {
+    TurnedBack last;
+    int most = kMostRounds;
+    for (int k = 1; k <= most && !fit_.settled; ++k) {
+      const Design design = simulated(k);
+      const Prior prior = known_before();
+      if (drops_one(design, prior)) {
+        ++most;
+        continue;
+      }
+      last = turned_back(design, centre_, prior, data_);
+      fit_.settled = settled(last.answer, bounds_, centre_, width_);
+    }
+    tell(check(last), fit_);
+    return std::move(fit_);
+  }
+
+ private:
+  void begin_anew() {
+    const Beginning begun = begin(stages_, effects_, baseline_, fit_);
+    bounds_ = bounds_of(fit_);
+    begun_ = vector_of(begun.at).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    known_ = vector_of(begun.known);
+    centre_ = begun_, width_ = vector_of(begun.wide).asDiagonal();
+    joint_.emplace(stages_, maps_, atlas_, numbers_, fit_);
+    all_ = {};
+  }
+
+  // Of the baseline what the experiment says, of amplitudes what their naming did; of ranges, times
+  // and places nothing but where the design is. Never surer than the design's points.
+  Prior known_before() const {
+    Prior out{centre_, (kPrior * (bounds_.high - bounds_.low)).cwiseMin(known_)};
+    out.deviation = out.deviation.cwiseMax(width_.diagonal());
+    out.expected.head(baseline_.expected.size()) = baseline_.expected;
+    for (Eigen::Index k = 0; k < known_.size(); ++k) {
+      if (std::isfinite(known_(k))) out.expected(k) = begun_(k);
+    }
+    return out;
+  }
+
+  Scatter check(const TurnedBack& last) {
+    const Vector at = last.answer.estimate.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    const std::uint64_t seed = derived_seed(rounds_.seed, kCheckSeed);
+    const Matrix points = at.transpose().replicate(kChecks, 1);
+    const Design made = joint_->simulate("joint " + rounds_.tag + " check", points, seed);
+    return checked(last, at, made.numbers, known_before());
+  }
+
+  // Of all rounds, those that are about the centre.
+  Design simulated(int k) {
+    const std::uint64_t seed = derived_seed(rounds_.seed, static_cast<std::uint64_t>(k));
+    // Where rounds before have been as well, fewer will do.
+    const bool known_ground = 2 * about(all_, centre_, width_).points.rows() >= rounds_.count;
+    const int count = known_ground ? static_cast<int>(kLater * rounds_.count) : rounds_.count;
+    append(joint_->simulate("joint " + rounds_.tag + " " + std::to_string(k),
+                            scattered(centre_, width_, count, bounds_, seed), seed),
+           all_);
+    return about(all_, centre_, width_);
+  }
+
+  // Whether an effect is no longer asked for; then all begins again without it.
+  bool drops_one(const Design& design, const Prior& prior) {
+    FitBounds near = bounds_;
+    near.reach = kJointReach;
+    const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
+    const KnownFit known = model.fit(data_, near, prior);
+    Vector point = known.fit.point;
+    const std::size_t dropped =
+        needless(stages_, effects_, known.covariance / known.doubt, rounds_.keep, point);
+    if (dropped == effects_.size()) return false;
+    read_point(stages_, point, effects_);
+    const auto at = static_cast<std::ptrdiff_t>(dropped);
+    effects_.erase(effects_.begin() + at), fit_.kept.erase(fit_.kept.begin() + at);
+    baseline_.point = point.head(baseline_.point.size());
+    begin_anew();
+    return true;
+  }
+
+  Stages& stages_;
+  const FlowMaps& maps_;
+  const Atlas& atlas_;
+  std::vector<JointEffect> effects_;
+  Numbers numbers_;  ///< of all effects that were found, also of those that are dropped
+  Vector data_;
+  JointStart baseline_;
+  JointRounds rounds_;
+  JointFit fit_;
+  Vector begun_, known_;  ///< the first design's centre; see Beginning
+  Vector centre_;
+  Matrix width_;
+  FitBounds bounds_;
+  std::optional<Joint> joint_;
+  Design all_;
+};
+
+}  // namespace
+
+JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
+                     std::vector<JointEffect> effects, const Vectors& observed,
+                     const JointStart& baseline, const JointRounds& rounds) {
+  return Rounds(stages, maps, atlas, std::move(effects), observed, baseline, rounds).run();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,202 @@
+// What was found, fitted together with the baseline and shown on held-out recordings.
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/fit_conditions.hpp"
+#include "finder/diagnoser.hpp"
+#include "finder/show.hpp"
+#include "lilytank/model_parameter.hpp"
+#include "lilytank/random.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double kMovedError = 0.3;  // share by which such a displacement may be wrong
+
+// The members of a list with these numbers, which ascend.
+template <class T>
+void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
+  std::vector<T> out;
+  for (const std::size_t k : kept) out.push_back(std::move(list[k]));
+  list = std::move(out);
+}
+
+// The model with what was found, for the experiment's tank.
+std::string overlay_of(const CalibrationSetup& setup, const std::vector<JointEffect>& found,
+                       const Diagnosis& d) {
+  std::vector<std::string> fitted;
+  for (const DiagnosisFinding& f : d.findings) {
+    for (const FoundParameter& p : f.parameters) fitted.push_back(p.path);
+  }
+  ScenarioText out =
+      begun_overlay("Effects that the recordings of " + setup.name +
+                        " support, found by lilytank diagnose. An overlay of a scenario:\n"
+                        "  lilytank run scenarios/tank_lilies.toml missing.toml",
+                    fit_conditions(setup.model, BodyKind::lily, fitted), setup.flow.has_value());
+  for (const MovedParameter& p : d.parameters) out.number(p.path, p.with_effects);
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const Effect& effect = found[e].effect;
+    if (effect.curve) {
+      for (const auto& [of, value] : effect.held) out.number(of.path(), value);
+    }
+    for (const FoundParameter& p : d.findings[e].parameters) {
+      out.number(p.path, p.value, shortest(p.low) + " .. " + shortest(p.high));
+    }
+  }
+  return out.text();
+}
+
+}  // namespace
+
+std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
+  const Vector& summary = judged.observed.summary;
+  std::vector<double> alone = stages_.from_scale(atlas_->nearest(summary).point);
+  for (std::size_t i = 0; i < setup_.told(); ++i) {
+    MovedParameter& p = out.parameters.emplace_back();
+    p.path = setup_.parameters[i].path, p.unit = setup_.parameters[i].unit;
+    p.baseline = p.with_effects = alone[i];
+    p.deviation = deviation_(static_cast<Eigen::Index>(i));
+  }
+  // Where the baseline does not explain the recordings, nobody knows how far off it is.
+  if (out.verdict != Verdict::complete) return alone;
+  const FitBounds bounds = stages_.bounds();
+  const Scatter told =
+      atlas_->told(summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
+  for (std::size_t i = 0; i < setup_.told(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const FitParameter& of = setup_.parameters[i];
+    const double middle = told.estimate(k), half = told.wide * told.deviation(k);
+    const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
+    MovedParameter& p = out.parameters[i];
+    p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
+  }
+  return alone;
+}
+
+void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
+                               Diagnosis& out) {
+  const Explanation& e = judged.explanation;
+  const Vectors& observed = judged.observed;
+  const Vector baseline = atlas_->calibrated(observed.summary);
+  const std::vector<double> before = tell_baseline(judged, out);
+  if (out.verdict != Verdict::missing) {
+    tell_camera(before, out);
+    return;
+  }
+  std::vector<JointEffect> found;
+  // Where the effects left the baseline, less how far they had moved it.
+  Vector moved = Vector::Zero(baseline.size());
+  for (const EffectFit& f : e.found) {
+    moved += f.moved;
+    found.push_back({found_effect(f, judged.details), f.amplitudes, f.shape});
+  }
+  const FitBounds bounds = stages_.bounds();
+  const JointStart start{stages_.to_scale(setup_.start),
+                         (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
+                         spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
+  const JointFit fit = fit_jointly(
+      stages_, *maps_, *atlas_, found, observed, start,
+      {budget_.round, naming_->effect_threshold(), judged.tag, derived_seed(options_.seed, 700)});
+  if (!fit.settled) {
+    out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
+  }
+  keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
+  tell_camera(fit.value, out);
+  tell_parameters(fit, found, out);
+  show(fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
+}
+
+// The baseline alone, with the parameters at these scaled values.
+Model Diagnoser::baseline_at(const Vector& scaled) const {
+  const std::vector<std::string> all = setup_.paths();
+  const std::vector<double> values = stages_.from_scale(scaled);
+  const auto told = static_cast<std::ptrdiff_t>(setup_.told());
+  return with_parameters(setup_.model, std::vector<std::string>(all.begin(), all.begin() + told),
+                         std::vector<double>(values.begin(), values.begin() + told));
+}
+
+void Diagnoser::tell_camera(const std::vector<double>& values, Diagnosis& out) const {
+  for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
+    out.checks.push_back(setup_.parameters[i].path + " = " + significant(values[i], 3) + " " +
+                         setup_.parameters[i].unit + ", fitted along");
+  }
+}
+
+void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
+                                Diagnosis& out) const {
+  for (std::size_t i = 0; i < out.parameters.size(); ++i) {
+    out.parameters[i].with_effects = fit.value[i];
+    out.parameters[i].low = fit.low[i], out.parameters[i].high = fit.high[i];
+  }
+  std::size_t at = setup_.parameters.size();
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const Effect& effect = found[e].effect;
+    const std::size_t count = effect.paths.size() + effect.refine.size();
+    for (std::size_t k = 0; k < count; ++k, ++at) {
+      const FitParameter& p = fit.parameters[at];
+      out.findings[e].parameters.push_back(
+          {own_name(p.path), p.path, fit.value[at], fit.low[at], fit.high[at], p.unit});
+    }
+    for (const auto& [of, value] : effect.held) {
+      const std::string path = of.path();
+      const bool refined = std::any_of(effect.refine.begin(), effect.refine.end(),
+                                       [&](const FitParameter& r) { return r.path == path; });
+      if (refined || effect.curve) continue;
+      out.findings[e].parameters.push_back({own_name(path), path, value, value, value, ""});
+    }
+    if (effect.curve) {
+      for (int k = 0; k < kKnots; ++k) {
+        out.findings[e].curve.value[static_cast<std::size_t>(k)] =
+            out.findings[e].parameters[static_cast<std::size_t>(k)].value;
+      }
+    }
+  }
+  out.overlay = overlay_of(setup_, found, out);
+}
+
+// `baseline`: what calibrating it to these very recordings says.
+void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, const Vector& baseline,
+                     const std::vector<Recording>& recordings, Diagnosis& out) {
+  std::vector<RecordingShape> shapes;
+  for (const Recording& one : recordings) shapes.push_back(shape_of(one));
+  std::vector<std::string> paths;
+  for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
+  const Emulator with(fit.model, paths, shapes, {.moment_matched = false});
+  const auto b = repeat(stages_, *maps_, setup_.emulator(shapes, CalibrationSetup::Of::experiments),
+                        before, budget_.comparisons, derived_seed(options_.seed, 801));
+  const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons,
+                        derived_seed(options_.seed, 802));
+  out.held_out = group_fits(setup_, atlas_->plan(), recordings, b, a);
+  msd_share(recordings, b, a, setup_.piece, out);
+  std::vector<std::string> told;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (of_camera(paths[i])) continue;
+    told.push_back(paths[i]), values.push_back(fit.value[i]);
+  }
+  const Model after = with_parameters(fit.model, told, values);
+  // Against the better of two baselines: where an effect is strong, a calibration that does not
+  // know it can be worse than none.
+  const auto gain_over = [&](const Model& without) {
+    return step_gain(without, after, atlas_->plan().predictor, recordings);
+  };
+  const StepGain by_plan = gain_over(atlas_->plan().model);
+  const StepGain by_own = gain_over(baseline_at(baseline));
+  const StepGain& gain = by_own.gain < by_plan.gain ? by_own : by_plan;
+  for (DiagnosisFinding& f : out.findings) {
+    f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
+  }
+  if (gain.high >= 0) return;
+  out.warnings.push_back(
+      likelier_but_for_errors(atlas_->plan(), after, recordings)
+          ? "one step ahead, errors of the baseline's parameters cost more than what was found "
+            "gains; allowing for these, it does predict recordings that had no part in this better"
+          : "one step ahead, what was found predicts recordings that had no part in this worse "
+            "than nothing does: the name or its law is doubtful");
+}
+
+}  // namespace lilytank

@@ -1,0 +1,165 @@
+#include "finder/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "finder/scores.hpp"
+#include "lilytank/study.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kSpacing = 0.16, kFarthest = 0.8;       // of the tank's radius
+constexpr double kWidths[] = {0.04, 0.06, 0.09};         // m
+constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
+constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
+constexpr double kLonger = 1.25;                         // from a range to the next that is tried
+constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
+
+std::vector<StreamPlace> grid_of(const Model& model) {
+  std::vector<StreamPlace> places;
+  const double R = model.tank.radius, step = kSpacing * R, row = step * std::sqrt(0.75);
+  const int most = static_cast<int>(std::ceil(kFarthest * R / row));
+  for (int j = -most; j <= most; ++j) {
+    for (int i = -most; i <= most; ++i) {
+      const double x = step * (i + (j % 2 == 0 ? 0 : 0.5)), y = row * j;
+      if (std::hypot(x, y) > kFarthest * R) continue;
+      for (const double width : kWidths) places.push_back({x, y, width});
+    }
+  }
+  return places;
+}
+
+Effect effect_at(const Model& model, const StreamPlace& place) {
+  return stream_effect(model, place.x, place.y, place.width);
+}
+
+Model with_stream(const Model& model, const StreamPlace& place) {
+  const Effect effect = effect_at(model, place);
+  return with_effect(model, effect,
+                     {place.speed_x * effect.sizes[0], place.speed_y * effect.sizes[1]});
+}
+
+// The places of the grid with the speeds of a linear estimate, those that it favours most first. A
+// smooth error of the flow can do nearly all that a wide stream does: cleared of that, its speed
+// and even its place may be told wrongly; with the flow taken as it is drawn an error of the flow
+// may be told as one.
+std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                                bool flow_as_drawn) {
+  ScorePlan scan = plan;
+  scan.effects.clear(), scan.shapes.clear();
+  std::vector<StreamPlace> out = grid_of(plan.model);
+  for (const StreamPlace& place : out) scan.effects.push_back(effect_at(plan.model, place));
+  if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
+  const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const ScoredAmplitude &x = told[2 * k], &y = told[2 * k + 1];
+    out[k].speed_x = x.estimate, out[k].speed_y = y.estimate, out[k].gain = x.gain + y.gain;
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const StreamPlace& a, const StreamPlace& b) { return a.gain > b.gain; });
+  return out;
+}
+
+double apart(const StreamPlace& a, const StreamPlace& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+// The first ones of which none is near another.
+std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
+  std::vector<StreamPlace> out;
+  for (const StreamPlace& place : ranking) {
+    const bool near = std::any_of(out.begin(), out.end(), [&](const StreamPlace& one) {
+      return apart(one, place) < kPlacesApart;
+    });
+    if (!near) out.push_back(place);
+    if (out.size() == kTriedPlaces) break;
+  }
+  return out;
+}
+
+// The first ones near a place.
+std::vector<StreamPlace> around(const StreamPlace& centre,
+                                const std::vector<StreamPlace>& ranking) {
+  std::vector<StreamPlace> out;
+  for (const StreamPlace& place : ranking) {
+    if (apart(centre, place) < kPlacesApart) out.push_back(place);
+    if (out.size() == kTriedNear) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                        int threads) {
+  const auto misfits = [&](const std::vector<StreamPlace>& tried) {
+    std::vector<double> out(tried.size());
+    for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      ScorePlan with = plan;
+      with.model = with_stream(plan.model, tried[k]);
+      out[k] = misfit_of(with, recordings);
+    });
+    return out;
+  };
+  const std::vector<StreamPlace> cleared = ranked(plan, recordings, false),
+                                 as_drawn = ranked(plan, recordings, true);
+  StreamPlace best;
+  double least = std::numeric_limits<double>::infinity();
+  const auto attempt = [&](std::vector<StreamPlace> tried, const std::vector<StreamPlace>& more) {
+    tried.insert(tried.end(), more.begin(), more.end());
+    std::erase(tried, best);  // known already
+    const std::vector<double> misfit = misfits(tried);
+    const auto lowest = std::min_element(misfit.begin(), misfit.end());
+    if (lowest != misfit.end() && *lowest < least) {
+      least = *lowest, best = tried[static_cast<std::size_t>(lowest - misfit.begin())];
+    }
+  };
+  attempt(leading(cleared), leading(as_drawn));
+  attempt(around(best, cleared), around(best, as_drawn));
+  best.gain = misfit_of(plan, recordings) - least;
+  return best;
+}
+
+std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
+                                                     const std::vector<Recording>& recordings) {
+  ScorePlan scan = plan;
+  scan.effects.clear(), scan.shapes.clear();
+  std::set<const ForceTerm*> done;  // the first range of the catalogue stands for all
+  for (const Effect& effect : plan.effects) {
+    if (!(effect.scanned_from > 0) || !done.insert(effect.term).second) continue;
+    const double longest = effect.refine[0].high;
+    for (double range = effect.scanned_from; range < longest; range *= kLonger) {
+      scan.effects.push_back(effect);
+      scan.effects.back().held[0].value = range;
+    }
+  }
+  const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
+  std::map<const ForceTerm*, ScannedValue> out;
+  std::map<const ForceTerm*, double> most;
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    const Effect& effect = scan.effects[k];
+    const bool may_be_negative =
+        effect.two_sided ||
+        std::any_of(plan.effects.begin(), plan.effects.end(),
+                    [&](const Effect& e) { return e.negative_of == effect.term; });
+    double& best = most.emplace(effect.term, kClearRise).first->second;
+    if (!(told[k].gain > best) || (!may_be_negative && told[k].estimate < 0)) continue;
+    best = told[k].gain, out[effect.term] = {effect.held[0].value, told[k].estimate};
+  }
+  return out;
+}
+
+Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads) {
+  Scans out;
+  for_each_world(2, threads, [&](int i) {
+    if (i == 0) out.stream = find_stream(plan, recordings, threads);
+    if (i == 1) out.values = find_values(plan, recordings);
+  });
+  return out;
+}
+
+}  // namespace lilytank

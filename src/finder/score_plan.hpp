@@ -1,0 +1,73 @@
+// What is measured of an experiment: the list of effects, curves and numbers that scores are of.
+#pragma once
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "effects/effects.hpp"
+#include "lilytank/predictor.hpp"
+
+namespace lilytank {
+
+/// One number of the vector that is compared.
+struct ScoreEntry {
+  std::string group;  ///< score, module, noise, spectrum, contact, camera, shape
+  std::string name;
+};
+
+/// What is measured: fixed before anything is measured, the same for recordings and simulations.
+struct ScorePlan {
+  Model model;  ///< the predictor's
+  PredictorOptions predictor;
+  std::vector<Effect> effects;
+  std::vector<Shape> shapes;
+  double rate = 30;
+  int modules = 15;  ///< identities in all recordings, of each call
+  /// Every body keeps its identity, in all recordings: what single modules differ in can be told.
+  bool identities = true;
+  /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
+  std::vector<Effect> beside;
+  /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.
+  Eigen::MatrixXd nuisances_known;
+
+  std::vector<ScoreEntry> entries() const;
+  /// Where the scores of the components of effect `index` begin, if it is scored; of one past the
+  /// last their number.
+  std::size_t first_of_effect(std::size_t index) const;
+  /// Where the knots of shape `index` begin in the vector.
+  std::size_t first_of_shape(std::size_t index) const;
+};
+
+/// A stream that the flow field does not know, as effects have it.
+struct StreamPlace {
+  double x = 0, y = 0, width = 0.06;  ///< m
+  double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
+  double gain = 0;                    ///< rise of twice the log-likelihood
+  bool operator==(const StreamPlace&) const = default;
+};
+
+/// The range or thickness of an effect, and its amplitude in sizes.
+struct ScannedValue {
+  double value = 0, amplitude = 0;
+};
+
+/// What recordings tell directly of effects that have a place or a range.
+struct Scans {
+  StreamPlace stream;  ///< with which the recordings are likeliest
+  /// By the effect's term, of those that are clear; a repulsion is a negative attraction.
+  std::map<const ForceTerm*, ScannedValue> values;
+};
+
+/// Beside the vector, what a verdict needs of one experiment.
+struct ScoreDetails {
+  double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
+  double swinging = 0;   ///< Hz, the clearest line across the slip; 0: none is clear
+  int heaviest = 0;      ///< module that answers least
+  Scans scans;           ///< left to whoever asks for them
+  /// Ranges, times and lengths by path, where experiments with others than those of the catalogue
+  /// and of scans fit better.
+  std::map<std::string, double> refined;
+};
+
+}  // namespace lilytank

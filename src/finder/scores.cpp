@@ -1,0 +1,384 @@
+#include "finder/scores.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "effects/features.hpp"
+#include "filter/sensitivity.hpp"
+#include "finder/nuisances.hpp"
+#include "finder/scatter.hpp"
+#include "forces/pairs.hpp"
+#include "statistics/linear.hpp"
+#include "text/words.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr double kContactPush = 0.03;  // m/s: a prediction that was pushed by a contact
+// Information of amplitudes, in sizes, that they are 0: of what is beside, of several together.
+constexpr double kHardlyKnown = 1e-4, kJointKnown = 0.1;
+constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
+constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
+constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
+constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
+constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
+constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
+
+std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
+  std::vector<std::unique_ptr<ScatterPart>> parts;
+  parts.push_back(memory_part(plan)), parts.push_back(variance_part(plan));
+  parts.push_back(neighbour_part(plan));
+  if (plan.identities) parts.push_back(module_part(plan));
+  parts.push_back(spectrum_part(plan)), parts.push_back(contact_part(plan));
+  return parts;
+}
+
+// A wrench as the acceleration that it gives a module.
+Wrench accelerating(const Wrench& w, const Model& model) {
+  const double mass = model.module.mass;
+  return {w.fx / mass, w.fy / mass, w.torque / model.module.inertia()};
+}
+
+// Adds a shape's two knots to the pushes of a module. `unit`: acceleration by a force of size 1.
+void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, double value,
+                double sign, Pushes& pushes) {
+  const KnotShare at = place_on(shape.curve, value);
+  const auto add = [&](int knot, double share) {
+    const std::size_t f = first + static_cast<std::size_t>(knot);
+    const double size = sign * share * shape.size;
+    pushes.x[f] += static_cast<float>(size * unit.fx);
+    pushes.y[f] += static_cast<float>(size * unit.fy);
+    pushes.turn[f] += static_cast<float>(size * unit.torque);
+  };
+  add(at.first, 1 - at.share), add(at.second, at.share);
+}
+
+std::size_t components_of(const std::vector<Effect>& effects) {
+  std::size_t count = 0;
+  for (const Effect& effect : effects) count += effect.paths.size();
+  return count;
+}
+
+// Of so many amplitudes nothing is known before, then of nuisances.
+Eigen::MatrixXd known_beside(std::size_t unknown, const Eigen::MatrixXd& nuisances) {
+  const auto first = static_cast<Eigen::Index>(unknown);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(first + nuisances.rows(), first + nuisances.rows());
+  out.topLeftCorner(first, first).diagonal().setConstant(kHardlyKnown);
+  out.bottomRightCorner(nuisances.rows(), nuisances.rows()) = nuisances;
+  return out;
+}
+
+class Scorer {
+ public:
+  explicit Scorer(const ScorePlan& plan, bool all_partners = false)
+      : plan_(plan),
+        modules_(static_cast<std::size_t>(plan.modules)),
+        parts_(parts_of(plan)),
+        scored_(plan.first_of_effect(plan.effects.size())),
+        total_(scored_ + plan.shapes.size() * kKnots),
+        beside_(components_of(plan.beside)),
+        known_(known_beside(beside_, plan.nuisances_known)),
+        features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
+        sensitivities_(features_in_all_, modules_,
+                       all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
+        pushes_(modules_, Pushes(features_in_all_)),
+        last_(modules_, -9) {}
+
+  void run(const std::vector<Recording>& recordings) {
+    predict(plan_.model, recordings, plan_.predictor,
+            [this](const PredictedFrame& frame) { add(frame); });
+    sensitivities_.finish();
+  }
+
+  std::vector<ScoredAmplitude> amplitudes() const {
+    std::vector<ScoredAmplitude> out;
+    for (const auto& one : sensitivities_.amplitudes(known_)) {
+      out.push_back({one.estimate, one.gain()});
+    }
+    return out;
+  }
+
+  // Of each effect of the plan, its components together and nothing else.
+  std::vector<JointAmplitudes> jointly() const {
+    const auto each = sensitivities_.amplitudes(known_);
+    const Eigen::MatrixXd normal = sensitivities_.informations(known_);
+    std::vector<JointAmplitudes> out;
+    std::size_t first = 0;
+    for (const Effect& effect : plan_.effects) {
+      const auto size = static_cast<Eigen::Index>(effect.paths.size());
+      Eigen::VectorXd score(size);
+      for (Eigen::Index k = 0; k < size; ++k) {
+        const auto& one = each[first + static_cast<std::size_t>(k)];
+        score(k) = one.estimate * one.information;
+      }
+      const auto at = static_cast<Eigen::Index>(first);
+      Eigen::MatrixXd own = normal.block(at, at, size, size);
+      own.diagonal().array() += kJointKnown;
+      JointAmplitudes told{solve_symmetric(own, score)};
+      told.gain = score.dot(told.estimate);
+      out.push_back(std::move(told)), first += effect.paths.size();
+    }
+    return out;
+  }
+
+  double misfit() const { return misfit_ - sensitivities_.absorbed(known_); }
+
+  Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
+
+  std::vector<double> tell(ScoreDetails* details) const {
+    std::vector<double> values;
+    const auto told = sensitivities_.amplitudes(known_);
+    const auto drawn = [&](std::size_t f, double known) {
+      const double own = told[f].information;
+      values.push_back(own > 0 ? told[f].estimate * own / (own + known) : 0);
+    };
+    for (std::size_t f = 0; f < scored_; ++f) drawn(f, kScoreKnown);
+    for (const auto& part : parts_) part->tell(values, details);
+    for (std::size_t f = scored_; f < total_; ++f) drawn(f, kKnotKnown);
+    for (double& value : values) {
+      if (!std::isfinite(value)) value = 0;
+    }
+    return values;
+  }
+
+ private:
+  void add(const PredictedFrame& frame) {
+    const auto n = static_cast<std::size_t>(frame.now.size());
+    // Every recording has a model of its own, perhaps where the last one's was.
+    if (frame.model != model_ || frame.recording != recording_) {
+      model_ = frame.model, recording_ = frame.recording;
+      features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);
+    }
+    const Moment now{.time = frame.time, .gusts = false, .expected = true};
+    features_->find(frame.now, now);
+    for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
+    push_pairs(frame);
+    seen_.resize(n);
+    find_touching(frame);
+    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, now, i);
+    for (const auto& part : parts_) part->add(frame, seen_);
+  }
+
+  void push(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+    Pushes& to = pushes_[i];
+    to.clear();
+    const Model& model = *model_;
+    for (std::size_t f = 0; f < features_->size(); ++f) {
+      const Wrench w = accelerating(features_->at(f, i), model);
+      const std::size_t at = f < scored_ ? f : total_ + f - scored_;
+      to.x[at] = static_cast<float>(w.fx), to.y[at] = static_cast<float>(w.fy);
+      to.turn[at] = static_cast<float>(w.torque);
+    }
+    const int body = static_cast<int>(i);
+    std::array<double, kAlongs> value{};
+    std::array<Wrench, kTowards> unit{};
+    for (std::size_t v = 0; v < kAlongs; ++v) {
+      value[v] = value_along(static_cast<Along>(v), model, frame.now, now, body);
+    }
+    for (std::size_t u = 0; u < kTowards; ++u) {
+      unit[u] =
+          accelerating(unit_toward(static_cast<Toward>(u), model, frame.now, now, body), model);
+    }
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      const ForceCurve& curve = plan_.shapes[s].curve;
+      if (curve.along == Along::gap) continue;
+      push_knots(plan_.shapes[s], scored_ + s * kKnots,
+                 unit[static_cast<std::size_t>(curve.toward)],
+                 value[static_cast<std::size_t>(curve.along)], 1, to);
+    }
+    if (plan_.nuisances_known.size() > 0) {
+      push_nuisances(*features_, frame.now, i, total_ + beside_, to);
+    }
+  }
+
+  void push_pairs(const PredictedFrame& frame) {
+    const Model& model = *model_;
+    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
+      const Shape& shape = plan_.shapes[s];
+      if (shape.curve.along != Along::gap) continue;
+      const std::size_t first = scored_ + s * kKnots;
+      for_near_pairs(frame.now, shape.curve.high + model.module.side, [&](const NearPair& pair) {
+        const double gap = pair.r - model.module.side;
+        Wrench unit{0, 0, 1};
+        double other = 1;
+        if (shape.curve.toward == Toward::out) {
+          unit = {pair.dx / pair.r, pair.dy / pair.r, 0}, other = -1;
+        } else if (shape.curve.toward == Toward::around) {
+          unit = {-pair.dy / pair.r, pair.dx / pair.r, 0}, other = -1;
+        }
+        unit = accelerating(unit, model);
+        push_knots(shape, first, unit, gap, other, pushes_[static_cast<std::size_t>(pair.i)]);
+        push_knots(shape, first, unit, gap, 1, pushes_[static_cast<std::size_t>(pair.j)]);
+      });
+    }
+  }
+
+  // Modules that touch another or the wall, or may before the next frame, as fast as what is
+  // nearest closes up: what contacts do to them depends on more than forces. Known from the past,
+  // so leaving them out favours no kind of meeting.
+  void find_touching(const PredictedFrame& frame) {
+    const Kinematics& k = frame.now;
+    touching_.assign(static_cast<std::size_t>(k.size()), 0);
+    const double side = model_->module.side;
+    for_near_pairs(k, 1.6 * side, [&](const NearPair& pair) {
+      const SquareGap at = square_gap(k, pair, side);
+      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      const double jx = at.px - pair.dx, jy = at.py - pair.dy;
+      const double closing = (k.vx[i] - k.omega[i] * at.py - k.vx[j] + k.omega[j] * jy) * at.nx +
+                             (k.vy[i] + k.omega[i] * at.px - k.vy[j] - k.omega[j] * jx) * at.ny;
+      const double way = kHaste * frame.interval * std::max(0.0, closing);
+      if (at.gap > kTouch + way) return;
+      touching_[i] = touching_[j] = 1;
+    });
+    for (std::size_t i = 0; i < touching_.size(); ++i) {
+      if (at_wall(k, i, frame.interval)) touching_[i] = 1;
+    }
+  }
+
+  // By the outermost corner.
+  bool at_wall(const Kinematics& k, std::size_t i, double interval) const {
+    const double half = 0.5 * model_->module.side;
+    const double u = std::copysign(half, k.c[i] * k.x[i] + k.s[i] * k.y[i]);
+    const double v = std::copysign(half, k.c[i] * k.y[i] - k.s[i] * k.x[i]);
+    const double px = k.c[i] * u - k.s[i] * v, py = k.s[i] * u + k.c[i] * v;
+    const double x = k.x[i] + px, y = k.y[i] + py, radius = std::hypot(x, y);
+    const double closing =
+        ((k.vx[i] - k.omega[i] * py) * x + (k.vy[i] + k.omega[i] * px) * y) / radius;
+    const double way = kHaste * interval * std::max(0.0, closing);
+    return model_->tank.radius - radius <= kTouch + way;
+  }
+
+  Seen pass(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+    Seen out;
+    out.module = static_cast<std::size_t>(frame.module[i]), out.index = i;
+    const Vec2 slip = slip_of(*model_, frame.now, now, static_cast<int>(i));
+    out.slip_x = slip.x(), out.slip_y = slip.y();
+    const Wrench& drag = features_->drag(i);
+    out.drag_x = drag.fx / model_->module.mass, out.drag_y = drag.fy / model_->module.mass;
+    const bool visible = !std::isnan(frame.dx[i]);
+    if (visible) {
+      out.zx = frame.dx[i] / frame.sd_x[i], out.zy = frame.dy[i] / frame.sd_x[i];
+      out.zt = frame.dtheta[i] / frame.sd_theta[i];
+    }
+    const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
+    const bool held = frame.contact[i] > kContactPush || touching_[i] != 0;
+    if (visible && frame.told[i] != 0 && !held) {
+      for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
+    }
+    out.usable = visible && frame.told[i] != 0 && !held && !lost;
+    if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
+    last_[out.module] = frame.frame;
+    if (!held && !lost) {
+      sensitivities_.pass(out.module, pushes_[i], frame, i, kLoss, out.usable);
+    }
+    return out;
+  }
+
+  const ScorePlan& plan_;
+  std::size_t modules_;
+  std::vector<std::unique_ptr<ScatterPart>> parts_;
+  std::size_t scored_, total_;  // features that are told
+  // Components of effects beside them, and what is known of these and of nuisances.
+  std::size_t beside_;
+  Eigen::MatrixXd known_;
+  std::size_t features_in_all_;
+  Sensitivities sensitivities_;
+  std::vector<Pushes> pushes_;
+  std::vector<int> last_;
+  std::vector<std::uint8_t> touching_;
+  const Model* model_ = nullptr;
+  int recording_ = -1;
+  std::unique_ptr<Features> features_;
+  std::vector<Seen> seen_;
+  double misfit_ = 0;  // squares of innovations beyond 1 each
+};
+
+}  // namespace
+
+std::vector<ScoreEntry> ScorePlan::entries() const {
+  std::vector<ScoreEntry> out;
+  for (const Effect& effect : effects) {
+    for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) {
+      std::string name = effect.name;
+      for (const auto& [of, value] : effect.held) {
+        name += " " + std::string(of->name) + " " + std::to_string(value);
+      }
+      if (effect.paths.size() > 1) name += " " + own_name(effect.paths[c]);
+      out.push_back({"score", name});
+    }
+  }
+  for (const auto& part : parts_of(*this)) {
+    for (ScoreEntry& entry : part->entries()) out.push_back(std::move(entry));
+  }
+  for (const Shape& shape : shapes) {
+    for (int k = 1; k <= kKnots; ++k) {
+      out.push_back({"shape", shape.variable + " " + shape.direction + " " + std::to_string(k)});
+    }
+  }
+  return out;
+}
+
+std::size_t ScorePlan::first_of_effect(std::size_t index) const {
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < index; ++e) {
+    first += effects[e].scored ? effects[e].paths.size() : 0;
+  }
+  return first;
+}
+
+std::size_t ScorePlan::first_of_shape(std::size_t index) const {
+  return entries().size() - (shapes.size() - index) * kKnots;
+}
+
+std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
+                                               const std::vector<Recording>& recordings) {
+  Scorer scorer(plan);
+  scorer.run(recordings);
+  return scorer.amplitudes();
+}
+
+Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
+                                   const std::vector<Effect>& further) {
+  plan.shapes.clear();
+  for (const Effect& effect : further) {
+    plan.effects.push_back(effect);
+    plan.effects.back().scored = true;
+  }
+  Scorer scorer(plan, true);
+  scorer.run(recordings);
+  return scorer.informations();
+}
+
+Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations) {
+  const Eigen::VectorXd size = informations.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd out = size.asDiagonal() * informations * size.asDiagonal();
+  out.diagonal().setOnes();
+  return out;
+}
+
+std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
+                                              const std::vector<Recording>& recordings,
+                                              const std::vector<Effect>& effects) {
+  plan.shapes.clear(), plan.effects = effects;
+  for (Effect& effect : plan.effects) effect.scored = true;
+  Scorer scorer(plan, true);
+  scorer.run(recordings);
+  return scorer.jointly();
+}
+
+double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings) {
+  plan.shapes.clear(), plan.effects.clear();
+  Scorer scorer(plan);
+  scorer.run(recordings);
+  return scorer.misfit();
+}
+
+std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                          ScoreDetails* details) {
+  Scorer scorer(plan);
+  scorer.run(recordings);
+  return scorer.tell(details);
+}
+
+}  // namespace lilytank

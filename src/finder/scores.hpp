@@ -1,0 +1,60 @@
+// What innovations tell: how much of each effect's force is in them, how they scatter, and what
+// happens when modules touch.
+//
+// A force that the model lacks shows in the next innovations by way of the filter: its sensitivity
+// is carried along like the state itself, from past frames only, so a score is a sum of products of
+// which the second factor cannot know the first. Scores are cleared of what errors of parameters
+// and of the flow could have done (nuisances.hpp) and divided by the information that is left, so
+// each is an estimate of the effect's amplitude, in units of the size at which it is tried; that
+// estimate is biased by all that the filter leaves out, as is its expectation by simulation
+// (atlas.hpp).
+#pragma once
+#include <vector>
+
+#include "finder/score_plan.hpp"
+
+namespace lilytank {
+
+/// The vector of recordings, in the order of the plan's entries; always finite.
+std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
+                          ScoreDetails* details = nullptr);
+
+/// Information of every two of the scores of the plan's effects and, after them, of further ones,
+/// by what they would have done to recordings, [component, component]: what simulated experiments
+/// tell only roughly. 0 where there is none.
+Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
+                                   const std::vector<Effect>& further = {});
+/// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules
+/// hardly ever felt would else be told as anything. A score is its estimate times own / (own +
+/// this).
+inline constexpr double kScoreKnown = 1;
+/// Correlations that scores with such information have among experiments.
+Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
+/// Variance of a score that no other has, where correlations are divided out.
+inline constexpr double kUnalike = 0.01;
+
+/// Every scored component of the plan's effects alone: its amplitude, in sizes, and by how much it
+/// raises twice the log-likelihood.
+struct ScoredAmplitude {
+  double estimate = 0, gain = 0;
+};
+std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
+                                               const std::vector<Recording>& recordings);
+
+/// The amplitudes of all components of one effect together, in sizes, and by how much they raise
+/// twice the log-likelihood.
+struct JointAmplitudes {
+  Eigen::VectorXd estimate;
+  double gain = 0;
+};
+/// Those of every effect, each by itself; effects that have no mean force tell nothing.
+std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
+                                              const std::vector<Recording>& recordings,
+                                              const std::vector<Effect>& effects);
+
+/// How far recordings are from what the plan's model predicts one step ahead, once errors of
+/// parameters and of the flow, and the effects beside, have taken what they can: minus twice the
+/// log-likelihood, less what it is expected to be.
+double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings);
+
+}  // namespace lilytank

@@ -1,0 +1,331 @@
+#include "lilytank/proof.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "finder/diagnoser.hpp"
+#include "io/sha256.hpp"
+#include "jobs/job_directory.hpp"
+#include "lilytank/emulator.hpp"
+#include "lilytank/random.hpp"
+#include "proof/proof_files.hpp"
+#include "proof/sealed.hpp"
+#include "proof/yardstick.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr int kBalls = 24;
+constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
+                        kExpectedSeed = 1u << 21, kDrawnSeed = 5;
+// A world takes as long as so many simulated experiments, on the average; one with nothing in it.
+constexpr double kOfAWorld = 70, kOfANull = 6;
+constexpr int kExpectedRuns = 8;  // experiments that tell how strongly an effect shows
+
+// The open part of the exam: balls, and Lilies in which nothing is missing.
+Experiment open_tank(const ProofOptions& options, const Model& tank) {
+  Experiment e;
+  e.name = "proof";
+  // What a drawn tank is like is for the diagnosis to find.
+  e.base.model = with_steps(tank_model(), 5);
+  if (options.known_flow) e.base.model.field = tank.field;
+  const double seconds = 60 * options.minutes;
+  std::vector<RecordingShape> shapes(kSealedRecordings,
+                                     shape_named("balls", BodyKind::ball, kBalls, seconds));
+  EmulatorOptions exact;
+  exact.moment_matched = false;
+  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
+  auto balls = Emulator(with_steps(tank, kSealedSteps), {}, shapes, exact).record({}, seed);
+  Sealed nothing;
+  nothing.factors.assign(5, 1.0);
+  auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
+  if (!balls || !lilies) throw InputError("the proof's tank diverges");
+  if (options.known_flow) balls->clear();
+  for (auto* of : {&*balls, &*lilies}) {
+    for (Recording& r : *of) e.recordings.push_back(std::move(r));
+  }
+  return e;
+}
+
+// A world's vector as a row, with what a regression says of it before.
+constexpr Eigen::Index kRowBegins = 5;
+std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
+  std::vector<double> row{static_cast<double>(kept.effect),
+                          static_cast<double>(j.observed.summary.size()), j.details.pulsation,
+                          j.details.swinging, static_cast<double>(j.details.heaviest)};
+  row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
+  row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
+  return row;
+}
+Judged judged_of(const std::vector<double>& row) {
+  Judged j;
+  const auto summary = static_cast<Eigen::Index>(row[1]);
+  j.details.pulsation = row[2], j.details.swinging = row[3];
+  j.details.heaviest = static_cast<int>(row[4]);
+  const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
+                                              static_cast<Eigen::Index>(row.size()) - kRowBegins);
+  j.observed = {all.head(summary), all.tail(all.size() - summary)};
+  return j;
+}
+
+// What the diagnosis and the simpler methods say of a row; nothing of a world that diverged.
+std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double>& row,
+                                  const std::vector<Recording>& recordings, Diagnosis& d,
+                                  ProofWorld& world) {
+  world.verdict = Verdict::undecided;
+  if (row.empty()) return std::nullopt;
+  const int kept = static_cast<int>(row[0]);
+  if (kept >= 0) {
+    world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
+  }
+  Judged judged = diagnoser.judge(judged_of(row), recordings, d);
+  world.verdict = d.verdict;
+  world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
+  for (const DiagnosisFinding& f : d.findings) {
+    world.findings.push_back({f.effect, f.alternatives, f.variable, f.z});
+  }
+  return judged;
+}
+
+// A law that no effect has, by the knots of a curve that was found: nothing if that one is of
+// something else.
+void tell_law(const SealedEffect& own, const ForceCurve& found,
+              std::map<std::string, double>& truth) {
+  const ForceCurve& law = *own.effect.curve;
+  for (const std::string& path : own.effect.paths) truth.erase(path);
+  if (law.along != found.along || law.toward != found.toward) return;
+  const auto value = [&](int knot) {
+    const auto k = static_cast<std::size_t>(knot);
+    return own.amplitudes[k] * own.effect.sizes[k];
+  };
+  for (int k = 0; k < kKnots; ++k) {
+    const KnotShare at = place_on(law, knot_at(found, k));
+    truth[own.effect.paths[static_cast<std::size_t>(k)]] =
+        (1 - at.share) * value(at.first) + at.share * value(at.second);
+  }
+}
+
+// Adds an interval beside the truth, where that is known and there is an interval.
+void compare(const std::map<std::string, double>& truth, ProofInterval of, ProofWorld& world) {
+  const auto at = truth.find(of.path);
+  if (at == truth.end() || !(of.low < of.high)) return;
+  of.truth = at->second;
+  world.intervals.push_back(std::move(of));
+}
+
+void compare_parameters(const Diagnosis& d, const std::map<std::string, double>& truth,
+                        ProofWorld& world) {
+  for (const MovedParameter& p : d.parameters) {
+    compare(truth, {p.path, 0, p.with_effects, p.low, p.high}, world);
+  }
+}
+
+// The model of a world that was told rightly, against the key and further recordings of it.
+void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
+                 double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
+  const auto further = film_sealed(tank, s, seconds, seed);
+  if (!further) return;
+  diagnoser.model_and_show(judged, *further, d);
+  auto truth = truth_of(tank, s);
+  if (s.kind == "unnamed") {
+    const int shape = judged.explanation.found.front().shape;
+    tell_law(s.effects.front(),
+             diagnoser.atlas().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
+  }
+  compare_parameters(d, truth, world);
+  for (const DiagnosisFinding& f : d.findings) {
+    for (const FoundParameter& p : f.parameters)
+      compare(truth, {p.path, 0, p.value, p.low, p.high}, world);
+  }
+  world.removed = d.removed();
+  world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
+}
+
+// Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
+// effect has by the curve that shows it best.
+double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world,
+                  std::uint64_t seed) {
+  const CalibrationSetup& setup = diagnoser.setup();
+  const auto truth = truth_of(tank, s);
+  std::vector<double> values = setup.start;
+  for (std::size_t k = 0; k < setup.told(); ++k) {
+    const auto at = truth.find(setup.paths()[k]);
+    if (at != truth.end()) values[k] = at->second;
+  }
+  const Eigen::VectorXd point = diagnoser.stages().to_scale(values);
+  double least = 1e300;
+  for (const SealedEffect& own : s.effects) {
+    const Eigen::Map<const Eigen::VectorXd> amplitudes(
+        own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
+    const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
+    const Eigen::VectorXd mean =
+        diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
+    const Naming& naming = diagnoser.naming();
+    least = std::min(least, own.like < 0 ? naming.shapes(mean).front().z
+                                         : naming.expected_z(own.like, mean, kExpectedRuns));
+  }
+  return s.effects.empty() ? 0 : least;
+}
+
+// Of a drawn tank; nothing else about it is told before the key is opened.
+DrawnTank tank_of(const ProofOptions& options) {
+  return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
+}
+std::string words_for_tank(const ProofOptions& options) {
+  return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
+         std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
+         " min, " + (options.known_flow ? "known flow" : "flow from balls");
+}
+
+// Those of the kind that is asked for.
+std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
+                              const std::vector<Shape>& shapes, std::uint64_t seed) {
+  const std::vector<Effect> effects = effect_catalogue(tank);
+  std::vector<Sealed> out;
+  for (int w = 0; w < options.worlds; ++w) {
+    Sealed one = seal(tank, effects, shapes, seed, w);
+    if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
+  }
+  if (out.empty()) {
+    throw InputError("none of the first " + std::to_string(options.worlds) +
+                     " synthetic experiments is \"" + options.only + "\"");
+  }
+  return out;
+}
+
+// One tank and its sealed experiments, asked one after another.
+class Examination {
+ public:
+  explicit Examination(const ProofOptions& options)
+      : options_(options),
+        tank_(options.drawn_tank ? tank_model(tank_of(options)) : tank_model()),
+        seed_(derived_seed(options.diagnosis.seed, kKeySeed)),
+        seconds_(60 * options.minutes),
+        shapes_(shape_catalogue(tank_, seconds_)),
+        sealed_(asked_for(options, tank_, shapes_, seed_)) {
+    out_.tank = words_for_tank(options);
+    if (options.drawn_tank) out_.key = key_text(tank_of(options));
+    for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);
+    out_.hash = sha256(out_.key), out_.sealed = sealed_.size();
+  }
+
+  Proof run() {
+    const Experiment open = open_tank(options_, tank_);
+    DiagnosisOptions job = options_.diagnosis;
+    job.hold_out = 0;
+    if (job.progress) {
+      job.progress = [this, tell = job.progress](double done, const std::string& stage) {
+        tell(done, world_told_ + stage);
+      };
+    }
+    Diagnoser diagnoser(open, job);
+    const auto lock =
+        claim_directory(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+    if (job.lock != nullptr) *job.lock = lock;
+    if (options_.sealed) options_.sealed(out_.hash);
+    diagnoser.prepare(after(diagnoser));
+    rows_ = film_all(diagnoser);
+    const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
+    const double begin = diagnoser.stages().spent();
+    for (std::size_t w = 0; w < rows_.size(); ++w) {
+      world_told_ =
+          "experiment " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
+      if (w < before.size() && !asks_for_model(before[w])) {
+        out_.worlds.push_back(before[w]);
+      } else {
+        out_.worlds.push_back(ask(diagnoser, w));
+        keep(job.out, before);
+      }
+      const ProofWorld& told = out_.worlds.back();
+      modelled_ += told.kind == "null" || told.intervals.empty() ? 0 : 1;
+      diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
+                               modelled_ * diagnoser.model_cost());
+      if (options_.judged) options_.judged(out_);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // What is told now, and after it what was told before: a world may be asked again for its model.
+  void keep(const std::string& dir, const std::vector<ProofWorld>& before) const {
+    Proof all = out_;
+    for (std::size_t w = all.worlds.size(); w < before.size(); ++w) all.worlds.push_back(before[w]);
+    keep_worlds(dir, all);
+  }
+
+  double of_a_world() const { return options_.only == "null" ? kOfANull : kOfAWorld; }
+
+  // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds.
+  double after(const Diagnoser& diagnoser) const {
+    const int experiments = DiagnosisBudget(options_.diagnosis.minutes).experiments;
+    return of_a_world() * static_cast<double>(sealed_.size()) +
+           static_cast<double>(shapes_.size()) * kKnots * experiments +
+           options_.modelled * diagnoser.model_cost();
+  }
+
+  std::uint64_t number(std::size_t w) const { return static_cast<std::uint64_t>(sealed_[w].world); }
+
+  std::optional<std::vector<Recording>> film(std::size_t w) const {
+    return film_sealed(tank_, sealed_[w], seconds_, derived_seed(seed_, kWorldSeed + number(w)));
+  }
+
+  std::vector<std::vector<double>> film_all(Diagnoser& diagnoser) const {
+    const std::string stage = options_.only.empty() ? "synthetic" : "synthetic " + options_.only;
+    const auto row = [&](int i) {
+      const auto made = film(static_cast<std::size_t>(i));
+      if (!made) return std::vector<double>{};
+      Judged j;
+      j.observed = diagnoser.atlas().vectors(*made, &j.details);
+      return row_of(j, sparse_regression(diagnoser.atlas().plan(), *made));
+    };
+    return diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row);
+  }
+
+  static bool found(const ProofWorld& world) {
+    return world.right() && world.verdict == Verdict::missing;
+  }
+  bool asks_for_model(const ProofWorld& world) const {
+    return found(world) && world.intervals.empty() && modelled_ < options_.modelled;
+  }
+
+  ProofWorld ask(Diagnoser& diagnoser, std::size_t w) const {
+    const Sealed& s = sealed_[w];
+    ProofWorld world;
+    world.kind = s.kind, world.effects = s.names;
+    world.expected_z =
+        expected_z(diagnoser, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
+    Diagnosis d;
+    std::vector<Recording> recordings;
+    if (!rows_[w].empty()) recordings = film(w).value_or(recordings);
+    const std::optional<Judged> judged = judge_world(diagnoser, rows_[w], recordings, d, world);
+    if (judged && s.kind == "null") {
+      diagnoser.tell_baseline(*judged, d);
+      compare_parameters(d, truth_of(tank_, s), world);
+    }
+    if (judged && asks_for_model(world)) {
+      model_world(diagnoser, *judged, tank_, s, seconds_,
+                  derived_seed(seed_, kFurtherSeed + number(w)), d, world);
+    }
+    return world;
+  }
+
+  const ProofOptions& options_;
+  Model tank_;
+  std::uint64_t seed_;
+  double seconds_;
+  std::vector<Shape> shapes_;
+  std::vector<Sealed> sealed_;
+  std::vector<std::vector<double>> rows_;  // what is measured in each
+  Proof out_;
+  std::string world_told_;  // before the stage, in the progress
+  int modelled_ = 0;
+};
+
+}  // namespace
+
+Proof prove(const ProofOptions& options) {
+  return Examination(options).run();
+}
+
+}  // namespace lilytank
