@@ -108,7 +108,7 @@ void Diagnoser::prepare(double after) {
   atlas_ = std::make_unique<Atlas>(
       stages_, *maps_, plan(now.point), now.point, spread_,
       AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
-  naming_ = std::make_unique<Naming>(
+  selection_ = std::make_unique<ModelSelection>(
       atlas_->null_residuals(), correlations_of(atlas_->informations()), atlas_->plan().effects,
       atlas_->fingerprints(), atlas_->plan().shapes.size(), options_.false_alarms);
 }
@@ -122,19 +122,20 @@ Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out
 Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diagnosis& out) {
   const Vector residual = atlas_->residual(j.observed);
   j.tag = hex(fnv_of(j.observed.scores));
-  Naming naming = *naming_;
+  ModelSelection selection = *selection_;
   Alignment alignment(*atlas_, recordings);
-  naming.widen(alignment.further_variance());
+  selection.inflate_covariance(alignment.further_variance());
   const std::vector<Effect>& effects = atlas_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     EffectFit of;
     of.effect = static_cast<int>(e);
-    naming.sharpen(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
+    selection.set_fingerprint(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
   }
-  j.explanation = sharpened(naming, alignment, explained(naming, alignment, residual), j, residual);
-  tell_ranking(naming, residual, j.explanation, out);
-  tell_detectable(naming, out);
-  tell_findings(naming, residual, j.explanation, out);
+  j.selected =
+      sharpened(selection, alignment, explained(selection, alignment, residual), j, residual);
+  tell_ranking(selection, residual, j.selected, out);
+  tell_detectable(selection, out);
+  tell_findings(selection, residual, j.selected, out);
   return j;
 }
 

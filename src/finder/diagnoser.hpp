@@ -9,7 +9,7 @@
 
 #include "finder/alignment.hpp"
 #include "finder/joint.hpp"
-#include "finder/naming.hpp"
+#include "finder/model_selection.hpp"
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank {
@@ -24,7 +24,7 @@ struct DiagnosisBudget {
 struct Judged {
   Vectors observed;
   ScoreDetails details;
-  Explanation explanation;
+  SelectedModel selected;
   std::string tag;  ///< for the names of what is kept of these recordings
 };
 
@@ -53,7 +53,7 @@ class Diagnoser {
   void run(Diagnosis& out);
 
   Atlas& atlas() { return *atlas_; }
-  const Naming& naming() const { return *naming_; }
+  const ModelSelection& selection() const { return *selection_; }
   const CalibrationSetup& setup() const { return setup_; }
   Stages& stages() { return stages_; }
 
@@ -66,10 +66,12 @@ class Diagnoser {
   };
   Centre centre_of(const Centre& before, int round, const FlowMaps& maps, const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
-  Explanation explained(Naming& naming, Alignment& alignment, const Eigen::VectorXd& residual);
-  bool plain(const Naming& naming, const Explanation& e, const Eigen::VectorXd& residual) const;
-  Explanation sharpened(Naming& naming, Alignment& alignment, Explanation e, Judged& judged,
-                        const Eigen::VectorXd& residual);
+  SelectedModel explained(ModelSelection& selection, Alignment& alignment,
+                          const Eigen::VectorXd& residual);
+  bool plain(const ModelSelection& selection, const SelectedModel& e,
+             const Eigen::VectorXd& residual) const;
+  SelectedModel sharpened(ModelSelection& selection, Alignment& alignment, SelectedModel e,
+                          Judged& judged, const Eigen::VectorXd& residual);
   class Sharpening;
   const Effect& effect(const EffectFit& fit) const;
   /// The effect of this name as recordings tell it directly: a stream at its place, with its speed,
@@ -88,18 +90,18 @@ class Diagnoser {
   Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
                                const Judged& judged, LearnedFingerprints& learned,
                                int experiments = Atlas::kAbout);
-  void tell_ranking(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
-                    Diagnosis& out) const;
+  void tell_ranking(const ModelSelection& selection, const Eigen::VectorXd& residual,
+                    const SelectedModel& e, Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
-  void tell_detectable(const Naming& naming, Diagnosis& out) const;
-  bool is_told(const Explanation& e, const Effect& one) const;
+  void tell_detectable(const ModelSelection& selection, Diagnosis& out) const;
+  bool is_told(const SelectedModel& e, const Effect& one) const;
   const FoundCurve* map_of(const std::string& variable, const Diagnosis& out) const;
   void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
-  void tell_findings(const Naming& naming, const Eigen::VectorXd& residual, const Explanation& e,
-                     Diagnosis& out) const;
-  static void disown(const Explanation& e, Diagnosis& out);
-  void warn_of_rest(const Explanation& e, Diagnosis& out) const;
-  void blame_camera(const Explanation& e, Diagnosis& out) const;
+  void tell_findings(const ModelSelection& selection, const Eigen::VectorXd& residual,
+                     const SelectedModel& e, Diagnosis& out) const;
+  static void disown(const SelectedModel& e, Diagnosis& out);
+  void warn_of_rest(const SelectedModel& e, Diagnosis& out) const;
+  void blame_camera(const SelectedModel& e, Diagnosis& out) const;
   void tell_camera(const std::vector<double>& values, Diagnosis& out) const;
   void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
                        Diagnosis& out) const;
@@ -115,7 +117,7 @@ class Diagnoser {
   Eigen::MatrixXd spread_;
   Eigen::VectorXd deviation_;  ///< of the baseline's parameters
   std::unique_ptr<Atlas> atlas_;
-  std::unique_ptr<Naming> naming_;
+  std::unique_ptr<ModelSelection> selection_;
   std::map<int, Fingerprint> shape_fingerprints_;  ///< those asked for, by the plan's index
 };
 

@@ -31,19 +31,19 @@ std::string place_words(const std::string& variable) {
 
 }  // namespace
 
-void Diagnoser::tell_ranking(const Naming& naming, const Vector& residual, const Explanation& e,
-                             Diagnosis& out) const {
-  for (const EffectFit& f : naming.effects(residual)) {
+void Diagnoser::tell_ranking(const ModelSelection& selection, const Vector& residual,
+                             const SelectedModel& e, Diagnosis& out) const {
+  for (const EffectFit& f : selection.effects(residual)) {
     const auto k = static_cast<std::size_t>(f.effect);
     if (f.effect < 0) continue;
     const Effect& effect = atlas_->plan().effects[k];
     out.ranking.push_back({effect.name, effect.variant(), f.z});
   }
-  out.effect_threshold = naming.effect_threshold();
-  out.shape_threshold = naming.shape_threshold(), out.false_alarms = options_.false_alarms;
+  out.effect_threshold = selection.effect_threshold();
+  out.shape_threshold = selection.shape_threshold(), out.false_alarms = options_.false_alarms;
   out.strongest_left = std::max(e.left_effect.z, e.left_shape.z);
   std::vector<double> z(atlas_->plan().shapes.size(), 0.0);
-  for (const EffectFit& f : naming.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
+  for (const EffectFit& f : selection.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
   for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(residual, s, z[s]));
 }
 
@@ -64,10 +64,10 @@ FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) con
   return c;
 }
 
-void Diagnoser::tell_detectable(const Naming& naming, Diagnosis& out) const {
+void Diagnoser::tell_detectable(const ModelSelection& selection, Diagnosis& out) const {
   for (std::size_t e = 0; e < atlas_->plan().effects.size(); ++e) {
     const Effect& effect = atlas_->plan().effects[e];
-    const double least = naming.smallest_seen(static_cast<int>(e)) * effect.sizes[0];
+    const double least = selection.smallest_detectable(static_cast<int>(e)) * effect.sizes[0];
     const double tried = kLearnedSize * effect.sizes[0];
     const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
                                    [&](const Detectable& d) { return d.path == effect.paths[0]; });
@@ -115,19 +115,19 @@ void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
 }
 
 // Whether an effect of its family is a finding itself.
-bool Diagnoser::is_told(const Explanation& e, const Effect& one) const {
+bool Diagnoser::is_told(const SelectedModel& e, const Effect& one) const {
   return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
     return fit.effect >= 0 && effect(fit).family == one.family;
   });
 }
 
-void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, const Explanation& e,
-                              Diagnosis& out) const {
-  const std::vector<EffectFit> ranked = naming.effects(residual);
+void Diagnoser::tell_findings(const ModelSelection& selection, const Vector& residual,
+                              const SelectedModel& e, Diagnosis& out) const {
+  const std::vector<EffectFit> ranked = selection.effects(residual);
   for (std::size_t i = 0; i < e.found.size(); ++i) {
     const EffectFit& fit = e.found[i];
     DiagnosisFinding f;
-    f.z = fit.z, f.confidence = naming.confidence(fit);
+    f.z = fit.z, f.confidence = selection.confidence(fit);
     if (fit.effect >= 0) {
       const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
       f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
@@ -153,17 +153,17 @@ void Diagnoser::tell_findings(const Naming& naming, const Vector& residual, cons
   }
   out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
   blame_camera(e, out);
-  if (e.found.empty() && naming.leaves_something(e)) out.verdict = Verdict::undecided;
+  if (e.found.empty() && selection.leaves_residual(e)) out.verdict = Verdict::undecided;
   if (e.found.empty()) return;
-  if (naming.fails(e)) {
+  if (selection.fails(e)) {
     disown(e, out);
-  } else if (out.verdict == Verdict::missing && naming.leaves_something(e)) {
+  } else if (out.verdict == Verdict::missing && selection.leaves_residual(e)) {
     warn_of_rest(e, out);
   }
 }
 
 // Findings that leave more than a complete experiment has, and no name for the rest.
-void Diagnoser::warn_of_rest(const Explanation& e, Diagnosis& out) const {
+void Diagnoser::warn_of_rest(const SelectedModel& e, Diagnosis& out) const {
   std::string text = "the remaining discrepancy exceeds that of null experiments";
   if (e.left_shape.z > out.shape_threshold) {
     const Shape& shape = atlas_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
@@ -174,7 +174,7 @@ void Diagnoser::warn_of_rest(const Explanation& e, Diagnosis& out) const {
 }
 
 // Names that leave most of the mismatch are not told as findings.
-void Diagnoser::disown(const Explanation& e, Diagnosis& out) {
+void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
   std::string names;
   for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
   char share[40];
@@ -185,7 +185,7 @@ void Diagnoser::disown(const Explanation& e, Diagnosis& out) {
 }
 
 // Where the camera is at fault, what else was found may be its shadow: forces are not told.
-void Diagnoser::blame_camera(const Explanation& e, Diagnosis& out) const {
+void Diagnoser::blame_camera(const SelectedModel& e, Diagnosis& out) const {
   std::vector<DiagnosisFinding> faults;
   for (std::size_t i = 0; i < e.found.size(); ++i) {
     if (e.found[i].effect < 0) continue;

@@ -232,8 +232,8 @@ class Rounds {
     all_ = {};
   }
 
-  // Of the baseline what the experiment says, of amplitudes what their naming did; of ranges, times
-  // and places nothing but where the design is. Never surer than the design's points.
+  // Of the baseline what the experiment says, of amplitudes what the selection did; of ranges,
+  // times and places nothing but where the design is. Never surer than the design's points.
   Prior known_before() const {
     Prior out{centre_, (kPrior * (bounds_.high - bounds_.low)).cwiseMin(known_)};
     out.deviation = out.deviation.cwiseMax(width_.diagonal());

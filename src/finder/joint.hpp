@@ -30,7 +30,7 @@ struct JointStart {
 /// An effect that was found, and how much of it.
 struct JointEffect {
   Effect effect;
-  Eigen::VectorXd amplitudes;  ///< the naming's, in units of the effect's sizes
+  Eigen::VectorXd amplitudes;  ///< the selection's, in units of the effect's sizes
   int shape = -1;              ///< the plan's, if it is one: then its own scores speak as well
 };
 

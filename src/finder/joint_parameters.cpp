@@ -15,9 +15,9 @@ using Vector = Eigen::VectorXd;
 
 // Deviations of the first design: of what is refined, on its log scale, and of places.
 constexpr double kRefined = 0.25, kPlaced = 0.06;
-// Deviation of an effect's amplitudes about what its naming said, in their root mean square, that
-// holds before simulations of the joint fit say more: knots that hardly any module visits are told
-// by nothing else.
+// Deviation of an effect's amplitudes about what the selection said, in their root mean square,
+// that holds before simulations of the joint fit say more: knots that hardly any module visits are
+// told by nothing else.
 constexpr double kNamed = 1;
 
 // Where the amplitudes of each effect begin among the parameters.

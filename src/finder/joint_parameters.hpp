@@ -14,8 +14,8 @@ struct Beginning {
     at.push_back(centre), wide.push_back(width), known.push_back(deviation);
   }
 };
-/// The first design, from the baseline's answer and what naming said of the effects; fills `fit`
-/// with the model that has the effects and the list of what is fitted.
+/// The first design, from the baseline's answer and what the selection said of the effects; fills
+/// `fit` with the model that has the effects and the list of what is fitted.
 Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
                 const JointStart& baseline, JointFit& fit);
 

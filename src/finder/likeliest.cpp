@@ -19,10 +19,10 @@ constexpr double kLeastOwn = 1;     // z of an effect by the scatter of experime
 std::optional<EffectFit> Diagnoser::Sharpening::likeliest(bool effects_only,
                                                           const std::string& variable) const {
   const auto doubt = [](const auto& one) {
-    return one.second.doubt + (one.first.first < 0 ? kNamesFirst : 0);
+    return one.second.penalized_deviance + (one.first.first < 0 ? kNamesFirst : 0);
   };
   const auto least = [&](const auto& a, const auto& b) { return doubt(a) < doubt(b); };
-  std::map<Name, Naming::Alone> those = alone_;
+  std::map<Name, SingleFit> those = alone_;
   if (effects_only) {
     std::erase_if(those, [](const auto& one) { return one.first.first < 0; });
   }
@@ -39,7 +39,7 @@ std::optional<EffectFit> Diagnoser::Sharpening::likeliest(bool effects_only,
   return out;
 }
 
-Explanation Diagnoser::Sharpening::explained() {
+SelectedModel Diagnoser::Sharpening::explained() {
   for (int pass = 0; pass < kMostCentred; ++pass) {
     bool moved = false;
     for (const bool effects_only : {false, true}) {
@@ -50,37 +50,39 @@ Explanation Diagnoser::Sharpening::explained() {
     if (!moved) break;
   }
   const std::optional<EffectFit> likely = likeliest();
-  if (likely) naming_.loosen(known_[name_of(*likely)].scatter);
-  return explained_by(naming_);
+  if (likely) selection_.inflate_by_scatter(known_[name_of(*likely)].scatter);
+  return explained_by(selection_);
 }
 
-Explanation Diagnoser::Sharpening::explained_by(const Naming& naming) const {
+SelectedModel Diagnoser::Sharpening::explained_by(const ModelSelection& selection) const {
   const std::optional<EffectFit> likely = likeliest();
-  Explanation e = naming.explain(residual_);
-  if (e.found.empty() && likely && nothing_ > naming.misfit_threshold()) {
-    return something(naming, likeliest(true).value_or(*likely));
+  SelectedModel e = selection.select(residual_);
+  if (e.found.empty() && likely && nothing_ > selection.misfit_threshold()) {
+    return something(selection, likeliest(true).value_or(*likely));
   }
   if (!likely || likely->shape >= 0 || is_found(*likely, e)) return e;
-  Explanation other = naming.explain(residual_, {*likely});
-  if (leaves_curve(naming, other) && !naming.leaves_something(e)) return e;
-  return other.doubt < e.doubt ? other : e;
+  SelectedModel other = selection.select(residual_, {*likely});
+  if (leaves_curve(selection, other) && !selection.leaves_residual(e)) return e;
+  return other.penalized_deviance < e.penalized_deviance ? other : e;
 }
 
-Explanation Diagnoser::Sharpening::something(const Naming& naming, const EffectFit& likely) const {
-  Explanation e = naming.explain(residual_, {likely});
+SelectedModel Diagnoser::Sharpening::something(const ModelSelection& selection,
+                                               const EffectFit& likely) const {
+  SelectedModel e = selection.select(residual_, {likely});
   if (e.found.empty() || e.found[0].z < kLeastOwn) {
     e.found.clear(), e.misfit = nothing_, e.share_left = 1;
   }
   return e;
 }
 
-bool Diagnoser::Sharpening::leaves_curve(const Naming& naming, const Explanation& e) const {
+bool Diagnoser::Sharpening::leaves_curve(const ModelSelection& selection,
+                                         const SelectedModel& e) const {
   double largest = 0;
   for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
-  return e.left_shape.z > std::max(naming.shape_threshold(), kCurveLeft * largest);
+  return e.left_shape.z > std::max(selection.shape_threshold(), kCurveLeft * largest);
 }
 
-bool Diagnoser::Sharpening::is_found(const EffectFit& f, const Explanation& e) const {
+bool Diagnoser::Sharpening::is_found(const EffectFit& f, const SelectedModel& e) const {
   return std::any_of(e.found.begin(), e.found.end(),
                      [&](const EffectFit& other) { return name_of(other) == name_of(f); });
 }

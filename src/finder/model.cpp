@@ -79,7 +79,7 @@ std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& ou
 
 void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
                                Diagnosis& out) {
-  const Explanation& e = judged.explanation;
+  const SelectedModel& e = judged.selected;
   const Vectors& observed = judged.observed;
   const Vector baseline = atlas_->calibrated(observed.summary);
   const std::vector<double> before = tell_baseline(judged, out);
@@ -98,9 +98,9 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   const JointStart start{stages_.to_scale(setup_.start),
                          (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(
-      stages_, *maps_, *atlas_, found, observed, start,
-      {budget_.round, naming_->effect_threshold(), judged.tag, derived_seed(options_.seed, 700)});
+  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, found, observed, start,
+                                   {budget_.round, selection_->effect_threshold(), judged.tag,
+                                    derived_seed(options_.seed, 700)});
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }

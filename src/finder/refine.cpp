@@ -24,7 +24,7 @@ constexpr double kLeastFall = 4;  // of a doubt, that makes a range the better o
 
 }  // namespace
 
-ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const Effect& scanned) const {
+ScorePlan Diagnoser::Sharpening::beside(const SelectedModel& e, const Effect& scanned) const {
   ScorePlan plan = of_.atlas_->plan();
   for (const EffectFit& f : e.found) {
     const Effect effect = of_.found_effect(f, judged_.details);
@@ -34,7 +34,7 @@ ScorePlan Diagnoser::Sharpening::beside(const Explanation& e, const Effect& scan
   return plan;
 }
 
-bool Diagnoser::Sharpening::rescan(const Explanation& e) {
+bool Diagnoser::Sharpening::rescan(const SelectedModel& e) {
   bool moved = false;
   std::set<int> done;
   for (const Effect& one : of_.atlas_->plan().effects) {
@@ -48,7 +48,7 @@ bool Diagnoser::Sharpening::rescan(const Explanation& e) {
   return moved;
 }
 
-bool Diagnoser::Sharpening::rescan_stream(const Explanation& e, const Effect& stream) {
+bool Diagnoser::Sharpening::rescan_stream(const SelectedModel& e, const Effect& stream) {
   const ScorePlan plan = beside(e, stream);
   if (plan.beside.empty()) return false;
   StreamPlace& was = judged_.details.scans.stream;
@@ -59,7 +59,7 @@ bool Diagnoser::Sharpening::rescan_stream(const Explanation& e, const Effect& st
   return true;
 }
 
-bool Diagnoser::Sharpening::rescan(const Explanation& e, const Effect& scanned) {
+bool Diagnoser::Sharpening::rescan(const SelectedModel& e, const Effect& scanned) {
   const ScorePlan plan = beside(e, scanned);
   if (plan.beside.empty()) return false;
   const auto all = find_values(plan, alignment_.recordings());
@@ -80,7 +80,7 @@ bool Diagnoser::Sharpening::rescan(const Explanation& e, const Effect& scanned) 
   return true;
 }
 
-std::vector<EffectFit> Diagnoser::Sharpening::refinable(const Explanation& e) const {
+std::vector<EffectFit> Diagnoser::Sharpening::refinable(const SelectedModel& e) const {
   std::vector<EffectFit> out;
   if (const auto name = likeliest(true)) out.push_back(*name);
   for (const EffectFit& f : e.found) {
@@ -92,10 +92,10 @@ std::vector<EffectFit> Diagnoser::Sharpening::refinable(const Explanation& e) co
   return out;
 }
 
-bool Diagnoser::Sharpening::refine(const Explanation& e) {
+bool Diagnoser::Sharpening::refine(const SelectedModel& e) {
   const bool curve =
       std::any_of(e.found.begin(), e.found.end(), [](const EffectFit& f) { return f.effect < 0; });
-  if (!(curve || naming_.leaves_something(e))) return false;
+  if (!(curve || selection_.leaves_residual(e))) return false;
   bool better = false;
   for (const EffectFit& name : refinable(e)) {
     for (const FitParameter& p : of_.effect(name).refine) {
@@ -118,10 +118,12 @@ bool Diagnoser::Sharpening::close_call() {
   const Suspect *name = nullptr, *curve = nullptr;
   for (const Suspect& one : alone_) {
     const Suspect*& best = one.first.first < 0 ? curve : name;
-    if (best == nullptr || one.second.doubt < best->second.doubt) best = &one;
+    if (best == nullptr || one.second.penalized_deviance < best->second.penalized_deviance)
+      best = &one;
   }
   if (name == nullptr || curve == nullptr) return false;
-  if (std::fabs(name->second.doubt - curve->second.doubt) > kClose) return false;
+  if (std::fabs(name->second.penalized_deviance - curve->second.penalized_deviance) > kClose)
+    return false;
   for (const Name& of : {name->first, curve->first}) {
     EffectFit f;
     std::tie(f.effect, f.shape) = of;
@@ -131,9 +133,9 @@ bool Diagnoser::Sharpening::close_call() {
   return true;
 }
 
-bool Diagnoser::Sharpening::made_sure(const Explanation& e) {
+bool Diagnoser::Sharpening::made_sure(const SelectedModel& e) {
   const std::optional<EffectFit> likely = likeliest();
-  const bool left = e.found.size() > 1 || naming_.leaves_something(e);
+  const bool left = e.found.size() > 1 || selection_.leaves_residual(e);
   if (!likely || !left || known_.at(name_of(*likely)).experiments >= kMany) return false;
   sharpen(*likely, kMany);
   return true;
@@ -150,19 +152,19 @@ bool Diagnoser::Sharpening::fits_better(const EffectFit& name, const FitParamete
   }
   const double next = std::clamp(now * factor, p.low, p.high);
   if (next == now) return false;
-  const double doubt = alone_.at(name_of(f)).doubt;
-  const auto before = std::tuple(known_, alone_, home_, step_, naming_, judged_.details.refined);
+  const double doubt = alone_.at(name_of(f)).penalized_deviance;
+  const auto before = std::tuple(known_, alone_, home_, step_, selection_, judged_.details.refined);
   judged_.details.refined[p.path] = next;
   home_[of_.effect(f).family] = name_of(f).first;
   sharpen(f);
   f.amplitudes = alone_.at(name_of(f)).amplitudes;
   if (off_centre(f, kBeside)) sharpen(f);
-  if (alone_.at(name_of(f)).doubt < doubt - kLeastFall) return true;
-  std::tie(known_, alone_, home_, step_, naming_, judged_.details.refined) = before;
+  if (alone_.at(name_of(f)).penalized_deviance < doubt - kLeastFall) return true;
+  std::tie(known_, alone_, home_, step_, selection_, judged_.details.refined) = before;
   return false;
 }
 
-Explanation Diagnoser::Sharpening::met(Explanation e) {
+SelectedModel Diagnoser::Sharpening::met(SelectedModel e) {
   std::set<std::string> told;
   while (e.found.size() > 1 && told.size() < kMostMeetings) {
     std::vector<EffectFit> found = e.found;
@@ -177,16 +179,16 @@ Explanation Diagnoser::Sharpening::met(Explanation e) {
     });
     if (camera || !told.insert(name).second) break;
     const Fingerprint at_once = simulated(found, name);
-    Naming both = naming_;
-    both.add_meeting(found, at_once.base, at_once.experiments);
+    ModelSelection both = selection_;
+    both.add_interaction(found, at_once.base, at_once.experiments);
     // Without their scatter if it does not make them likelier.
-    naming_ = both;
-    both.loosen(at_once.scatter);
-    Explanation loose = explained_by(both);
-    if (loose.doubt <= e.doubt) {
-      naming_ = std::move(both), e = std::move(loose);
+    selection_ = both;
+    both.inflate_by_scatter(at_once.scatter);
+    SelectedModel loose = explained_by(both);
+    if (loose.penalized_deviance <= e.penalized_deviance) {
+      selection_ = std::move(both), e = std::move(loose);
     } else {
-      e = explained_by(naming_);
+      e = explained_by(selection_);
     }
   }
   return e;

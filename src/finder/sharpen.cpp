@@ -31,20 +31,22 @@ double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldPara
 }  // namespace
 
 // Named effects first; a shape competes with them where they leave something.
-Explanation Diagnoser::explained(Naming& naming, Alignment& alignment, const Vector& residual) {
-  Explanation e = naming.explain(residual);
-  const std::vector<EffectFit> shapes = naming.shapes(residual);
+SelectedModel Diagnoser::explained(ModelSelection& selection, Alignment& alignment,
+                                   const Vector& residual) {
+  SelectedModel e = selection.select(residual);
+  const std::vector<EffectFit> shapes = selection.shapes(residual);
   std::vector<int> asked;
-  if (shapes[0].z > naming.shape_threshold() && (e.found.empty() || shapes[0].z > e.found[0].z)) {
+  if (shapes[0].z > selection.shape_threshold() &&
+      (e.found.empty() || shapes[0].z > e.found[0].z)) {
     asked.push_back(shapes[0].shape);
   }
   double largest = 0;
   for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
-  if (e.left_shape.z > std::max(naming.shape_threshold(), 0.15 * largest)) {
+  if (e.left_shape.z > std::max(selection.shape_threshold(), 0.15 * largest)) {
     if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
   }
   // What leaves much may be a law of the same variable.
-  if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > naming.misfit_threshold()) {
+  if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
     const std::string& variable = effect(e.found[0]).variable;
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
       return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
@@ -55,32 +57,33 @@ Explanation Diagnoser::explained(Naming& naming, Alignment& alignment, const Vec
   }
   for (const int s : asked) {
     const Effect curve = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
-    naming.add_shape(s, alignment.aligned(shape_fingerprint(s), curve));
+    selection.add_shape(s, alignment.aligned(shape_fingerprint(s), curve));
   }
-  return asked.empty() ? e : naming.explain(residual);
+  return asked.empty() ? e : selection.select(residual);
 }
 
 // One effect of a size like those that were simulated explains all there is, leaves nothing, and
 // nothing else comes near.
-bool Diagnoser::plain(const Naming& naming, const Explanation& e, const Vector& residual) const {
+bool Diagnoser::plain(const ModelSelection& selection, const SelectedModel& e,
+                      const Vector& residual) const {
   const EffectFit& f = e.found.front();
-  if (e.found.size() > 1 || naming.leaves_something(e)) return false;
+  if (e.found.size() > 1 || selection.leaves_residual(e)) return false;
   if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
-  const std::vector<EffectFit> leading = naming.leading(residual, kRivals + 3);
+  const std::vector<EffectFit> leading = selection.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
     const bool same = other.effect >= 0 && effect(other).family == effect(f).family;
     return !same && other.gain > kNearGain * leading.front().gain;
   });
 }
 
-Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, Naming& naming, Alignment& alignment,
-                                  Judged& judged, const Vector& residual)
+Diagnoser::Sharpening::Sharpening(Diagnoser& diagnoser, ModelSelection& selection,
+                                  Alignment& alignment, Judged& judged, const Vector& residual)
     : of_(diagnoser),
-      naming_(naming),
+      selection_(selection),
       alignment_(alignment),
       judged_(judged),
       residual_(residual),
-      nothing_(diagnoser.naming_->misfit_of_nothing(residual)) {
+      nothing_(diagnoser.selection_->baseline_misfit(residual)) {
   find_homes();
 }
 
@@ -98,15 +101,15 @@ void Diagnoser::Sharpening::find_homes() {
   }
 }
 
-Explanation Diagnoser::Sharpening::run() {
-  const std::vector<EffectFit> leading = naming_.leading(residual_, kRivals);
+SelectedModel Diagnoser::Sharpening::run() {
+  const std::vector<EffectFit> leading = selection_.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
     if (blunt(f) && f.gain > kFirstRival * leading[0].gain) sharpen(f);
   }
   for (const EffectFit& f : clearest()) {
     if (blunt(f)) sharpen(f);
   }
-  Explanation e = explained();
+  SelectedModel e = explained();
   e = settled(std::move(e));
   if (rescan(e)) e = settled(explained());
   if (refine(e)) e = settled(explained());
@@ -146,7 +149,7 @@ void Diagnoser::Sharpening::forget(int family) {
     EffectFit f;
     f.effect = known->first.first;
     known = known_.erase(known);
-    naming_.sharpen(f, fingerprint(f));
+    selection_.set_fingerprint(f, fingerprint(f));
   }
 }
 
@@ -158,8 +161,8 @@ void Diagnoser::Sharpening::sharpen(EffectFit f, int experiments) {
       alignment_.aligned(of_.fingerprint_near(f, from, judged_, learned_, experiments),
                          of_.found_effect(f, judged_.details));
   known_[name_of(f)] = to;
-  naming_.sharpen(f, to);
-  alone_[name_of(f)] = naming_.alone(residual_, f.effect, f.shape);
+  selection_.set_fingerprint(f, to);
+  alone_[name_of(f)] = selection_.fit_alone(residual_, f.effect, f.shape);
 }
 
 // Two places may each point to the other: a step back is half as long.
@@ -172,7 +175,7 @@ Vector Diagnoser::Sharpening::halfway(const EffectFit& f, const Fingerprint& fro
   return from.about + step;
 }
 
-Explanation Diagnoser::Sharpening::settled(Explanation e) {
+SelectedModel Diagnoser::Sharpening::settled(SelectedModel e) {
   for (int more = 0; more < kMostSharpened; ++more) {
     const std::optional<EffectFit> next = next_after(e);
     if (!next) break;
@@ -238,7 +241,7 @@ bool Diagnoser::Sharpening::blunt(const EffectFit& f) const {
   if (!(f.amplitudes.norm() > kLeastAmplitude)) return false;
   if (known_.count(name_of(f)) == 0) return true;
   const auto times = moved_.find(name_of(f));
-  return f.at_reach && off_centre(f) && (times == moved_.end() || times->second < kMostMoved);
+  return f.at_bound && off_centre(f) && (times == moved_.end() || times->second < kMostMoved);
 }
 
 bool Diagnoser::Sharpening::off_centre(const EffectFit& f, double far) const {
@@ -248,14 +251,14 @@ bool Diagnoser::Sharpening::off_centre(const EffectFit& f, double far) const {
   return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
 }
 
-std::optional<EffectFit> Diagnoser::Sharpening::next_after(const Explanation& e) {
+std::optional<EffectFit> Diagnoser::Sharpening::next_after(const SelectedModel& e) {
   // Those that were judged so already take no other's place.
   std::vector<EffectFit> next =
-      naming_.leading(residual_, kRivals + static_cast<int>(known_.size()));
+      selection_.leading(residual_, kRivals + static_cast<int>(known_.size()));
   next.erase(std::remove_if(next.begin() + 1, next.end(),
                             [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
              next.end());
-  const std::vector<EffectFit> rivals = naming_.rivals(residual_, e.found, kRival, kRivals);
+  const std::vector<EffectFit> rivals = selection_.rivals(residual_, e.found, kRival, kRivals);
   next.insert(next.end(), rivals.begin(), rivals.end());
   for (const EffectFit& f : next) {
     if (blunt(f)) return f;
@@ -266,12 +269,12 @@ std::optional<EffectFit> Diagnoser::Sharpening::next_after(const Explanation& e)
   return std::nullopt;
 }
 
-Explanation Diagnoser::sharpened(Naming& naming, Alignment& alignment, Explanation e,
-                                 Judged& judged, const Vector& residual) {
+SelectedModel Diagnoser::sharpened(ModelSelection& selection, Alignment& alignment, SelectedModel e,
+                                   Judged& judged, const Vector& residual) {
   if (e.found.empty()) return e;
   judged.details.scans = scans_of(atlas_->plan(), alignment.recordings(), options_.threads);
-  if (plain(naming, e, residual)) return e;
-  return Sharpening(*this, naming, alignment, judged, residual).run();
+  if (plain(selection, e, residual)) return e;
+  return Sharpening(*this, selection, alignment, judged, residual).run();
 }
 
 }  // namespace lilytank

@@ -15,16 +15,16 @@ namespace lilytank {
 // experiments of its own strength.
 class Diagnoser::Sharpening {
  public:
-  Sharpening(Diagnoser& diagnoser, Naming& naming, Alignment& alignment, Judged& judged,
+  Sharpening(Diagnoser& diagnoser, ModelSelection& selection, Alignment& alignment, Judged& judged,
              const Eigen::VectorXd& residual);
 
   // First those that might be it, then whatever leads, what is found and its rivals beside the
   // others.
-  Explanation run();
+  SelectedModel run();
 
  private:
   using Name = std::pair<int, int>;  // effect and shape
-  using Suspect = std::pair<const Name, Naming::Alone>;
+  using Suspect = std::pair<const Name, SingleFit>;
   // Of the spread of experiments, that the likeliest may be off.
   static constexpr double kBeside = 0.5;
 
@@ -41,7 +41,7 @@ class Diagnoser::Sharpening {
   // Where further experiments with an effect are to be.
   Eigen::VectorXd halfway(const EffectFit& f, const Fingerprint& from);
   // Learns those that the explanation asks for, until it asks for none.
-  Explanation settled(Explanation e);
+  SelectedModel settled(SelectedModel e);
   // Where its first experiments are to be.
   EffectFit begun(EffectFit f);
   // What the filter says of an effect or a curve in the very recordings; asked once.
@@ -55,7 +55,7 @@ class Diagnoser::Sharpening {
   // What is found should be where its experiments were, not beside them. `far`: in their spread.
   bool off_centre(const EffectFit& f, double far = 1) const;
   // What is to be sharpened next, if anything.
-  std::optional<EffectFit> next_after(const Explanation& e);
+  std::optional<EffectFit> next_after(const SelectedModel& e);
 
   // What is told (likeliest.cpp).
 
@@ -65,51 +65,51 @@ class Diagnoser::Sharpening {
                                      const std::string& variable = "") const;
   // Judged by the scatter of the experiments with what is likeliest. These are to be where it is,
   // and so are those of the likeliest name: off it, a curve would seem to fit better.
-  Explanation explained();
+  SelectedModel explained();
   // What adds up from others has to be likelier than an effect that is; curves can do so much that
   // they come after names.
-  Explanation explained_by(const Naming& naming) const;
+  SelectedModel explained_by(const ModelSelection& selection) const;
   // By the wide scatter of experiments with an effect there may seem to be nothing; but without an
   // effect there is no such scatter. What hardly speaks even so is not told.
-  Explanation something(const Naming& naming, const EffectFit& likely) const;
+  SelectedModel something(const ModelSelection& selection, const EffectFit& likely) const;
   // Whether a curve is left that is not much weaker than what was found: more than what a
   // fingerprint is wrong by.
-  bool leaves_curve(const Naming& naming, const Explanation& e) const;
-  bool is_found(const EffectFit& f, const Explanation& e) const;
+  bool leaves_curve(const ModelSelection& selection, const SelectedModel& e) const;
+  bool is_found(const EffectFit& f, const SelectedModel& e) const;
 
   // Further experiments (refine.cpp).
 
   // Beside a strong effect, the place of a stream and the ranges of forces are not where they seem
   // to be without it. True if one of them is elsewhere.
-  bool rescan(const Explanation& e);
-  bool rescan_stream(const Explanation& e, const Effect& stream);
+  bool rescan(const SelectedModel& e);
+  bool rescan_stream(const SelectedModel& e, const Effect& stream);
   // The range of this effect.
-  bool rescan(const Explanation& e, const Effect& scanned);
+  bool rescan(const SelectedModel& e, const Effect& scanned);
   // Scores beside all strong ones but those of the law that is scanned, and curves that may stand
   // for it.
-  ScorePlan beside(const Explanation& e, const Effect& scanned) const;
+  ScorePlan beside(const SelectedModel& e, const Effect& scanned) const;
   // Where the likeliest name leaves something, its law may have another range, time or length than
   // the experiments with it had; so may that of a name of the same variable as a curve. Each is
   // sought up and down until it fits no better.
-  bool refine(const Explanation& e);
-  std::vector<EffectFit> refinable(const Explanation& e) const;
+  bool refine(const SelectedModel& e);
+  std::vector<EffectFit> refinable(const SelectedModel& e) const;
   bool refined(const EffectFit& name, const FitParameter& p);
   // Where the likeliest name and the likeliest curve are about as likely, more experiments with
   // each are to tell: by ten a doubt is known to some ten only.
   bool close_call();
   // Where something is left beside what is likeliest, more experiments with that are to tell: by
   // ten its scatter is known along ten directions only. True if they were made.
-  bool made_sure(const Explanation& e);
+  bool made_sure(const SelectedModel& e);
   // Whether the law fits better with this parameter times a factor; if not, all is as before.
   bool fits_better(const EffectFit& name, const FitParameter& p, double factor);
   // Several effects need not add up: modules that one holds together another cannot move apart.
   // What they do at once is simulated as well.
-  Explanation met(Explanation e);
+  SelectedModel met(SelectedModel e);
   // By experiments with all of them, about these amplitudes.
   Fingerprint simulated(const std::vector<EffectFit>& found, const std::string& name);
 
   Diagnoser& of_;
-  Naming& naming_;
+  ModelSelection& selection_;
   Alignment& alignment_;
   Judged& judged_;
   const Eigen::VectorXd& residual_;
@@ -118,7 +118,7 @@ class Diagnoser::Sharpening {
   std::map<Name, JointAmplitudes> own_;  // what the filter says of effects
   std::map<Name, Fingerprint> known_;    // fingerprints about found amplitudes
   LearnedFingerprints learned_;          // all that there were
-  std::map<Name, Naming::Alone> alone_;
+  std::map<Name, SingleFit> alone_;
   std::set<Name> centred_;
   std::map<Name, int> moved_;             // how often experiments of its own were made anew
   std::map<Name, Eigen::VectorXd> step_;  // by which they moved last

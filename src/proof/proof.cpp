@@ -129,7 +129,7 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   diagnoser.model_and_show(judged, *further, d);
   auto truth = truth_of(tank, s);
   if (s.kind == "unnamed") {
-    const int shape = judged.explanation.found.front().shape;
+    const int shape = judged.selected.found.front().shape;
     tell_law(s.effects.front(),
              diagnoser.atlas().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
   }
@@ -161,9 +161,9 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
     const Eigen::VectorXd mean =
         diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
-    const Naming& naming = diagnoser.naming();
-    least = std::min(least, own.like < 0 ? naming.shapes(mean).front().z
-                                         : naming.expected_z(own.like, mean, kExpectedRuns));
+    const ModelSelection& selection = diagnoser.selection();
+    least = std::min(least, own.like < 0 ? selection.shapes(mean).front().z
+                                         : selection.expected_z(own.like, mean, kExpectedRuns));
   }
   return s.effects.empty() ? 0 : least;
 }

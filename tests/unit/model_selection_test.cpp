@@ -1,5 +1,5 @@
 // Which effects explain residuals, on numbers of which everything is known.
-#include "finder/naming.hpp"
+#include "finder/model_selection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,11 +46,11 @@ Fingerprint fingerprint(const Vector& at_size) {
 
 // Two effects, one that looks much like both of them at once, and one that has nothing to do with
 // them; all of ten deviations at their sizes.
-class NamingTest : public testing::Test {
+class ModelSelectionTest : public testing::Test {
  protected:
   static constexpr int kFirst = 0, kSecond = 1, kBoth = 2, kOther = 3;
 
-  NamingTest() {
+  ModelSelectionTest() {
     first_ = 10 * direction(11), second_ = 10 * direction(12);
     both_ = 10 * (first_ + second_ + 5 * direction(13)).normalized();
     other_ = 10 * direction(14);
@@ -64,32 +64,32 @@ class NamingTest : public testing::Test {
       e.name = name, e.paths = {std::string("forces.") + name + ".strength"}, e.sizes = {1};
       effects.push_back(e), fingerprints.push_back(fingerprint(vector));
     }
-    naming_ =
-        std::make_unique<Naming>(nulls, Matrix(), effects, fingerprints, kCurves, kFalseAlarms);
+    selection_ = std::make_unique<ModelSelection>(nulls, Matrix(), effects, fingerprints, kCurves,
+                                                  kFalseAlarms);
   }
 
   std::vector<int> said(const Vector& residual) const {
     std::vector<int> out;
-    for (const EffectFit& f : naming_->explain(residual).found) out.push_back(f.effect);
+    for (const EffectFit& f : selection_->select(residual).found) out.push_back(f.effect);
     std::sort(out.begin(), out.end());
     return out;
   }
 
   Vector first_, second_, both_, other_;
-  std::unique_ptr<Naming> naming_;
+  std::unique_ptr<ModelSelection> selection_;
 };
 
 // 1000 complete experiments; a binomial number of mean 20 exceeds 40 once in 50000 times, and the
 // threshold itself is known from 400 nulls to a deviation of some 30 %.
-TEST_F(NamingTest, nothingIsSaidOfNothing) {
+TEST_F(ModelSelectionTest, nothingIsSaidOfNothing) {
   int called = 0;
   for (int i = 0; i < 1000; ++i) called += said(noise(2, i)).empty() ? 0 : 1;
   EXPECT_LT(called, 40);
 }
 
-TEST_F(NamingTest, oneEffectIsNamedAloneAndMeasured) {
+TEST_F(ModelSelectionTest, oneEffectIsNamedAloneAndMeasured) {
   for (int i = 0; i < 50; ++i) {
-    const Explanation e = naming_->explain(noise(3, i) + 1.5 * second_);
+    const SelectedModel e = selection_->select(noise(3, i) + 1.5 * second_);
     ASSERT_EQ(e.found.size(), 1u) << i;
     EXPECT_EQ(e.found[0].effect, kSecond);
     // Ten deviations tell the amplitude to a tenth, and nulls are whitened with an error.
@@ -98,14 +98,14 @@ TEST_F(NamingTest, oneEffectIsNamedAloneAndMeasured) {
 }
 
 // An effect that looks like two others at once is the first choice, and not kept.
-TEST_F(NamingTest, twoEffectsAreNotTakenForOneThatLooksLikeBoth) {
+TEST_F(ModelSelectionTest, twoEffectsAreNotTakenForOneThatLooksLikeBoth) {
   for (int i = 0; i < 50; ++i) {
     EXPECT_EQ(said(noise(4, i) + 2 * first_ + 2 * second_), (std::vector<int>{kFirst, kSecond}))
         << i;
   }
 }
 
-TEST_F(NamingTest, oneEffectThatExplainsAllIsNotTakenForTwo) {
+TEST_F(ModelSelectionTest, oneEffectThatExplainsAllIsNotTakenForTwo) {
   for (int i = 0; i < 50; ++i) {
     EXPECT_EQ(said(noise(5, i) + 3 * both_), (std::vector<int>{kBoth})) << i;
   }
@@ -113,7 +113,7 @@ TEST_F(NamingTest, oneEffectThatExplainsAllIsNotTakenForTwo) {
 
 // Effects at once may do what neither does alone: without its simulation a third name stands for
 // it, with it none does.
-TEST_F(NamingTest, whatEffectsDoToEachOtherIsNoThirdEffect) {
+TEST_F(ModelSelectionTest, whatEffectsDoToEachOtherIsNoThirdEffect) {
   const Vector meeting = 0.8 * other_;
   std::vector<EffectFit> pair(2);
   pair[0].effect = kFirst, pair[1].effect = kSecond;
@@ -121,26 +121,27 @@ TEST_F(NamingTest, whatEffectsDoToEachOtherIsNoThirdEffect) {
   const Vector truth = 2 * first_ + 2 * second_ + meeting;
   const Vector data = noise(6, 0) + truth;
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond, kOther}));
-  naming_->add_meeting(pair, truth, 1000);
+  selection_->add_interaction(pair, truth, 1000);
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kSecond}));
 }
 
 // Experiments with an effect may scatter as another effect would move them: then that is no
 // finding.
-TEST_F(NamingTest, theScatterOfAnEffectIsNoSecondEffect) {
+TEST_F(ModelSelectionTest, theScatterOfAnEffectIsNoSecondEffect) {
   Matrix scatter(10, first_.size());
   for (int i = 0; i < 10; ++i) {
     scatter.row(i) = (noise(7, i) + normal(8, i, 0) * other_).transpose();
   }
   const Vector data = noise(9, 0) + 4 * first_ + 0.8 * other_;
   EXPECT_EQ(said(data), (std::vector<int>{kFirst, kOther}));
-  naming_->loosen(scatter);
+  selection_->inflate_by_scatter(scatter);
   EXPECT_EQ(said(data), (std::vector<int>{kFirst}));
 }
 
-TEST_F(NamingTest, rivalsComeAfterTheMemberWhoseTheyAre) {
+TEST_F(ModelSelectionTest, rivalsComeAfterTheMemberWhoseTheyAre) {
   const Vector data = noise(10, 0) + 2 * both_ + 2 * other_;
-  const std::vector<EffectFit> rivals = naming_->rivals(data, naming_->explain(data).found, 0.3, 2);
+  const std::vector<EffectFit> rivals =
+      selection_->rivals(data, selection_->select(data).found, 0.3, 2);
   ASSERT_EQ(rivals.size(), 3u);  // `both` has one, `other` none
   std::vector<int> effects;
   for (const EffectFit& f : rivals) effects.push_back(f.effect);
@@ -151,33 +152,34 @@ TEST_F(NamingTest, rivalsComeAfterTheMemberWhoseTheyAre) {
 }
 
 // What no fingerprint is like: a name may come nearest, but it explains nothing.
-TEST_F(NamingTest, aNameThatLeavesMostIsNoExplanation) {
+TEST_F(ModelSelectionTest, aNameThatLeavesMostIsNoExplanation) {
   const Vector odd = 40 * direction(21) + 12 * direction(11);
-  const Explanation e = naming_->explain(noise(11, 0) + odd);
+  const SelectedModel e = selection_->select(noise(11, 0) + odd);
   ASSERT_FALSE(e.found.empty());
-  EXPECT_TRUE(naming_->fails(e));
-  EXPECT_FALSE(naming_->fails(naming_->explain(noise(11, 0) + 3 * first_)));
-  EXPECT_FALSE(naming_->fails(naming_->explain(noise(11, 0))));
+  EXPECT_TRUE(selection_->fails(e));
+  EXPECT_FALSE(selection_->fails(selection_->select(noise(11, 0) + 3 * first_)));
+  EXPECT_FALSE(selection_->fails(selection_->select(noise(11, 0))));
 }
 
 // Numbers of curves count for a name as well: an effect that shows in them only is found.
-TEST_F(NamingTest, anEffectThatShowsInCurvesOnlyIsFound) {
+TEST_F(ModelSelectionTest, anEffectThatShowsInCurvesOnlyIsFound) {
   Vector torque = Vector::Zero(first_.size());
   for (int k = 0; k < kCurves * kKnots; ++k) torque(kNamed + k) = k % 2 == 0 ? 3 : -3;
   Effect e;
   e.name = "turning", e.paths = {"forces.turning.strength"}, e.sizes = {1};
   Matrix nulls(kNulls, first_.size());
   for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
-  const Naming naming(nulls, Matrix(), {e}, {fingerprint(torque)}, kCurves, kFalseAlarms);
-  const Explanation said = naming.explain(noise(12, 0) + torque);
+  const ModelSelection selection(nulls, Matrix(), {e}, {fingerprint(torque)}, kCurves,
+                                 kFalseAlarms);
+  const SelectedModel said = selection.select(noise(12, 0) + torque);
   ASSERT_EQ(said.found.size(), 1u);
   EXPECT_EQ(said.found[0].effect, 0);
 }
 
 // By the scatter of its own experiments what scatters widely explains anything, and pays for it.
-TEST_F(NamingTest, aloneTheEffectThatIsThereIsLikelierThanOneThatScattersWidely) {
+TEST_F(ModelSelectionTest, aloneTheEffectThatIsThereIsLikelierThanOneThatScattersWidely) {
   const Vector data = noise(13, 0) + 2 * first_;
-  double doubts[2];
+  double deviance[2];
   for (const bool wide : {false, true}) {
     Fingerprint f = fingerprint(wide ? other_ : first_);
     f.about = Vector::Constant(1, 1.8), f.base = 1.8 * f.first;
@@ -185,43 +187,43 @@ TEST_F(NamingTest, aloneTheEffectThatIsThereIsLikelierThanOneThatScattersWidely)
     for (int i = 0; i < 10; ++i) f.scatter.row(i) = (wide ? 8 : 1) * noise(14, i).transpose();
     EffectFit fit;
     fit.effect = wide ? kOther : kFirst;
-    naming_->sharpen(fit, f);
-    const Naming::Alone alone = naming_->alone(data, fit.effect, -1);
+    selection_->set_fingerprint(fit, f);
+    const SingleFit alone = selection_->fit_alone(data, fit.effect, -1);
     EXPECT_TRUE(wide || std::fabs(alone.amplitudes(0) - 2) < 0.5);
-    doubts[wide ? 1 : 0] = alone.doubt;
+    deviance[wide ? 1 : 0] = alone.penalized_deviance;
   }
-  EXPECT_LT(doubts[0], doubts[1]);
+  EXPECT_LT(deviance[0], deviance[1]);
 }
 
-TEST_F(NamingTest, aSearchBegunWithAWrongNameEndsWithTheRightOnes) {
+TEST_F(ModelSelectionTest, aSearchBegunWithAWrongNameEndsWithTheRightOnes) {
   EffectFit begun;
   begun.effect = kBoth, begun.amplitudes = Vector::Constant(1, 1.0);
-  const Explanation e = naming_->explain(noise(4, 0) + 2 * first_ + 2 * second_, {begun});
+  const SelectedModel e = selection_->select(noise(4, 0) + 2 * first_ + 2 * second_, {begun});
   std::vector<int> found;
   for (const EffectFit& f : e.found) found.push_back(f.effect);
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, (std::vector<int>{kFirst, kSecond}));
 }
 
-TEST_F(NamingTest, expectedDeviationsAreTheFingerprintsLength) {
-  EXPECT_NEAR(naming_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
+TEST_F(ModelSelectionTest, expectedDeviationsAreTheFingerprintsLength) {
+  EXPECT_NEAR(selection_->expected_z(kOther, Vector::Constant(1, 2.0)), 20, 4);
 }
 
-TEST_F(NamingTest, nothingIsRefutedByWhatIsThere) {
-  EXPECT_LT(naming_->misfit_of_nothing(noise(4, 3)), naming_->misfit_threshold());
-  EXPECT_GT(naming_->misfit_of_nothing(noise(4, 3) + 2 * other_), naming_->misfit_threshold());
+TEST_F(ModelSelectionTest, nothingIsRefutedByWhatIsThere) {
+  EXPECT_LT(selection_->baseline_misfit(noise(4, 3)), selection_->misfit_threshold());
+  EXPECT_GT(selection_->baseline_misfit(noise(4, 3) + 2 * other_), selection_->misfit_threshold());
 }
 
 // Eight experiments are noisy: their mean alone would be 60 / 8 too long in its square, of which
 // nothing may be left.
-TEST_F(NamingTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
+TEST_F(ModelSelectionTest, expectedDeviationsOfAMeanAreThoseWithoutItsNoise) {
   const auto mean = [](const Vector& planted, int first) {
     Vector sum = Vector::Zero(planted.size());
     for (int i = 0; i < 8; ++i) sum += (planted + noise(4, first + i)) / 8;
     return sum;
   };
-  EXPECT_NEAR(naming_->expected_z(kOther, mean(2 * other_, 0), 8), 20, 4);
-  EXPECT_LT(naming_->expected_z(kOther, mean(0 * other_, 8), 8), 3);
+  EXPECT_NEAR(selection_->expected_z(kOther, mean(2 * other_, 0), 8), 20, 4);
+  EXPECT_LT(selection_->expected_z(kOther, mean(0 * other_, 8), 8), 3);
 }
 
 // Of 400 experiments with an effect of the smallest size that would be seen, half show it, with a
@@ -251,32 +253,33 @@ TEST(ExtremeLaw, sharesOfTheLargestOfManyNormals) {
   EXPECT_EQ(ExtremeLaw({1, 1, 1}).chance_beyond(2), 0);
 }
 
-TEST_F(NamingTest, halfOfAllExperimentsShowTheSmallestSize) {
+TEST_F(ModelSelectionTest, halfOfAllExperimentsShowTheSmallestSize) {
   Matrix nulls(kNulls, first_.size());
   for (int i = 0; i < kNulls; ++i) nulls.row(i) = noise(1, i).transpose();
   Effect effect;
   effect.name = "one", effect.paths = {"forces.one.strength"}, effect.sizes = {1};
-  const auto naming = [&](const Fingerprint& f) {
-    return Naming(nulls, Matrix(), {effect}, {f}, kCurves, kFalseAlarms);
+  const auto selection = [&](const Fingerprint& f) {
+    return ModelSelection(nulls, Matrix(), {effect}, {f}, kCurves, kFalseAlarms);
   };
-  const auto shown = [&](const Naming& of, double size) {
+  const auto shown = [&](const ModelSelection& of, double size) {
     int count = 0;
     for (int i = 0; i < 400; ++i) {
       count += of.effects(noise(9, i) + size * first_)[0].z > of.effect_threshold() ? 1 : 0;
     }
     return count;
   };
-  const Naming sharp = naming(fingerprint(first_));
-  EXPECT_NEAR(shown(sharp, sharp.smallest_seen(0)), 200, 70);
+  const ModelSelection sharp = selection(fingerprint(first_));
+  EXPECT_NEAR(shown(sharp, sharp.smallest_detectable(0)), 200, 70);
   Fingerprint blurred = fingerprint(first_);
   blurred.first += noise(10, 0) / std::sqrt(5 * kLearnedSquare), blurred.experiments = 5;
-  const Naming blunt = naming(blurred);
-  EXPECT_GT(blunt.smallest_seen(0), sharp.smallest_seen(0));
-  EXPECT_NEAR(shown(blunt, blunt.smallest_seen(0)), 200, 70);
+  const ModelSelection blunt = selection(blurred);
+  EXPECT_GT(blunt.smallest_detectable(0), sharp.smallest_detectable(0));
+  EXPECT_NEAR(shown(blunt, blunt.smallest_detectable(0)), 200, 70);
   Fingerprint slow = fingerprint(first_);
   slow.growth = 2;
-  EXPECT_NEAR(naming(slow).smallest_seen(0), std::sqrt(sharp.smallest_seen(0)), 0.03);
-  EXPECT_TRUE(std::isinf(naming(fingerprint(0.1 * first_)).smallest_seen(0)));
+  EXPECT_NEAR(selection(slow).smallest_detectable(0), std::sqrt(sharp.smallest_detectable(0)),
+              0.03);
+  EXPECT_TRUE(std::isinf(selection(fingerprint(0.1 * first_)).smallest_detectable(0)));
 }
 
 }  // namespace
