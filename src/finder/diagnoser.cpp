@@ -131,11 +131,13 @@ Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diag
     of.effect = static_cast<int>(e);
     selection.set_fingerprint(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
   }
-  j.selected =
-      sharpened(selection, alignment, explained(selection, alignment, residual), j, residual);
-  tell_ranking(selection, residual, j.selected, out);
-  tell_detectable(selection, out);
-  tell_findings(selection, residual, j.selected, out);
+  SelectedModel first = explained(selection, alignment, residual);
+  Refined r = refined({std::move(first), std::move(selection), std::move(j.details)}, alignment,
+                      j.observed, residual);
+  tell_ranking(r.selection, residual, r.model, out);
+  tell_detectable(r.selection, out);
+  tell_findings(r.selection, residual, r.model, out);
+  j.selected = std::move(r.model), j.details = std::move(r.details);
   return j;
 }
 

@@ -70,9 +70,16 @@ class Diagnoser {
                           const Eigen::VectorXd& residual);
   bool plain(const ModelSelection& selection, const SelectedModel& e,
              const Eigen::VectorXd& residual) const;
-  SelectedModel sharpened(ModelSelection& selection, Alignment& alignment, SelectedModel e,
-                          Judged& judged, const Eigen::VectorXd& residual);
-  class Sharpening;
+  /// A selection for one experiment's recordings and what it rests on.
+  struct Refined {
+    SelectedModel model;
+    ModelSelection selection;
+    ScoreDetails details;
+  };
+  /// The selection by experiments of its own where `start` asks for them. Throws Stopped.
+  Refined refined(Refined start, Alignment& alignment, const Vectors& observed,
+                  const Eigen::VectorXd& residual);
+  class Refinement;
   const Effect& effect(const EffectFit& fit) const;
   /// The effect of this name as recordings tell it directly: a stream at its place, with its speed,
   /// a force between modules of its range, vortices of their frequency.
@@ -87,9 +94,6 @@ class Diagnoser {
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   /// Learned when it is asked for first.
   const Fingerprint& shape_fingerprint(int shape);
-  Fingerprint fingerprint_near(const EffectFit& found, const Fingerprint& before,
-                               const Judged& judged, LearnedFingerprints& learned,
-                               int experiments = Atlas::kAbout);
   void tell_ranking(const ModelSelection& selection, const Eigen::VectorXd& residual,
                     const SelectedModel& e, Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;

@@ -78,13 +78,4 @@ const Fingerprint& Diagnoser::shape_fingerprint(int s) {
   return shape_fingerprints_[s] = atlas_->fingerprint(shape, "shape " + std::to_string(s), seed);
 }
 
-// The fingerprint about the amplitudes that were found, in the place of the one before.
-Fingerprint Diagnoser::fingerprint_near(const EffectFit& f, const Fingerprint& before,
-                                        const Judged& judged, LearnedFingerprints& learned,
-                                        int experiments) {
-  return atlas_->fingerprint_about(f.amplitudes, before, found_effect(f, judged.details),
-                                   atlas_->calibrated(judged.observed.summary),
-                                   stage_name(f, judged.details), learned, experiments);
-}
-
 }  // namespace lilytank

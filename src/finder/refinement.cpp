@@ -1,0 +1,287 @@
+// From residuals to a selected model: curves beside the names, and fingerprints at the strength
+// that was found.
+#include <algorithm>
+#include <cmath>
+
+#include "finder/refinement.hpp"
+#include "finder/scan.hpp"
+#include "finder/scores.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr double kLeastAmplitude = 0.2, kFirstRival = 0.35, kRival = 0.5, kNearGain = 0.85;
+constexpr double kUsable = 2;  // sizes up to which a fingerprint is as good as it was learned
+constexpr int kRivals = 3, kMostRefined = 6;
+constexpr int kMostMoved = 3;       // times that one fingerprint follows the amplitudes it finds
+constexpr double kClearGain = 100;  // twice a log-likelihood: amplitudes that the filter knows well
+
+bool is_clear(const Effect& effect, const JointAmplitudes& own) {
+  return own.gain > kClearGain && (effect.two_sided || own.estimate.minCoeff() > 0);
+}
+
+// A distance between places, ranges by their logarithms.
+double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldParameter>& b) {
+  if (a.size() == 1) return std::fabs(std::log(a[0].value / b[0].value));
+  return std::hypot(a[0].value - b[0].value, a[1].value - b[1].value);
+}
+
+}  // namespace
+
+// Named effects first; a shape competes with them where they leave something.
+SelectedModel Diagnoser::explained(ModelSelection& selection, Alignment& alignment,
+                                   const Vector& residual) {
+  SelectedModel e = selection.select(residual);
+  const std::vector<EffectFit> shapes = selection.shapes(residual);
+  std::vector<int> asked;
+  if (shapes[0].z > selection.shape_threshold() &&
+      (e.found.empty() || shapes[0].z > e.found[0].z)) {
+    asked.push_back(shapes[0].shape);
+  }
+  double largest = 0;
+  for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
+  if (e.left_shape.z > std::max(selection.shape_threshold(), 0.15 * largest)) {
+    if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
+  }
+  // What leaves much may be a law of the same variable.
+  if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
+    const std::string& variable = effect(e.found[0]).variable;
+    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
+      return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
+    });
+    if (same != shapes.end() && std::find(asked.begin(), asked.end(), same->shape) == asked.end()) {
+      asked.push_back(same->shape);
+    }
+  }
+  for (const int s : asked) {
+    const Effect curve = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
+    selection.add_shape(s, alignment.aligned(shape_fingerprint(s), curve));
+  }
+  return asked.empty() ? e : selection.select(residual);
+}
+
+// One effect of a size like those that were simulated explains all there is, leaves nothing, and
+// nothing else comes near.
+bool Diagnoser::plain(const ModelSelection& selection, const SelectedModel& e,
+                      const Vector& residual) const {
+  const EffectFit& f = e.found.front();
+  if (e.found.size() > 1 || selection.leaves_residual(e)) return false;
+  if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
+  const std::vector<EffectFit> leading = selection.leading(residual, kRivals + 3);
+  return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
+    const bool same = other.effect >= 0 && effect(other).family == effect(f).family;
+    return !same && other.gain > kNearGain * leading.front().gain;
+  });
+}
+
+Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, Alignment& alignment,
+                                  const Vectors& observed, const Vector& residual,
+                                  const Refined& start)
+    : of_(diagnoser),
+      alignment_(alignment),
+      residual_(residual),
+      calibrated_(diagnoser.atlas_->calibrated(observed.summary)),
+      baseline_misfit_(diagnoser.selection_->baseline_misfit(residual)),
+      state_{start.selection, start.details, {}, {}} {
+  find_homes();
+}
+
+// What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
+void Diagnoser::Refinement::find_homes() {
+  std::map<int, double> least;
+  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const auto scanned = of_.scanned(effects[e], state_.details);
+    if (!scanned) continue;
+    const double off = far_apart(effects[e].held, scanned->held);
+    const auto [at, first] = least.emplace(effects[e].family, off);
+    if (!first && off >= at->second) continue;
+    at->second = off, state_.home[effects[e].family] = static_cast<int>(e);
+  }
+}
+
+Diagnoser::Refined Diagnoser::Refinement::run() {
+  const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
+  for (const EffectFit& f : leading) {
+    if (needs_relinearization(f) && f.gain > kFirstRival * leading[0].gain) refine_fingerprint(f);
+  }
+  for (const EffectFit& f : clearest()) {
+    if (needs_relinearization(f)) refine_fingerprint(f);
+  }
+  SelectedModel m = settled(selected());
+  if (rescan(m)) m = settled(selected());
+  if (refine_ranges(m)) m = settled(selected());
+  if (close_call() || made_sure(m)) m = settled(selected());
+  m = with_interactions(std::move(m));
+  return {std::move(m), std::move(state_.selection), std::move(state_.details)};
+}
+
+Diagnoser::Refinement::Id Diagnoser::Refinement::id_of(const EffectFit& f) const {
+  if (f.effect < 0) return {f.effect, f.shape};
+  const auto home = state_.home.find(of_.effect(f).family);
+  return {home == state_.home.end() ? f.effect : home->second, f.shape};
+}
+
+EffectFit Diagnoser::Refinement::fit_with(const Id& id, const Vector& amplitudes) {
+  EffectFit out;
+  out.effect = id.first, out.shape = id.second;
+  out.amplitudes = amplitudes;
+  return out;
+}
+
+const RefinedCandidate* Diagnoser::Refinement::refined(const EffectFit& f) const {
+  const auto found = state_.refined.find(id_of(f));
+  return found == state_.refined.end() ? nullptr : &found->second;
+}
+
+Fingerprint Diagnoser::Refinement::fingerprint(const EffectFit& f) {
+  if (const RefinedCandidate* known = refined(f)) return known->fingerprint;
+  if (f.effect < 0) return alignment_.aligned(of_.shape_fingerprint(f.shape), found_effect(f));
+  const auto e = static_cast<std::size_t>(f.effect);
+  return alignment_.aligned(of_.atlas_->fingerprints()[e], of_.atlas_->plan().effects[e]);
+}
+
+void Diagnoser::Refinement::forget(int family) {
+  const auto concerns = [&](const Id& id) { return id.first >= 0 && effect(id).family == family; };
+  std::erase_if(filtered_, [&](const auto& one) { return concerns(one.first); });
+  for (auto known = state_.refined.begin(); known != state_.refined.end();) {
+    if (!concerns(known->first)) {
+      ++known;
+      continue;
+    }
+    const EffectFit f = fit_with({known->first.first, -1}, {});
+    known = state_.refined.erase(known);
+    state_.selection.set_fingerprint(f, fingerprint(f));
+  }
+}
+
+void Diagnoser::Refinement::refine_fingerprint(EffectFit f, int experiments) {
+  if (refined(f) == nullptr) f = first_guess(f);
+  const Fingerprint from = fingerprint(f);
+  f.amplitudes = halfway(f, from);
+  const Effect effect = found_effect(f);
+  const Fingerprint about =
+      of_.atlas_->fingerprint_about(f.amplitudes, from, effect, calibrated_,
+                                    of_.stage_name(f, state_.details), learned_, experiments);
+  RefinedCandidate& own = state_.refined[id_of(f)];
+  own.fingerprint = alignment_.aligned(about, effect);
+  state_.selection.set_fingerprint(f, own.fingerprint);
+  own.alone = state_.selection.fit_alone(residual_, f.effect, f.shape);
+}
+
+// Two places may each point to the other: a step back is half as long.
+Vector Diagnoser::Refinement::halfway(const EffectFit& f, const Fingerprint& from) {
+  const auto own = state_.refined.find(id_of(f));
+  if (own == state_.refined.end()) return f.amplitudes;
+  Vector step = f.amplitudes - from.about;
+  Vector& last = own->second.step;
+  if (last.size() > 0 && step.dot(last) < 0) step *= 0.5;
+  last = step;
+  return from.about + step;
+}
+
+SelectedModel Diagnoser::Refinement::settled(SelectedModel m) {
+  for (int more = 0; more < kMostRefined; ++more) {
+    const std::optional<EffectFit> next = next_after(m);
+    if (!next) break;
+    refine_fingerprint(*next);
+    state_.refined.at(id_of(*next)).moves += 1;
+    m = selected();
+  }
+  return m;
+}
+
+EffectFit Diagnoser::Refinement::first_guess(EffectFit f) {
+  f.effect = id_of(f).first;
+  const Effect effect = found_effect(f);
+  if (!effect.mean_force) return f;
+  const JointAmplitudes& own = filtered(f, effect);
+  if (is_clear(effect, own)) f.amplitudes = own.estimate;
+  return f;
+}
+
+const JointAmplitudes& Diagnoser::Refinement::filtered(const EffectFit& f, const Effect& effect) {
+  const auto known = filtered_.find(id_of(f));
+  if (known != filtered_.end()) return known->second;
+  auto linear = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect});
+  return filtered_[id_of(f)] = scanned_or(std::move(linear.front()), effect);
+}
+
+JointAmplitudes Diagnoser::Refinement::scanned_or(JointAmplitudes linear,
+                                                  const Effect& effect) const {
+  const auto scanned = of_.scanned(effect, state_.details);
+  return scanned && scanned->amplitudes ? *scanned->amplitudes : std::move(linear);
+}
+
+// Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
+std::vector<EffectFit> Diagnoser::Refinement::clearest() {
+  std::map<Id, Effect> of;
+  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (!effects[e].mean_force) continue;
+    const Id id = id_of(fit_with({static_cast<int>(e), -1}, {}));
+    of.emplace(id, found_effect(fit_with(id, {})));
+  }
+  std::vector<Effect> tried;
+  for (const auto& [id, effect] : of) tried.push_back(effect);
+  const auto linear = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), tried);
+  std::vector<EffectFit> out;
+  for (const auto& [id, effect] : of) {
+    const JointAmplitudes& one = filtered_[id] = scanned_or(linear[out.size()], effect);
+    EffectFit f = fit_with(id, one.estimate);
+    f.gain = is_clear(effect, one) ? one.gain : 0;
+    out.push_back(std::move(f));
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
+  if (out.size() > kRivals) out.resize(kRivals);
+  const double least = std::max(kClearGain, kRival * out.front().gain);
+  std::erase_if(out, [&](const EffectFit& f) { return f.gain < least; });
+  return out;
+}
+
+bool Diagnoser::Refinement::needs_relinearization(const EffectFit& f) const {
+  if (!(f.amplitudes.norm() > kLeastAmplitude)) return false;
+  const RefinedCandidate* known = refined(f);
+  return known == nullptr || (f.at_bound && off_centre(f) && known->moves < kMostMoved);
+}
+
+bool Diagnoser::Refinement::off_centre(const EffectFit& f, double far) const {
+  const RefinedCandidate* known = refined(f);
+  if (known == nullptr) return false;
+  const Vector& about = known->fingerprint.about;
+  return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
+}
+
+std::optional<EffectFit> Diagnoser::Refinement::next_after(const SelectedModel& m) {
+  // Those that were judged so already take no other's place.
+  std::vector<EffectFit> next =
+      state_.selection.leading(residual_, kRivals + static_cast<int>(state_.refined.size()));
+  next.erase(std::remove_if(next.begin() + 1, next.end(),
+                            [&](const EffectFit& f) { return f.gain < kRival * next[0].gain; }),
+             next.end());
+  const std::vector<EffectFit> rivals =
+      state_.selection.rivals(residual_, m.found, kRival, kRivals);
+  next.insert(next.end(), rivals.begin(), rivals.end());
+  for (const EffectFit& f : next) {
+    if (needs_relinearization(f)) return f;
+  }
+  for (const EffectFit& f : m.found) {
+    if (!off_centre(f) || refined(f)->centred) continue;
+    state_.refined.at(id_of(f)).centred = true;  // once is enough
+    return f;
+  }
+  return std::nullopt;
+}
+
+Diagnoser::Refined Diagnoser::refined(Refined start, Alignment& alignment, const Vectors& observed,
+                                      const Vector& residual) {
+  if (start.model.found.empty()) return start;
+  start.details.scans = scans_of(atlas_->plan(), alignment.recordings(), options_.threads);
+  if (plain(start.selection, start.model, residual)) return start;
+  return Refinement(*this, alignment, observed, residual, start).run();
+}
+
+}  // namespace lilytank

@@ -1,0 +1,143 @@
+// The search for what the residuals are made of, with experiments of its own: fingerprints about
+// what is found, other ranges, close calls, several effects at once.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "finder/diagnoser.hpp"
+
+namespace lilytank {
+
+/// What experiments about found amplitudes say of one effect or shape.
+struct RefinedCandidate {
+  Fingerprint fingerprint;  ///< about these amplitudes
+  SingleFit alone;          ///< by it and the scatter of its experiments
+  Eigen::VectorXd step;     ///< by which the amplitudes moved last; empty before that
+  int moves = 0;            ///< times that its experiments followed the amplitudes
+  bool centred = false;     ///< its experiments were repeated once to be where it is found
+};
+
+// Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
+// experiments of its own strength.
+class Diagnoser::Refinement {
+ public:
+  /// `start`: the selection and details of the recordings, with their scans. All must outlive this.
+  Refinement(Diagnoser& diagnoser, Alignment& alignment, const Vectors& observed,
+             const Eigen::VectorXd& residual, const Refined& start);
+
+  /// First the candidates that may be it, then whatever leads, what is found and its rivals beside
+  /// the others. Throws Stopped.
+  Refined run();
+
+ private:
+  using Id = std::pair<int, int>;  // effect and shape; of a family the effect that stands for it
+
+  // All that a trial changes, and that is as before if it is rejected.
+  struct State {
+    ModelSelection selection;
+    ScoreDetails details;
+    std::map<int, int> home;  // the effect that stands for all of its family
+    std::map<Id, RefinedCandidate> refined;
+  };
+
+  // Fingerprints (refinement.cpp).
+
+  void find_homes();
+  Id id_of(const EffectFit& f) const;
+  static EffectFit fit_with(const Id& id, const Eigen::VectorXd& amplitudes);
+  const Effect& effect(const Id& id) const { return of_.effect(fit_with(id, {})); }
+  Effect found_effect(const EffectFit& f) const { return of_.found_effect(f, state_.details); }
+  const RefinedCandidate* refined(const EffectFit& f) const;
+  // Forgets the experiments with the effects of a family: their place or range is another one now.
+  void forget(int family);
+  // About found amplitudes where there is one, else as learned first.
+  Fingerprint fingerprint(const EffectFit& f);
+  // Experiments about the amplitudes that were found, and the fingerprint by them.
+  void refine_fingerprint(EffectFit f, int experiments = Atlas::kAbout);
+  // Where further experiments with an effect are to be.
+  Eigen::VectorXd halfway(const EffectFit& f, const Fingerprint& from);
+  // Refines fingerprints until the selection needs no more.
+  SelectedModel settled(SelectedModel m);
+  // Where its first experiments are to be.
+  EffectFit first_guess(EffectFit f);
+  // The filter's estimate of an effect or a curve in the very recordings; made once.
+  const JointAmplitudes& filtered(const EffectFit& f, const Effect& effect);
+  // The same where a scan knows more than a linear estimate.
+  JointAmplitudes scanned_or(JointAmplitudes linear, const Effect& effect) const;
+  // The effects that the filter shows most clearly, by their amplitudes in the very recordings.
+  std::vector<EffectFit> clearest();
+  // Whether its fingerprint is not one of its strength.
+  bool needs_relinearization(const EffectFit& f) const;
+  // Whether what is found is beside its experiments. `far`: in their spread.
+  bool off_centre(const EffectFit& f, double far = 1) const;
+  // What is to be refined next, if anything.
+  std::optional<EffectFit> next_after(const SelectedModel& m);
+
+  // Selection (refined_selection.cpp).
+
+  // What alone, by its own scatter, is most likely there. The scatter of ten experiments leaves a
+  // deviance uncertain, and a curve has more ways to be near: names come first.
+  std::optional<EffectFit> likeliest(bool effects_only = false,
+                                     const std::string& variable = "") const;
+  // Judged by the scatter of the experiments with the likeliest. These are to be where it is, and
+  // so are those of the likeliest name: off it, a curve would seem to fit better.
+  SelectedModel selected();
+  // What adds up from others has to be likelier than an effect that is; curves can do so much that
+  // they come after names.
+  SelectedModel selected_by(const ModelSelection& selection) const;
+  // The wide scatter of experiments with an effect may hide everything; but without an effect there
+  // is no such scatter. What is hardly significant even so is not reported.
+  SelectedModel at_least(const ModelSelection& selection, const EffectFit& likely) const;
+  // Whether a curve remains that is not much weaker than what was found: more than what a
+  // fingerprint is wrong by.
+  bool leaves_curve(const ModelSelection& selection, const SelectedModel& m) const;
+  bool is_found(const EffectFit& f, const SelectedModel& m) const;
+
+  // Further experiments (refinement_trials.cpp).
+
+  // Beside a strong effect, the place of a stream and the ranges of forces are not where they seem
+  // to be without it. True if one of them is elsewhere.
+  bool rescan(const SelectedModel& m);
+  bool rescan_stream(const SelectedModel& m, const Effect& stream);
+  // The range of this effect.
+  bool rescan(const SelectedModel& m, const Effect& scanned);
+  // Scores beside all strong ones but those of the law that is scanned, and curves that may stand
+  // for it.
+  ScorePlan beside(const SelectedModel& m, const Effect& scanned) const;
+  // Where the likeliest name leaves something, its law may have another range, time or length than
+  // the experiments with it had; so may that of a name of the same variable as a curve. Each is
+  // sought up and down until it fits no better.
+  bool refine_ranges(const SelectedModel& m);
+  std::vector<EffectFit> refinable(const SelectedModel& m) const;
+  bool refine_range(const EffectFit& name, const FitParameter& p);
+  // Where the likeliest name and the likeliest curve are about as likely, more experiments with
+  // each decide: ten leave a deviance uncertain by about ten.
+  bool close_call();
+  // Where something remains beside the likeliest, more experiments with it follow: ten show its
+  // scatter along ten directions only. True if they were made.
+  bool made_sure(const SelectedModel& m);
+  // Whether the law fits better with this parameter times a factor; if not, the state is as before.
+  bool fits_better(const EffectFit& name, const FitParameter& p, double factor);
+  // Several effects need not add up: modules that one holds together another cannot move apart.
+  // What they do at once is simulated as well.
+  SelectedModel with_interactions(SelectedModel m);
+  // By experiments with all of them, about these amplitudes.
+  Fingerprint simulated(const std::vector<EffectFit>& found, const std::string& name);
+
+  // Of the spread of experiments, that the likeliest may be off.
+  static constexpr double kBeside = 0.5;
+
+  Diagnoser& of_;
+  Alignment& alignment_;
+  const Eigen::VectorXd& residual_;
+  const Eigen::VectorXd calibrated_;  // the recordings' parameters by the baseline
+  const double baseline_misfit_;      // by the scatter of nulls
+  State state_;
+  LearnedFingerprints learned_;  // of all experiments that there were
+  std::map<Id, JointAmplitudes> filtered_;
+  int tries_ = 0;
+};
+
+}  // namespace lilytank

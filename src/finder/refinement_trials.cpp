@@ -1,0 +1,207 @@
+// Further experiments with what was found: other ranges, more of them, several effects at once.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "finder/refinement.hpp"
+#include "finder/scan.hpp"
+
+namespace lilytank {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr std::size_t kMostInteractions = 3;
+constexpr double kStrong = 12;       // z of an effect beside which others are looked for anew
+constexpr double kElsewhere = 0.02;  // m, by which a stream is another one
+constexpr double kOtherRange = 1.4;  // likewise of a force between modules, a factor
+constexpr double kFurther = 1.5;     // from one range to the next that is tried
+constexpr int kMostTries = 7;
+constexpr double kClose = 60;     // of a penalised deviance
+constexpr int kMany = 30;         // experiments that decide a close call
+constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range the better one
+
+}  // namespace
+
+ScorePlan Diagnoser::Refinement::beside(const SelectedModel& m, const Effect& scanned) const {
+  ScorePlan plan = of_.atlas_->plan();
+  for (const EffectFit& f : m.found) {
+    const Effect effect = found_effect(f);
+    const bool own = f.effect < 0 ? effect.variable == scanned.variable : effect.is_of(scanned);
+    if (f.z > kStrong && effect.mean_force && !own) plan.beside.push_back(effect);
+  }
+  return plan;
+}
+
+bool Diagnoser::Refinement::rescan(const SelectedModel& m) {
+  bool moved = false;
+  std::set<int> done;
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.estimated == Estimated::place && done.insert(one.family).second) {
+      moved = rescan_stream(m, one) || moved;
+    }
+  }
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.scanned_from > 0 && done.insert(one.family).second) moved = rescan(m, one) || moved;
+  }
+  return moved;
+}
+
+bool Diagnoser::Refinement::rescan_stream(const SelectedModel& m, const Effect& stream) {
+  const ScorePlan plan = beside(m, stream);
+  if (plan.beside.empty()) return false;
+  StreamPlace& was = state_.details.scans.stream;
+  const StreamPlace now = find_stream(plan, alignment_.recordings(), of_.options_.threads);
+  if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
+  was = now;
+  find_homes(), forget(stream.family);
+  return true;
+}
+
+bool Diagnoser::Refinement::rescan(const SelectedModel& m, const Effect& scanned) {
+  const ScorePlan plan = beside(m, scanned);
+  if (plan.beside.empty()) return false;
+  const auto all = find_values(plan, alignment_.recordings());
+  const auto now = all.find(scanned.term);
+  if (now == all.end()) return false;
+  ScannedValue& was = state_.details.scans.values[now->first];
+  const double further = now->second.value / std::max(was.value, 1e-9);
+  if (now->second.amplitude * was.amplitude > 0 && further < kOtherRange &&
+      further > 1 / kOtherRange) {
+    return false;
+  }
+  was = now->second;
+  find_homes();
+  std::set<int> forgotten;
+  for (const Effect& one : of_.atlas_->plan().effects) {
+    if (one.is_of(scanned) && forgotten.insert(one.family).second) forget(one.family);
+  }
+  return true;
+}
+
+std::vector<EffectFit> Diagnoser::Refinement::refinable(const SelectedModel& m) const {
+  std::vector<EffectFit> out;
+  if (const auto name = likeliest(true)) out.push_back(*name);
+  for (const EffectFit& f : m.found) {
+    if (f.shape < 0) continue;
+    const auto shape = static_cast<std::size_t>(f.shape);
+    const auto same = likeliest(true, of_.atlas_->plan().shapes[shape].variable);
+    if (same && id_of(*same) != id_of(out.front())) out.push_back(*same);
+  }
+  return out;
+}
+
+bool Diagnoser::Refinement::refine_ranges(const SelectedModel& m) {
+  const bool curve =
+      std::any_of(m.found.begin(), m.found.end(), [](const EffectFit& f) { return f.effect < 0; });
+  if (!(curve || state_.selection.leaves_residual(m))) return false;
+  bool better = false;
+  for (const EffectFit& name : refinable(m)) {
+    for (const FitParameter& p : of_.effect(name).refine) {
+      if (p.logarithmic && refine_range(name, p)) better = true;
+    }
+  }
+  return better;
+}
+
+bool Diagnoser::Refinement::refine_range(const EffectFit& name, const FitParameter& p) {
+  for (const double factor : {kFurther, 1 / kFurther}) {
+    bool further = false;
+    while (tries_ < kMostTries && fits_better(name, p, factor)) further = true;
+    if (further) return true;
+  }
+  return false;
+}
+
+bool Diagnoser::Refinement::close_call() {
+  using Known = std::pair<const Id, RefinedCandidate>;
+  const auto deviance = [](const Known& one) { return one.second.alone.penalized_deviance; };
+  const Known *name = nullptr, *curve = nullptr;
+  for (const Known& one : state_.refined) {
+    const Known*& best = one.first.first < 0 ? curve : name;
+    if (best == nullptr || deviance(one) < deviance(*best)) best = &one;
+  }
+  if (name == nullptr || curve == nullptr) return false;
+  if (std::fabs(deviance(*name) - deviance(*curve)) > kClose) return false;
+  const Id both[] = {name->first, curve->first};
+  for (const Id& id : both) {
+    refine_fingerprint(fit_with(id, state_.refined.at(id).alone.amplitudes), kMany);
+  }
+  return true;
+}
+
+bool Diagnoser::Refinement::made_sure(const SelectedModel& m) {
+  const std::optional<EffectFit> likely = likeliest();
+  const bool left = m.found.size() > 1 || state_.selection.leaves_residual(m);
+  if (!likely || !left || refined(*likely)->fingerprint.experiments >= kMany) return false;
+  refine_fingerprint(*likely, kMany);
+  return true;
+}
+
+bool Diagnoser::Refinement::fits_better(const EffectFit& name, const FitParameter& p,
+                                        double factor) {
+  tries_ += 1;
+  EffectFit f = name;
+  const SingleFit alone = refined(f)->alone;
+  f.amplitudes = alone.amplitudes;
+  double now = 0;
+  for (const auto& [of, value] : found_effect(f).held) {
+    if (of.path() == p.path) now = value;
+  }
+  const double next = std::clamp(now * factor, p.low, p.high);
+  if (next == now) return false;
+  State before = state_;
+  state_.details.refined[p.path] = next;
+  state_.home[of_.effect(f).family] = id_of(f).first;
+  refine_fingerprint(f);
+  f.amplitudes = refined(f)->alone.amplitudes;
+  if (off_centre(f, kBeside)) refine_fingerprint(f);
+  if (refined(f)->alone.penalized_deviance < alone.penalized_deviance - kLeastFall) return true;
+  state_ = std::move(before);
+  return false;
+}
+
+SelectedModel Diagnoser::Refinement::with_interactions(SelectedModel m) {
+  std::set<std::string> simulated_sets;
+  while (m.found.size() > 1 && simulated_sets.size() < kMostInteractions) {
+    std::vector<EffectFit> found = m.found;
+    std::sort(found.begin(), found.end(),
+              [this](const EffectFit& a, const EffectFit& b) { return id_of(a) < id_of(b); });
+    std::string name;
+    for (const EffectFit& f : found) {
+      name += (name.empty() ? "" : ", ") + of_.stage_name(f, state_.details);
+    }
+    const bool camera = std::any_of(found.begin(), found.end(),
+                                    [&](const EffectFit& f) { return found_effect(f).camera(); });
+    if (camera || !simulated_sets.insert(name).second) break;
+    const Fingerprint at_once = simulated(found, name);
+    state_.selection.add_interaction(found, at_once.base, at_once.experiments);
+    // Without their scatter if it does not make them likelier.
+    ModelSelection inflated = state_.selection;
+    inflated.inflate_by_scatter(at_once.scatter);
+    SelectedModel by_scatter = selected_by(inflated);
+    if (by_scatter.penalized_deviance <= m.penalized_deviance) {
+      state_.selection = std::move(inflated), m = std::move(by_scatter);
+    } else {
+      m = selected_by(state_.selection);
+    }
+  }
+  return m;
+}
+
+Fingerprint Diagnoser::Refinement::simulated(const std::vector<EffectFit>& found,
+                                             const std::string& name) {
+  std::vector<Effect> effects;
+  std::vector<Fingerprint> each;
+  std::vector<Vector> at;
+  for (const EffectFit& f : found) {
+    effects.push_back(found_effect(f)), each.push_back(fingerprint(f)), at.push_back(f.amplitudes);
+  }
+  const Fingerprint sum = together(each, at);
+  Fingerprint out =
+      of_.atlas_->fingerprint_about(sum.about, sum, together(effects), calibrated_, name, learned_);
+  out.base = out.at(sum.about), out.about = sum.about;
+  return out;
+}
+
+}  // namespace lilytank
