@@ -22,7 +22,7 @@ struct PredictorOptions {
   int substeps = 4;  ///< steps of the simulator from frame to frame
   /// Tracking noise and random forces, of positions and headings: what the gains are made of.
   MotionModel position, heading;
-  double start = 1;     ///< s at the begin of a track that are not told: the filter settles
+  double start = 1;     ///< s at the begin of a track that are not used: the filter settles
   double forget = 0.5;  ///< s unseen after which a module is no longer carried along
 };
 
@@ -46,7 +46,7 @@ struct PredictedFrame {
   std::span<const double> contact;
   std::span<const double> gain_x, gain_v;  ///< of positions: shares of an innovation that correct
   std::span<const double> gain_theta, gain_omega;  ///< x (1), v (1/s); likewise of headings
-  std::span<const std::uint8_t> told;              ///< 1: the filter has settled
+  std::span<const std::uint8_t> usable;            ///< 1: the filter has settled
 };
 
 /// Runs the filter through recordings of modules and calls `visit` frame by frame. `model` is the

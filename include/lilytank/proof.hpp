@@ -20,7 +20,7 @@ struct ProofOptions {
   /// The tank is drawn from the seed: pumps, inlets and the parameters that calibrations find. Not
   /// so: the built-in tank, whose parameters the diagnosis begins with.
   bool drawn_tank = false;
-  int modelled = 10;           ///< rightly told worlds whose model is fitted as well, at most
+  int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
@@ -37,7 +37,7 @@ struct ProofInterval {
   bool of_effect(const std::vector<std::string>& effects) const;
 };
 
-/// What was told: an effect, or others that are not told apart from it.
+/// A finding: an effect, or others that are not distinguished from it.
 struct ProofFinding {
   std::string effect;
   std::vector<std::string> alternatives;
@@ -64,17 +64,17 @@ struct ProofWorld {
   /// differentiated positions finds strongest ("" for none), and how far the MSD is off.
   std::string regression;
   double displacement = 0;
-  /// null: complete; named: the strongest finding's name, or told with it; two: each in a finding;
-  /// unnamed: so called, right variable.
+  /// null: complete; named: the strongest finding's name, or one not distinguished from it; two:
+  /// each in a finding; unnamed: so called, right variable.
   bool right() const;
-  /// Whether a name was told that is in no way the key's.
+  /// Whether a name was reported that is in no way the key's.
   bool wrong_name() const;
 };
 
 struct Proof {
   std::string key;   ///< a line a world: kind, effect, its held numbers, amplitudes, factors
   std::string hash;  ///< SHA-256 of the key
-  /// Which tank, balls and nulls they share, in words: the same text, the same tank. "": not told.
+  /// Which tank, balls and nulls they share, in words: the same text, the same tank. "": unknown.
   std::string tank;
   std::string dir;                 ///< that it was read from; "" of one that was just asked
   std::size_t sealed = 0;          ///< worlds of the key
@@ -101,7 +101,7 @@ struct ProofPoint {
   double expected_z = 0;
   Outcome outcome = Outcome::other;
 };
-/// How often experiments of a range of expected z are told rightly, with its 95 % interval.
+/// How often experiments of a range of expected z are diagnosed correctly, with its 95 % interval.
 struct ProofPower {
   double z = 0;  ///< geometric mean of the range's experiments
   int right = 0, all = 0;

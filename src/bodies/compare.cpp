@@ -285,7 +285,7 @@ std::vector<double> null_gains(const BodyExperiment& e, const std::vector<Group>
   return out;
 }
 
-bool Difference::told_apart() const {
+bool Difference::distinguished() const {
   return value > 2 * error && value > 2;
 }
 

@@ -55,7 +55,7 @@ std::vector<double> null_gains(const BodyExperiment& experiment, const std::vect
 /// blocks differ in.
 struct Difference {
   double value = 0, error = 0;
-  bool told_apart() const;  ///< by two standard errors and two nat
+  bool distinguished() const;  ///< by two standard errors and two nat
 };
 Difference difference(const std::vector<double>& a, const std::vector<double>& b);
 
@@ -72,7 +72,8 @@ Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& g
                    const LawTrial& outcome);
 
 /// Fits an outcome once more with an unknown acceleration that lasts a whole run, as wrong scales,
-/// clocks and releases give: laws that only such a fault could tell apart are then not told apart.
+/// clocks and releases give: laws that only such a fault could distinguish are then not
+/// distinguished.
 void shake(const std::vector<Group>& groups, LawTrial& outcome);
 
 /// rms over the recorded motion of what two outcomes' accelerations differ by, in units of the

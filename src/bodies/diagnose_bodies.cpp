@@ -65,7 +65,7 @@ class Trials {
   Trials(const BodyExperiment& e, const DiagnosisOptions& options, Comparison& c)
       : experiment_(e), options_(options), c_(c) {}
   void run() {
-    tell(0.01, "baseline");
+    report(0.01, "baseline");
     c_.baseline = fit_baseline(experiment_, c_.groups);
     if (!c_.baseline.failure.empty())
       throw InputError("experiment " + experiment_.name + ": " + c_.baseline.failure);
@@ -75,7 +75,7 @@ class Trials {
   }
 
  private:
-  void tell(double done, const std::string& stage) const {
+  void report(double done, const std::string& stage) const {
     if (options_.progress) options_.progress(done, stage);
   }
   void check_stop() const {
@@ -97,8 +97,9 @@ class Trials {
     }
     for (const Candidate& law : laws) {
       check_stop();
-      tell(0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
-           law.name());
+      report(
+          0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
+          law.name());
       keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
     }
     if (c_.singles.empty()) {
@@ -112,8 +113,8 @@ class Trials {
     const auto pairs = pairs_of(c_.singles);
     for (const auto& [from, pair] : pairs) {
       check_stop();
-      tell(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
-           pair.name());
+      report(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
+             pair.name());
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     sort_best_first(c_.pairs);
@@ -136,8 +137,8 @@ class Trials {
     kept.identity = identity_of(experiment_, options_);
     kept.threads = options_.threads, kept.stop = options_.stop;
     kept.progress = [&](int done, int all) {
-      tell(0.6 + 0.39 * done / all,
-           "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));
+      report(0.6 + 0.39 * done / all,
+             "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));
     };
     c_.nulls = null_gains(experiment_, c_.groups, c_.baseline, number, options_.seed, kept);
   }
@@ -162,7 +163,7 @@ Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& optio
   c.repeats = repeats_of(e, c.groups, c.best());
   c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, c.best()));
   c.far_after = far_errors(c.groups, c.best());
-  return told(c);
+  return diagnosis_of(c);
 }
 
 }  // namespace lilytank

@@ -124,15 +124,16 @@ class Mover {
   double turning_ = 0;  // rad/s
 };
 
-struct Belief {
+struct StateEstimate {
   Vector z;
   Matrix P;
 };
 
 // From the first samples: where they are, and the velocity between them, both hardly trusted.
-Belief first_belief(const BodyModel& model, const Typical& typical, const BodyRun& run, int n) {
+StateEstimate first_estimate(const BodyModel& model, const Typical& typical, const BodyRun& run,
+                             int n) {
   const int states = (model.bias > 0 ? 4 : 3) * n;
-  Belief out{Vector::Zero(states), Matrix::Zero(states, states)};
+  StateEstimate out{Vector::Zero(states), Matrix::Zero(states, states)};
   const auto row = static_cast<std::size_t>(n);
   const std::size_t to = std::min<std::size_t>(4, run.samples() - 1);
   for (int i = 0; i < n; ++i) {
@@ -164,7 +165,7 @@ class Filter {
         run_(&run),
         mover_(model, typical, run),
         n_(mover_.coordinates()),
-        now_(first_belief(model, typical, run, n_)) {
+        now_(first_estimate(model, typical, run, n_)) {
     F_.setIdentity(now_.z.size(), now_.z.size());
   }
 
@@ -223,7 +224,7 @@ class Filter {
     const double S = std::max(now_.P(i, i), 0.0) + model_->noise * model_->noise;
     const double nu = seen - now_.z[i];
     if (!std::isfinite(nu) || !std::isfinite(S)) {  // the law has run away: as bad as can be
-      now_ = first_belief(*model_, *typical_, *run_, n_);
+      now_ = first_estimate(*model_, *typical_, *run_, n_);
       out.value.push_back(1e3), out.variance.push_back(1);
       ++out.lost;
       return;
@@ -245,7 +246,7 @@ class Filter {
   const BodyRun* run_;
   Mover mover_;
   int n_;
-  Belief now_;
+  StateEstimate now_;
   Matrix F_;
   Gathered noise_{};
   double last_ = -1;
@@ -276,7 +277,7 @@ BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun&
   const Mover mover(model, typical, run);
   const int n = mover.coordinates();
   BodyRun out = run;
-  Vector z = first_belief(model, typical, run, n).z;
+  Vector z = first_estimate(model, typical, run, n).z;
   const auto draw = [&](std::size_t k, int i, std::uint32_t what) {
     return normal_pair({seed, Stream::bodies, static_cast<std::int64_t>(k), number,
                         static_cast<std::uint32_t>(2 * i) + what});

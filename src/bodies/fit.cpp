@@ -244,9 +244,9 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
     if (g.fold[k] >= 0) scored.insert(g.block[k]);
   }
   if (std::find(g.fold.begin(), g.fold.end(), -1) == g.fold.end()) return;
-  std::vector<double> told;
-  for (const int block : scored) told.push_back(fitted.held_out[static_cast<std::size_t>(block)]);
-  fitted.held_out = std::move(told);
+  std::vector<double> kept;
+  for (const int block : scored) kept.push_back(fitted.held_out[static_cast<std::size_t>(block)]);
+  fitted.held_out = std::move(kept);
 }
 
 namespace {

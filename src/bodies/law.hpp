@@ -50,7 +50,7 @@ class Law {
   virtual std::string_view equation() const = 0;
   /// Of what the force is a function: slip, position, pair, time, turn, driver, or "" (constant).
   virtual std::string_view variable() const = 0;
-  /// The experiment that would tell it from others of its kind.
+  /// The experiment that would distinguish it from others of its kind.
   virtual std::string_view split() const { return "a longer recording"; }
   virtual std::vector<LawParameter> parameters(const Typical& t) const = 0;
   /// From where fits start; amplitudes are 1, to be scaled by who fits.

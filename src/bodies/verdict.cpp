@@ -44,20 +44,20 @@ std::multiset<std::string_view> variables_of(const Candidate& candidate) {
 bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
   Difference d = difference(better.by_block, worse.by_block);
   d.error *= repeats.factor();
-  if (!d.told_apart()) return false;
+  if (!d.distinguished()) return false;
   // Laws of one variable: what no law explains must be less than what they differ by.
   const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
   if (alike && unlike(groups, better, worse) < 1) return false;
   if (better.shaken.empty() || worse.shaken.empty()) return true;
   Difference still = difference(better.shaken, worse.shaken);
   still.error *= repeats.factor();
-  return still.told_apart();
+  return still.distinguished();
 }
 
 const LawTrial* Comparison::pair() const {
   if (pairs.empty() || singles.empty()) return nullptr;
   const Difference d = difference(pairs.front().by_block, singles.front().by_block);
-  const bool more = d.value > std::max(2.0, threshold()) && d.told_apart();
+  const bool more = d.value > std::max(2.0, threshold()) && d.distinguished();
   return more ? &pairs.front() : nullptr;
 }
 
@@ -311,7 +311,7 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis told(const Comparison& c) {
+Diagnosis diagnosis_of(const Comparison& c) {
   Diagnosis d;
   d.name = c.experiment->name, d.subject = &kPointBodies;
   d.recordings = static_cast<int>(c.experiment->runs.size());

@@ -30,6 +30,6 @@ struct Comparison {
 /// Adds warnings about the best outcome to a diagnosis that has its findings and its fit.
 void add_warnings(const Comparison& comparison, Diagnosis& diagnosis);
 
-Diagnosis told(const Comparison& comparison);
+Diagnosis diagnosis_of(const Comparison& comparison);
 
 }  // namespace lilytank::bodies

@@ -205,7 +205,7 @@ void warn_of_entangled(std::size_t n, CalibrationResult& out) {
 }
 
 void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& out) {
-  const std::size_t n = stages.setup().told();
+  const std::size_t n = stages.setup().reported_count();
   for (std::size_t i = 0; i < n; ++i) {
     const CalibratedParameter& p = out.parameters[i];
     const FitParameter& of = p.parameter;
@@ -242,7 +242,7 @@ void warn_of_choice(const Stages& stages, const NearestPoint& chosen, Calibratio
                            " rounds: others among these parameters may be nearer by Eq. 9");
   }
   std::vector<std::string> outside;
-  for (std::size_t i = 0; i < stages.setup().told(); ++i) {
+  for (std::size_t i = 0; i < stages.setup().reported_count(); ++i) {
     const CalibratedParameter& p = out.parameters[i];
     if (p.estimate < p.low || p.estimate > p.high) outside.push_back(own_name(p.parameter.path));
   }

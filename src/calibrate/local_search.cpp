@@ -91,7 +91,7 @@ class Way {
     kind_ = setup.options.objective == CalibrationObjective::msd ? Misfit::absolute
                                                                  : Misfit::covariance;
     most_ = kFirstSpread * (bounds_.high - bounds_.low);
-    for (std::size_t i = setup.told(); i < setup.parameters.size(); ++i) {
+    for (std::size_t i = setup.reported_count(); i < setup.parameters.size(); ++i) {
       most_(static_cast<Eigen::Index>(i)) = kNoiseSpread;
     }
     spread_ = own_ = most_.asDiagonal();

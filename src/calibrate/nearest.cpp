@@ -28,7 +28,7 @@ class Nearest {
  public:
   Nearest(Stages& stages, const Vector& middle, const Matrix& covariance)
       : stages_(stages),
-        told_(static_cast<Eigen::Index>(stages.setup().told())),
+        told_(static_cast<Eigen::Index>(stages.setup().reported_count())),
         middle_(middle),
         to_unit_(lower_inverse(lower_root(covariance.topLeftCorner(told_, told_)))) {
     const FitBounds all = stages.bounds();

@@ -156,7 +156,7 @@ bool CalibrationSetup::chosen_by_displacements() const {
   return options.objective == CalibrationObjective::summary && draws_flow();
 }
 
-std::size_t CalibrationSetup::told() const {
+std::size_t CalibrationSetup::reported_count() const {
   return static_cast<std::size_t>(std::count_if(parameters.begin(), parameters.end(),
                                                 [](const FitParameter& p) { return !p.nuisance; }));
 }

@@ -29,7 +29,7 @@ struct CalibrationSetup {
   std::uint64_t identity = 0;  ///< of data, model and every option that a result depends on
 
   std::vector<std::string> paths() const;
-  std::size_t told() const;  ///< parameters without nuisances
+  std::size_t reported_count() const;  ///< parameters without nuisances
   /// The flow is the balls', with an error that can be drawn.
   bool draws_flow() const;
   /// The estimate is the one among those that numbers allow that moves modules most alike.

@@ -51,7 +51,8 @@ struct Effect {
   /// Of an empirical force, whose knots are the amplitudes.
   std::optional<ForceCurve> curve;
   std::string variable;  ///< of what the mismatch is a function: position, radius, pair, slip, ...
-  /// The cheapest experiment that would tell it from others of its kind; "" if there is none.
+  /// The cheapest experiment that would distinguish it from others of its kind; "" if there is
+  /// none.
   std::string split;
   bool scored = true;  ///< the term gives a force to be compared with innovations
   /// It pushes modules on the average, not only now this way and now that way.

@@ -15,7 +15,7 @@ constexpr double kFirstSpeed = 0.3,
                  kFirstSpin = 5;  // m/s, rad/s: deviation before anything is seen
 
 // Covariance of a coordinate and its velocity.
-struct Belief {
+struct StateCovariance {
   double xx = 0, xv = 0, vv = 0;
   void pass(double dt, double kicks) {  // kicks: variance of the velocity's change in a second
     xx += 2 * dt * xv + dt * dt * vv + kicks * dt * dt * dt / 3;
@@ -42,7 +42,7 @@ struct Carried {
   const Track* track = nullptr;
   int module = 0;
   double x = 0, y = 0, theta = 0, vx = 0, vy = 0, omega = 0;
-  Belief place, turn;
+  StateCovariance place, turn;
   int begun = 0, seen = 0;  // frames
 };
 
@@ -50,14 +50,14 @@ struct Carried {
 struct Scratch {
   std::vector<double> x, y, c, s, vx, vy, omega, dx, dy, dtheta, sd_x, sd_theta, contact, gain_x,
       gain_v, gain_theta, gain_omega;
-  std::vector<std::uint8_t> covered, told;
+  std::vector<std::uint8_t> covered, usable;
   std::vector<int> module;
   void resize(std::size_t n) {
     for (auto* of : {&x, &y, &c, &s, &vx, &vy, &omega, &dx, &dy, &dtheta, &sd_x, &sd_theta,
                      &contact, &gain_x, &gain_v, &gain_theta, &gain_omega}) {
       of->resize(n);
     }
-    covered.assign(n, 0), told.resize(n), module.resize(n);
+    covered.assign(n, 0), usable.resize(n), module.resize(n);
   }
 };
 
@@ -157,7 +157,7 @@ class Filter {
       at_.vx[i] = state.vx[i] = c.vx, at_.vy[i] = state.vy[i] = c.vy;
       at_.omega[i] = state.omega[i] = c.omega;
       at_.module[i] = c.module;
-      at_.told[i] = (frame - c.begun) * dt_ >= options_.start ? 1 : 0;
+      at_.usable[i] = (frame - c.begun) * dt_ >= options_.start ? 1 : 0;
     }
     state.step = std::llround(time / tank.model.dt);
     World& world = tank.world;
@@ -211,7 +211,7 @@ class Filter {
     out.module = at_.module, out.dx = at_.dx, out.dy = at_.dy, out.dtheta = at_.dtheta;
     out.sd_x = at_.sd_x, out.sd_theta = at_.sd_theta, out.contact = at_.contact;
     out.gain_x = at_.gain_x, out.gain_v = at_.gain_v;
-    out.gain_theta = at_.gain_theta, out.gain_omega = at_.gain_omega, out.told = at_.told;
+    out.gain_theta = at_.gain_theta, out.gain_omega = at_.gain_omega, out.usable = at_.usable;
     return out;
   }
 
@@ -258,7 +258,7 @@ PredictorOptions predictor_options(const Model& model, const std::vector<Recordi
     double place = 0, turn = 0, count = 0;
     predict(model, pieces, out, [&](const PredictedFrame& f) {
       for (std::size_t i = 0; i < f.dx.size(); ++i) {
-        if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kPushed) continue;
+        if (f.usable[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kPushed) continue;
         const double x = f.dx[i] / f.sd_x[i], y = f.dy[i] / f.sd_x[i],
                      t = f.dtheta[i] / f.sd_theta[i];
         if (std::max({std::fabs(x), std::fabs(y), std::fabs(t)}) > kOdd) continue;

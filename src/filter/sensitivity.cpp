@@ -47,10 +47,10 @@ void Sensitivities::forget(std::size_t module) {
 
 void Sensitivities::pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x,
                               float* v) {
-  const bool told = axis.weight > 0;
-  float* now = told && summed ? &rows_[kept_ * wide_] : now_.data();
+  const bool usable = axis.weight > 0;
+  float* now = usable && summed ? &rows_[kept_ * wide_] : now_.data();
   pass_features(axis, wide_, push, x, v, now, recent_score_.data(), recent_information_.data());
-  if (!told) return;
+  if (!usable) return;
   if (summed) {
     taken_ += 1;
     if (++kept_ == kRowsAtOnce) add_rows();
@@ -74,16 +74,16 @@ void Sensitivities::flush() {
 }
 
 void Sensitivities::pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame,
-                         std::size_t i, double loss, bool told) {
+                         std::size_t i, double loss, bool usable) {
   const std::size_t at = module * wide_;
   const auto dt = static_cast<float>(frame.interval);
   const auto axis = [&](double innovation, double sd, double gain_x, double gain_v) {
-    const double weight = told ? 1 / (sd * sd) : 0;
+    const double weight = usable ? 1 / (sd * sd) : 0;
     return FeatureAxis{dt,
                        static_cast<float>(1 - loss * frame.interval),
                        static_cast<float>(gain_x),
                        static_cast<float>(gain_v),
-                       told ? static_cast<float>(weight * innovation) : 0.0f,
+                       usable ? static_cast<float>(weight * innovation) : 0.0f,
                        static_cast<float>(weight)};
   };
   const auto place = [&](double innovation) {
@@ -147,14 +147,14 @@ Eigen::Map<const Vector> Sensitivities::last_scores(Eigen::Index count) const {
 }
 
 Matrix Sensitivities::informations(const Matrix& known) const {
-  const Eigen::Index n = known.rows(), told = static_cast<Eigen::Index>(features_) - n;
+  const Eigen::Index n = known.rows(), scored = static_cast<Eigen::Index>(features_) - n;
   const Matrix all = products(static_cast<Eigen::Index>(features_));
-  const Matrix shared = all.topRightCorner(told, n);
+  const Matrix shared = all.topRightCorner(scored, n);
   const Matrix normal = all.bottomRightCorner(n, n) + known;
-  const Matrix left =
-      all.topLeftCorner(told, told) - shared * solve_symmetric(normal, Matrix(shared.transpose()));
+  const Matrix left = all.topLeftCorner(scored, scored) -
+                      shared * solve_symmetric(normal, Matrix(shared.transpose()));
   Matrix out = 0.5 * (left + left.transpose());
-  for (Eigen::Index k = 0; k < told; ++k) {
+  for (Eigen::Index k = 0; k < scored; ++k) {
     if (out(k, k) > kLeastLeft * all(k, k)) continue;
     out.row(k).setZero(), out.col(k).setZero();
   }

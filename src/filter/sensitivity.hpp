@@ -33,10 +33,10 @@ class Sensitivities {
   /// A module whose prediction cannot be used at this frame: forgets what it was pushed by.
   void forget(std::size_t module);
   /// Carries all features of module `module`, which is number `i` of the frame, over a frame and
-  /// takes up what the frame then showed if `told`. `loss`: share of a velocity that drag takes in
-  /// a second.
+  /// takes up what the frame then showed if `usable`. `loss`: share of a velocity that drag takes
+  /// in a second.
   void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
-            double loss, bool told);
+            double loss, bool usable);
 
   /// To be called once all is passed, before anything is asked.
   void finish();

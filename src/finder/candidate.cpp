@@ -56,8 +56,9 @@ double z_of_gain(double gain, double scale, Eigen::Index freedom) {
   return chi_squared_z(std::max(0.0, gain) / std::max(scale, 1e-9), static_cast<int>(freedom));
 }
 
-EffectFit fitted(const EffectCandidate& candidate, const Answer& response, const Vector& data) {
-  AnswerFit fit = fit_answer(response, data);
+EffectFit fitted(const EffectCandidate& candidate, const ResponseModel& response,
+                 const Vector& data) {
+  ResponseFit fit = fit_response(response, data);
   EffectFit out;
   out.effect = candidate.effect, out.shape = candidate.shape,
   out.about = candidate.source.local() ? candidate.source.experiments : 0;
@@ -86,7 +87,7 @@ std::vector<CandidatePair> leading_pairs(const std::vector<EffectCandidate>& can
   }
   Matrix basis(whitened.size(), first.back());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const Answer& of = candidates[k].all;
+    const ResponseModel& of = candidates[k].all;
     basis.middleCols(first[k], first[k + 1] - first[k]) = of.local() ? Matrix(of.base) : of.first;
   }
   const Matrix gram = basis.transpose() * basis;

@@ -27,7 +27,7 @@ struct EffectCandidate {
   Fingerprint source;
   Eigen::MatrixXd learned;  ///< first orders of residuals at usual sizes
   /// Of the named statistics, and of all. Shapes overlap, so a gain in all has a scale of its own.
-  Answer named, all;
+  ResponseModel named, all;
   Eigen::MatrixXd basis;  ///< first orders of all statistics, as learned at usual sizes
   /// Mean gain of nulls by its degrees of freedom, in the named statistics and in all.
   double scale = 1, scale_all = 1;
@@ -48,7 +48,7 @@ inline constexpr double kNoisy = 2.5;
 /// Standard normal quantile of a gain, by its scale and degrees of freedom.
 double z_of_gain(double gain, double scale, Eigen::Index freedom);
 /// The fit by one of the candidate's responses; without z.
-EffectFit fitted(const EffectCandidate& candidate, const Answer& response,
+EffectFit fitted(const EffectCandidate& candidate, const ResponseModel& response,
                  const Eigen::VectorXd& data);
 /// The fit to whitened residuals by the named statistics, with the z of these or of all, whichever
 /// is larger. A curve's other knots overlap with its own, so its z is of the named ones.

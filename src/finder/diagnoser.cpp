@@ -22,7 +22,7 @@ constexpr int kMostCentres = 5;
 constexpr double kAnswerReach = 2.5;  // deviations of the points that an answer may be off
 constexpr double kStays = 1.5;        // deviations of the points
 // Deviations of designs: shares of the parameters' ranges, and standard errors. Points closer than
-// the errors would tell next to nothing of slopes, and errors from such slopes would be too small.
+// the errors would hardly constrain slopes, and errors from such slopes would be too small.
 constexpr double kFirstSpread = 0.05, kLeastPointSpread = 0.015, kMostPointSpread = 0.08;
 constexpr double kWiderThanError = 2, kWideEnough = 1.5, kNullsWide = 2;
 
@@ -30,12 +30,12 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
                                   const DiagnosisBudget& budget) {
   CalibrationOptions c;
   c.parameters = standard_parameters(BodyKind::lily);
-  const bool told =
+  const bool marked =
       std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
                   [](const Recording& r) { return r.body == BodyKind::lily && r.held_out; });
   const auto lilies = std::count_if(experiment.recordings.begin(), experiment.recordings.end(),
                                     [](const Recording& r) { return r.body == BodyKind::lily; });
-  c.hold_out = told || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
+  c.hold_out = marked || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
   c.flow_draws = budget.flow_draws;
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
@@ -105,38 +105,39 @@ void Diagnoser::prepare(double after) {
                 .cwiseMax(kLeastPointSpread * range)
                 .cwiseMin(kMostPointSpread * range)
                 .asDiagonal();
-  atlas_ = std::make_unique<Atlas>(
+  ensemble_ = std::make_unique<ReferenceEnsemble>(
       stages_, *maps_, plan(now.point), now.point, spread_,
-      AtlasOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
+      EnsembleOptions{budget_.nulls, budget_.experiments, derived_seed(options_.seed, 31)});
   selection_ = std::make_unique<ModelSelection>(
-      atlas_->null_residuals(), correlations_of(atlas_->informations()), atlas_->plan().effects,
-      atlas_->fingerprints(), atlas_->plan().shapes.size(), options_.false_alarms);
+      ensemble_->null_residuals(), correlations_of(ensemble_->informations()),
+      ensemble_->plan().effects, ensemble_->fingerprints(), ensemble_->plan().shapes.size(),
+      options_.false_alarms);
 }
 
 Judged Diagnoser::judge(const std::vector<Recording>& recordings, Diagnosis& out) {
   Judged measured;
-  measured.observed = atlas_->vectors(recordings, &measured.details);
+  measured.observed = ensemble_->vectors(recordings, &measured.details);
   return judge(std::move(measured), recordings, out);
 }
 
 Judged Diagnoser::judge(Judged j, const std::vector<Recording>& recordings, Diagnosis& out) {
-  const Vector residual = atlas_->residual(j.observed);
+  const Vector residual = ensemble_->residual(j.observed);
   j.tag = hex(fnv_of(j.observed.scores));
   ModelSelection selection = *selection_;
-  Alignment alignment(*atlas_, recordings);
-  selection.inflate_covariance(alignment.further_variance());
-  const std::vector<Effect>& effects = atlas_->plan().effects;
+  ScoreSensitivity sensitivity(*ensemble_, recordings);
+  selection.inflate_covariance(sensitivity.further_variance());
+  const std::vector<Effect>& effects = ensemble_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     EffectFit of;
     of.effect = static_cast<int>(e);
-    selection.set_fingerprint(of, alignment.aligned(atlas_->fingerprints()[e], effects[e]));
+    selection.set_fingerprint(of, sensitivity.aligned(ensemble_->fingerprints()[e], effects[e]));
   }
-  SelectedModel first = explained(selection, alignment, residual);
-  Refined r = refined({std::move(first), std::move(selection), std::move(j.details)}, alignment,
+  SelectedModel first = explained(selection, sensitivity, residual);
+  Refined r = refined({std::move(first), std::move(selection), std::move(j.details)}, sensitivity,
                       j.observed, residual);
-  tell_ranking(r.selection, residual, r.model, out);
-  tell_detectable(r.selection, out);
-  tell_findings(r.selection, residual, r.model, out);
+  report_ranking(r.selection, residual, r.model, out);
+  report_detectable(r.selection, out);
+  report_findings(r.selection, residual, r.model, out);
   j.selected = std::move(r.model), j.details = std::move(r.details);
   return j;
 }
@@ -146,7 +147,7 @@ void Diagnoser::run(Diagnosis& out) {
   out.flow_csv = setup_.corrected_csv(*maps_->best());
   out.modules =
       std::max({out.modules, most_bodies(setup_.shapes), most_bodies(setup_.held_out_shapes)});
-  if (!atlas_->plan().identities) {
+  if (!ensemble_->plan().identities) {
     out.checks.push_back(
         "there are more identities than bodies: differences between modules, "
         "heterogeneous_module among them, are not tested");

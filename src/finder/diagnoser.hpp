@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "finder/alignment.hpp"
 #include "finder/joint.hpp"
 #include "finder/model_selection.hpp"
+#include "finder/score_sensitivity.hpp"
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank {
@@ -46,13 +46,13 @@ class Diagnoser {
   Judged judge(Judged measured, const std::vector<Recording>& recordings, Diagnosis& out);
   /// The baseline's parameters: where nothing is missing with intervals, by nulls. Returns all that
   /// are calibrated, as the baseline alone has them.
-  std::vector<double> tell_baseline(const Judged& judged, Diagnosis& out) const;
+  std::vector<double> report_baseline(const Judged& judged, Diagnosis& out) const;
   /// Fits what was found and shows it on recordings that had no part in it.
   void model_and_show(const Judged& judged, const std::vector<Recording>& held_out, Diagnosis& out);
   /// All of it.
   void run(Diagnosis& out);
 
-  Atlas& atlas() { return *atlas_; }
+  ReferenceEnsemble& ensemble() { return *ensemble_; }
   const ModelSelection& selection() const { return *selection_; }
   const CalibrationSetup& setup() const { return setup_; }
   Stages& stages() { return stages_; }
@@ -66,7 +66,7 @@ class Diagnoser {
   };
   Centre centre_of(const Centre& before, int round, const FlowMaps& maps, const FitBounds& bounds);
   ScorePlan plan(const Eigen::VectorXd& centre) const;
-  SelectedModel explained(ModelSelection& selection, Alignment& alignment,
+  SelectedModel explained(ModelSelection& selection, ScoreSensitivity& sensitivity,
                           const Eigen::VectorXd& residual);
   bool plain(const ModelSelection& selection, const SelectedModel& e,
              const Eigen::VectorXd& residual) const;
@@ -77,38 +77,38 @@ class Diagnoser {
     ScoreDetails details;
   };
   /// The selection by experiments of its own where `start` asks for them. Throws Stopped.
-  Refined refined(Refined start, Alignment& alignment, const Vectors& observed,
+  Refined refined(Refined start, ScoreSensitivity& sensitivity, const Vectors& observed,
                   const Eigen::VectorXd& residual);
   class Refinement;
   const Effect& effect(const EffectFit& fit) const;
-  /// The effect of this name as recordings tell it directly: a stream at its place, with its speed,
+  /// Direct estimates of an effect from recordings: a stream at its place, with its speed,
   /// a force between modules of its range, vortices of their frequency.
   struct Scanned {
     std::vector<HeldParameter> held;
     std::optional<JointAmplitudes> amplitudes;
   };
   std::optional<Scanned> scanned(const Effect& effect, const ScoreDetails& details) const;
-  /// With what recordings tell of it directly: the line of pumps, the module that differs, what is
+  /// With direct estimates from recordings: the line of pumps, the module that differs, what is
   /// scanned.
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
   /// Learned when it is asked for first.
   const Fingerprint& shape_fingerprint(int shape);
-  void tell_ranking(const ModelSelection& selection, const Eigen::VectorXd& residual,
-                    const SelectedModel& e, Diagnosis& out) const;
+  void report_ranking(const ModelSelection& selection, const Eigen::VectorXd& residual,
+                      const SelectedModel& e, Diagnosis& out) const;
   FoundCurve curve(const Eigen::VectorXd& residual, std::size_t s, double z) const;
-  void tell_detectable(const ModelSelection& selection, Diagnosis& out) const;
-  bool is_told(const SelectedModel& e, const Effect& one) const;
+  void report_detectable(const ModelSelection& selection, Diagnosis& out) const;
+  bool is_reported(const SelectedModel& e, const Effect& one) const;
   const FoundCurve* map_of(const std::string& variable, const Diagnosis& out) const;
-  void tell_where(const FoundCurve& curve, DiagnosisFinding& f) const;
-  void tell_findings(const ModelSelection& selection, const Eigen::VectorXd& residual,
-                     const SelectedModel& e, Diagnosis& out) const;
+  void report_where(const FoundCurve& curve, DiagnosisFinding& f) const;
+  void report_findings(const ModelSelection& selection, const Eigen::VectorXd& residual,
+                       const SelectedModel& e, Diagnosis& out) const;
   static void disown(const SelectedModel& e, Diagnosis& out);
   void warn_of_rest(const SelectedModel& e, Diagnosis& out) const;
   void blame_camera(const SelectedModel& e, Diagnosis& out) const;
-  void tell_camera(const std::vector<double>& values, Diagnosis& out) const;
-  void tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
-                       Diagnosis& out) const;
+  void report_camera(const std::vector<double>& values, Diagnosis& out) const;
+  void report_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
+                         Diagnosis& out) const;
   Model baseline_at(const Eigen::VectorXd& scaled) const;
   void show(const JointFit& fit, const std::vector<double>& before, const Eigen::VectorXd& baseline,
             const std::vector<Recording>& recordings, Diagnosis& out);
@@ -120,7 +120,7 @@ class Diagnoser {
   std::optional<FlowMaps> maps_;
   Eigen::MatrixXd spread_;
   Eigen::VectorXd deviation_;  ///< of the baseline's parameters
-  std::unique_ptr<Atlas> atlas_;
+  std::unique_ptr<ReferenceEnsemble> ensemble_;
   std::unique_ptr<ModelSelection> selection_;
   std::map<int, Fingerprint> shape_fingerprints_;  ///< those asked for, by the plan's index
 };

@@ -1,4 +1,4 @@
-// What a diagnosis tells: findings, maps, ranking, smallest sizes.
+// What a diagnosis reports: findings, maps, ranking, smallest sizes.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kSame = 4;  // gains that differ by less do not tell effects apart
+constexpr double kSame = 4;  // gains that differ by less do not distinguish effects
 
 // A curve's variable before its value.
 std::string place_words(const std::string& variable) {
@@ -31,24 +31,24 @@ std::string place_words(const std::string& variable) {
 
 }  // namespace
 
-void Diagnoser::tell_ranking(const ModelSelection& selection, const Vector& residual,
-                             const SelectedModel& e, Diagnosis& out) const {
+void Diagnoser::report_ranking(const ModelSelection& selection, const Vector& residual,
+                               const SelectedModel& e, Diagnosis& out) const {
   for (const EffectFit& f : selection.effects(residual)) {
     const auto k = static_cast<std::size_t>(f.effect);
     if (f.effect < 0) continue;
-    const Effect& effect = atlas_->plan().effects[k];
+    const Effect& effect = ensemble_->plan().effects[k];
     out.ranking.push_back({effect.name, effect.variant(), f.z});
   }
   out.effect_threshold = selection.effect_threshold();
   out.shape_threshold = selection.shape_threshold(), out.false_alarms = options_.false_alarms;
   out.strongest_left = std::max(e.left_effect.z, e.left_shape.z);
-  std::vector<double> z(atlas_->plan().shapes.size(), 0.0);
+  std::vector<double> z(ensemble_->plan().shapes.size(), 0.0);
   for (const EffectFit& f : selection.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
   for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(residual, s, z[s]));
 }
 
 FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) const {
-  const Shape& shape = atlas_->plan().shapes[s];
+  const Shape& shape = ensemble_->plan().shapes[s];
   FoundCurve c;
   c.variable = shape.variable, c.direction = shape.direction, c.unit = shape.unit;
   if (shape.curve.along == Along::x || shape.curve.along == Along::y) {
@@ -56,17 +56,17 @@ FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) con
   }
   c.value_unit = shape.curve.toward == Toward::torque ? "N m" : "N", c.z = z;
   for (int k = 0; k < kKnots; ++k) {
-    const Eigen::Index at = atlas_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
+    const Eigen::Index at = ensemble_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
     c.at.push_back(knot_at(shape.curve, k));
-    c.value.push_back(residual(at) * atlas_->deviations()(at) * shape.size);
-    c.deviation.push_back(atlas_->deviations()(at) * shape.size);
+    c.value.push_back(residual(at) * ensemble_->deviations()(at) * shape.size);
+    c.deviation.push_back(ensemble_->deviations()(at) * shape.size);
   }
   return c;
 }
 
-void Diagnoser::tell_detectable(const ModelSelection& selection, Diagnosis& out) const {
-  for (std::size_t e = 0; e < atlas_->plan().effects.size(); ++e) {
-    const Effect& effect = atlas_->plan().effects[e];
+void Diagnoser::report_detectable(const ModelSelection& selection, Diagnosis& out) const {
+  for (std::size_t e = 0; e < ensemble_->plan().effects.size(); ++e) {
+    const Effect& effect = ensemble_->plan().effects[e];
     const double least = selection.smallest_detectable(static_cast<int>(e)) * effect.sizes[0];
     const double tried = kLearnedSize * effect.sizes[0];
     const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
@@ -84,13 +84,13 @@ void Diagnoser::tell_detectable(const ModelSelection& selection, Diagnosis& out)
 const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
   const FoundCurve* best = nullptr;
   for (std::size_t s = 0; s < out.maps.size(); ++s) {
-    if (atlas_->plan().shapes[s].variable != variable) continue;
+    if (ensemble_->plan().shapes[s].variable != variable) continue;
     if (best == nullptr || out.maps[s].z > best->z) best = &out.maps[s];
   }
   return best;
 }
 
-void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
+void Diagnoser::report_where(const FoundCurve& curve, DiagnosisFinding& f) const {
   f.curve = curve, f.unit = curve.unit;
   std::size_t peak = 0;
   const auto strength = [&](std::size_t k) {
@@ -115,39 +115,39 @@ void Diagnoser::tell_where(const FoundCurve& curve, DiagnosisFinding& f) const {
 }
 
 // Whether an effect of its family is a finding itself.
-bool Diagnoser::is_told(const SelectedModel& e, const Effect& one) const {
+bool Diagnoser::is_reported(const SelectedModel& e, const Effect& one) const {
   return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
     return fit.effect >= 0 && effect(fit).family == one.family;
   });
 }
 
-void Diagnoser::tell_findings(const ModelSelection& selection, const Vector& residual,
-                              const SelectedModel& e, Diagnosis& out) const {
+void Diagnoser::report_findings(const ModelSelection& selection, const Vector& residual,
+                                const SelectedModel& e, Diagnosis& out) const {
   const std::vector<EffectFit> ranked = selection.effects(residual);
   for (std::size_t i = 0; i < e.found.size(); ++i) {
     const EffectFit& fit = e.found[i];
     DiagnosisFinding f;
     f.z = fit.z, f.confidence = selection.confidence(fit);
     if (fit.effect >= 0) {
-      const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(fit.effect)];
+      const Effect& effect = ensemble_->plan().effects[static_cast<std::size_t>(fit.effect)];
       f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
       const auto own = std::find_if(ranked.begin(), ranked.end(),
                                     [&](const EffectFit& one) { return one.effect == fit.effect; });
       std::set<int> rivals;
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
-        const Effect& rival = atlas_->plan().effects[static_cast<std::size_t>(other.effect)];
-        if (own->gain - other.gain >= kSame || is_told(e, rival)) continue;
+        const Effect& rival = ensemble_->plan().effects[static_cast<std::size_t>(other.effect)];
+        if (own->gain - other.gain >= kSame || is_reported(e, rival)) continue;
         if (rivals.insert(rival.family).second) f.alternatives.push_back(rival.name);
       }
       if (!f.alternatives.empty()) f.split = effect.split;
-      if (const FoundCurve* map = map_of(f.variable, out)) tell_where(*map, f);
+      if (const FoundCurve* map = map_of(f.variable, out)) report_where(*map, f);
     } else {
       const auto s = static_cast<std::size_t>(fit.shape);
-      f.effect = "unnamed", f.variable = atlas_->plan().shapes[s].variable;
-      f.equation = "F = f(" + f.variable + ") " + atlas_->plan().shapes[s].direction +
+      f.effect = "unnamed", f.variable = ensemble_->plan().shapes[s].variable;
+      f.equation = "F = f(" + f.variable + ") " + ensemble_->plan().shapes[s].direction +
                    ", the curve that is drawn";
-      tell_where(out.maps[s], f);
+      report_where(out.maps[s], f);
     }
     out.findings.push_back(std::move(f));
   }
@@ -166,14 +166,14 @@ void Diagnoser::tell_findings(const ModelSelection& selection, const Vector& res
 void Diagnoser::warn_of_rest(const SelectedModel& e, Diagnosis& out) const {
   std::string text = "the remaining discrepancy exceeds that of null experiments";
   if (e.left_shape.z > out.shape_threshold) {
-    const Shape& shape = atlas_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
+    const Shape& shape = ensemble_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
     text += ", most over " + shape.variable + " " + shape.direction + " (z " +
             significant(e.left_shape.z, 2) + ")";
   }
   out.warnings.push_back(text + ": another effect may be omitted, or a law has another form");
 }
 
-// Names that leave most of the mismatch are not told as findings.
+// Names that leave most of the mismatch are not reported as findings.
 void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
   std::string names;
   for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
@@ -184,12 +184,12 @@ void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
   out.verdict = Verdict::undecided, out.findings.clear();
 }
 
-// Where the camera is at fault, what else was found may be its shadow: forces are not told.
+// Where the camera is at fault, what else was found may be its shadow: forces are not reported.
 void Diagnoser::blame_camera(const SelectedModel& e, Diagnosis& out) const {
   std::vector<DiagnosisFinding> faults;
   for (std::size_t i = 0; i < e.found.size(); ++i) {
     if (e.found[i].effect < 0) continue;
-    const Effect& effect = atlas_->plan().effects[static_cast<std::size_t>(e.found[i].effect)];
+    const Effect& effect = ensemble_->plan().effects[static_cast<std::size_t>(e.found[i].effect)];
     if (!effect.camera()) continue;
     DiagnosisFinding f = out.findings[i];
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {

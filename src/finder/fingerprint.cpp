@@ -37,7 +37,7 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
   out.first.resize(one.base.size(), m), out.second = Matrix::Zero(one.base.size(), m);
   out.moved_first = Matrix::Zero(one.moved_base.size(), m);
   out.moved_base = Vector::Zero(one.moved_base.size());
-  out.told = one.told;
+  out.identifiable_share = one.identifiable_share;
   out.experiments = one.experiments;
   for (std::size_t i = 0; i < fingerprints.size(); ++i) {
     const Fingerprint& f = fingerprints[i];
@@ -46,7 +46,7 @@ Fingerprint together(const std::vector<Fingerprint>& fingerprints,
     out.first.middleCols(at, a.size()) = f.slope(a);
     out.two_sided = out.two_sided || f.two_sided;
     out.base += f.at(a), out.moved_base += f.moved(a);
-    out.told = out.told.cwiseMin(f.told);
+    out.identifiable_share = out.identifiable_share.cwiseMin(f.identifiable_share);
     out.experiments = std::min(out.experiments, f.experiments);
     at += a.size();
   }

@@ -3,22 +3,22 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "finder/answer.hpp"
+#include "finder/response_model.hpp"
 
 namespace lilytank {
 
 /// How residuals answer to an effect.
-struct Fingerprint : Answer {
+struct Fingerprint : ResponseModel {
   /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
   Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
   Eigen::VectorXd moved_base;   ///< [parameter]
-  /// Shares of the parameters' distances from their expected values that calibration still tells
-  /// beside the effect, by its experiments.
-  Eigen::VectorXd told;  ///< [parameter]
+  /// Shares of the parameters' distances from their expected values that calibration still
+  /// identifies beside the effect, by its experiments.
+  Eigen::VectorXd identifiable_share;  ///< [parameter]
   /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
   Eigen::MatrixXd scatter;
   int experiments = 0;  ///< that it rests on, for each amplitude
-  /// The first numbers are known without noise (alignment.hpp).
+  /// The first numbers are known without noise (score_sensitivity.hpp).
   Eigen::Index exact = 0;
   /// Power of the amplitude by which residuals grow, from 1 to 2.5: what makes motion more
   /// irregular is hardly seen while it is small.

@@ -7,8 +7,8 @@
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
+#include "finder/flow_uncertainty.hpp"
 #include "finder/joint_parameters.hpp"
-#include "finder/slack.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"
 #include "text/fnv.hpp"
@@ -32,41 +32,42 @@ constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
 // Summary, named scores, and those of the curves that are fitted, the scores by their deviations;
 // those of effects without the correlations that they should have, so that few simulations need not
-// tell these.
+// estimate these.
 class Numbers {
  public:
-  Numbers(const Atlas& atlas, const std::vector<JointEffect>& effects) : atlas_(atlas) {
-    for (Eigen::Index k = 0; k < atlas.named_numbers(); ++k) scores_.push_back(k);
+  Numbers(const ReferenceEnsemble& ensemble, const std::vector<JointEffect>& effects)
+      : ensemble_(ensemble) {
+    for (Eigen::Index k = 0; k < ensemble.named_numbers(); ++k) scores_.push_back(k);
     for (const JointEffect& e : effects) {
       for (int k = 0; e.shape >= 0 && k < kKnots; ++k) {
-        scores_.push_back(atlas.named_numbers() + e.shape * kKnots + k);
+        scores_.push_back(ensemble.named_numbers() + e.shape * kKnots + k);
       }
     }
-    Matrix alike = correlations_of(atlas.informations());
-    alike.diagonal().array() += kUnalike;
+    Matrix alike = correlations_of(ensemble.informations());
+    alike.diagonal().array() += kUniqueVariance;
     alike_ = lower_root(alike);
   }
   Vector operator()(const Vectors& v) const {
     Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()));
-    out << v.summary, v.scores(scores_).cwiseQuotient(atlas_.deviations()(scores_));
+    out << v.summary, v.scores(scores_).cwiseQuotient(ensemble_.deviations()(scores_));
     auto own = out.segment(v.summary.size(), alike_.rows());
     own = solve_lower(alike_, own);
     return out;
   }
 
  private:
-  const Atlas& atlas_;
+  const ReferenceEnsemble& ensemble_;
   Matrix alike_;
   std::vector<Eigen::Index> scores_;
 };
 
 class Joint {
  public:
-  Joint(Stages& stages, const FlowMaps& maps, const Atlas& atlas, const Numbers& numbers,
-        JointFit& fit)
+  Joint(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
+        const Numbers& numbers, JointFit& fit)
       : stages_(stages),
         maps_(maps),
-        atlas_(atlas),
+        ensemble_(ensemble),
         numbers_(numbers),
         fit_(fit),
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
@@ -78,11 +79,11 @@ class Joint {
     place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
     const std::string name = stage + " " + hex(place.value());
     const auto rows = stages_.rows(name, static_cast<int>(points.rows()), [&](int i) {
-      const auto field = loosened(maps_, derived_seed(seed, kMix), seed, i);
+      const auto field = perturbed_flow(maps_, derived_seed(seed, kMix), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
       if (!made) return std::vector<double>{};
-      const Vector all = numbers_(atlas_.vectors(*made));
+      const Vector all = numbers_(ensemble_.vectors(*made));
       return std::vector<double>(all.begin(), all.end());
     });
     return design_of(points, rows);
@@ -104,7 +105,7 @@ class Joint {
   }
   Stages& stages_;
   const FlowMaps& maps_;
-  const Atlas& atlas_;
+  const ReferenceEnsemble& ensemble_;
   const Numbers& numbers_;
   JointFit& fit_;
   Emulator emulator_;
@@ -160,7 +161,7 @@ Scatter checked(const TurnedBack& last, const Vector& at, const Matrix& numbers,
   return scatter_of(line, at, last.by_others.answer, prior);
 }
 
-void tell(const Scatter& answer, JointFit& fit) {
+void set_interval(const Scatter& answer, JointFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];
@@ -190,13 +191,14 @@ bool settled(const Scatter& answer, const FitBounds& bounds, Vector& centre, Mat
 // Rounds of simulations, each about the answer of the one before.
 class Rounds {
  public:
-  Rounds(Stages& stages, const FlowMaps& maps, const Atlas& atlas, std::vector<JointEffect> effects,
-         const Vectors& observed, JointStart baseline, JointRounds rounds)
+  Rounds(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
+         std::vector<JointEffect> effects, const Vectors& observed, JointStart baseline,
+         JointRounds rounds)
       : stages_(stages),
         maps_(maps),
-        atlas_(atlas),
+        ensemble_(ensemble),
         effects_(std::move(effects)),
-        numbers_(atlas, effects_),
+        numbers_(ensemble, effects_),
         data_(numbers_(observed)),
         baseline_(std::move(baseline)),
         rounds_(std::move(rounds)) {
@@ -217,7 +219,7 @@ class Rounds {
       last = turned_back(design, centre_, prior, data_);
       fit_.settled = settled(last.answer, bounds_, centre_, width_);
     }
-    tell(check(last), fit_);
+    set_interval(check(last), fit_);
     return std::move(fit_);
   }
 
@@ -228,7 +230,7 @@ class Rounds {
     begun_ = vector_of(begun.at).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     known_ = vector_of(begun.known);
     centre_ = begun_, width_ = vector_of(begun.wide).asDiagonal();
-    joint_.emplace(stages_, maps_, atlas_, numbers_, fit_);
+    joint_.emplace(stages_, maps_, ensemble_, numbers_, fit_);
     all_ = {};
   }
 
@@ -284,7 +286,7 @@ class Rounds {
 
   Stages& stages_;
   const FlowMaps& maps_;
-  const Atlas& atlas_;
+  const ReferenceEnsemble& ensemble_;
   std::vector<JointEffect> effects_;
   Numbers numbers_;  ///< of all effects that were found, also of those that are dropped
   Vector data_;
@@ -301,10 +303,10 @@ class Rounds {
 
 }  // namespace
 
-JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
+JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
                      std::vector<JointEffect> effects, const Vectors& observed,
                      const JointStart& baseline, const JointRounds& rounds) {
-  return Rounds(stages, maps, atlas, std::move(effects), observed, baseline, rounds).run();
+  return Rounds(stages, maps, ensemble, std::move(effects), observed, baseline, rounds).run();
 }
 
 }  // namespace lilytank

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "finder/atlas.hpp"
+#include "finder/reference_ensemble.hpp"
 
 namespace lilytank {
 
@@ -46,7 +46,7 @@ struct JointRounds {
 /// together: a name may have stood for a baseline that another effect had pushed aside. At least
 /// one is kept. `baseline`: where its parameters are expected beside them, and how surely
 /// (deviations of the first design).
-JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const Atlas& atlas,
+JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
                      std::vector<JointEffect> effects, const Vectors& observed,
                      const JointStart& baseline, const JointRounds& rounds);
 

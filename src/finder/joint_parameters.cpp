@@ -17,7 +17,7 @@ using Vector = Eigen::VectorXd;
 constexpr double kRefined = 0.25, kPlaced = 0.06;
 // Deviation of an effect's amplitudes about what the selection said, in their root mean square,
 // that holds before simulations of the joint fit say more: knots that hardly any module visits are
-// told by nothing else.
+// constrained by nothing else.
 constexpr double kNamed = 1;
 
 // Where the amplitudes of each effect begin among the parameters.

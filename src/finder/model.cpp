@@ -52,10 +52,10 @@ std::string overlay_of(const CalibrationSetup& setup, const std::vector<JointEff
 
 }  // namespace
 
-std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& out) const {
+std::vector<double> Diagnoser::report_baseline(const Judged& judged, Diagnosis& out) const {
   const Vector& summary = judged.observed.summary;
-  std::vector<double> alone = stages_.from_scale(atlas_->nearest(summary).point);
-  for (std::size_t i = 0; i < setup_.told(); ++i) {
+  std::vector<double> alone = stages_.from_scale(ensemble_->nearest(summary).point);
+  for (std::size_t i = 0; i < setup_.reported_count(); ++i) {
     MovedParameter& p = out.parameters.emplace_back();
     p.path = setup_.parameters[i].path, p.unit = setup_.parameters[i].unit;
     p.baseline = p.with_effects = alone[i];
@@ -64,12 +64,12 @@ std::vector<double> Diagnoser::tell_baseline(const Judged& judged, Diagnosis& ou
   // Where the baseline does not explain the recordings, nobody knows how far off it is.
   if (out.verdict != Verdict::complete) return alone;
   const FitBounds bounds = stages_.bounds();
-  const Scatter told =
-      atlas_->told(summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
-  for (std::size_t i = 0; i < setup_.told(); ++i) {
+  const Scatter posterior = ensemble_->posterior(
+      summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
+  for (std::size_t i = 0; i < setup_.reported_count(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& of = setup_.parameters[i];
-    const double middle = told.estimate(k), half = told.wide * told.deviation(k);
+    const double middle = posterior.estimate(k), half = posterior.wide * posterior.deviation(k);
     const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
     MovedParameter& p = out.parameters[i];
     p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
@@ -81,10 +81,10 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
                                Diagnosis& out) {
   const SelectedModel& e = judged.selected;
   const Vectors& observed = judged.observed;
-  const Vector baseline = atlas_->calibrated(observed.summary);
-  const std::vector<double> before = tell_baseline(judged, out);
+  const Vector baseline = ensemble_->calibrated(observed.summary);
+  const std::vector<double> before = report_baseline(judged, out);
   if (out.verdict != Verdict::missing) {
-    tell_camera(before, out);
+    report_camera(before, out);
     return;
   }
   std::vector<JointEffect> found;
@@ -98,15 +98,15 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
   const JointStart start{stages_.to_scale(setup_.start),
                          (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(stages_, *maps_, *atlas_, found, observed, start,
+  const JointFit fit = fit_jointly(stages_, *maps_, *ensemble_, found, observed, start,
                                    {budget_.round, selection_->effect_threshold(), judged.tag,
                                     derived_seed(options_.seed, 700)});
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }
   keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
-  tell_camera(fit.value, out);
-  tell_parameters(fit, found, out);
+  report_camera(fit.value, out);
+  report_parameters(fit, found, out);
   show(fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
 }
 
@@ -114,20 +114,21 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
 Model Diagnoser::baseline_at(const Vector& scaled) const {
   const std::vector<std::string> all = setup_.paths();
   const std::vector<double> values = stages_.from_scale(scaled);
-  const auto told = static_cast<std::ptrdiff_t>(setup_.told());
-  return with_parameters(setup_.model, std::vector<std::string>(all.begin(), all.begin() + told),
-                         std::vector<double>(values.begin(), values.begin() + told));
+  const auto reported = static_cast<std::ptrdiff_t>(setup_.reported_count());
+  return with_parameters(setup_.model,
+                         std::vector<std::string>(all.begin(), all.begin() + reported),
+                         std::vector<double>(values.begin(), values.begin() + reported));
 }
 
-void Diagnoser::tell_camera(const std::vector<double>& values, Diagnosis& out) const {
-  for (std::size_t i = setup_.told(); i < setup_.parameters.size(); ++i) {
+void Diagnoser::report_camera(const std::vector<double>& values, Diagnosis& out) const {
+  for (std::size_t i = setup_.reported_count(); i < setup_.parameters.size(); ++i) {
     out.checks.push_back(setup_.parameters[i].path + " = " + significant(values[i], 3) + " " +
                          setup_.parameters[i].unit + ", fitted along");
   }
 }
 
-void Diagnoser::tell_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
-                                Diagnosis& out) const {
+void Diagnoser::report_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
+                                  Diagnosis& out) const {
   for (std::size_t i = 0; i < out.parameters.size(); ++i) {
     out.parameters[i].with_effects = fit.value[i];
     out.parameters[i].low = fit.low[i], out.parameters[i].high = fit.high[i];
@@ -170,21 +171,21 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, con
                         before, budget_.comparisons, derived_seed(options_.seed, 801));
   const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons,
                         derived_seed(options_.seed, 802));
-  out.held_out = group_fits(setup_, atlas_->plan(), recordings, b, a);
+  out.held_out = group_fits(setup_, ensemble_->plan(), recordings, b, a);
   msd_share(recordings, b, a, setup_.piece, out);
-  std::vector<std::string> told;
+  std::vector<std::string> kept;
   std::vector<double> values;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (of_camera(paths[i])) continue;
-    told.push_back(paths[i]), values.push_back(fit.value[i]);
+    kept.push_back(paths[i]), values.push_back(fit.value[i]);
   }
-  const Model after = with_parameters(fit.model, told, values);
+  const Model after = with_parameters(fit.model, kept, values);
   // Against the better of two baselines: where an effect is strong, a calibration that does not
   // know it can be worse than none.
   const auto gain_over = [&](const Model& without) {
-    return step_gain(without, after, atlas_->plan().predictor, recordings);
+    return step_gain(without, after, ensemble_->plan().predictor, recordings);
   };
-  const StepGain by_plan = gain_over(atlas_->plan().model);
+  const StepGain by_plan = gain_over(ensemble_->plan().model);
   const StepGain by_own = gain_over(baseline_at(baseline));
   const StepGain& gain = by_own.gain < by_plan.gain ? by_own : by_plan;
   for (DiagnosisFinding& f : out.findings) {
@@ -192,7 +193,7 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, con
   }
   if (gain.high >= 0) return;
   out.warnings.push_back(
-      likelier_but_for_errors(atlas_->plan(), after, recordings)
+      likelier_but_for_errors(ensemble_->plan(), after, recordings)
           ? "one step ahead, errors of the baseline's parameters cost more than what was found "
             "gains; allowing for these, it does predict recordings that had no part in this better"
           : "one step ahead, what was found predicts recordings that had no part in this worse "

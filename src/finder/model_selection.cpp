@@ -75,9 +75,9 @@ SingleFit ModelSelection::fit_alone(const Vector& residual, int effect, int shap
   const EffectCandidate& of = state_.candidates[place_of(state_.candidates, effect, shape)];
   const Matrix whitener = w.whitener_by(of.source.scatter);
   const Matrix change = whitener * lower_inverse(w.whitener);
-  const Answer own{of.named.about, change * of.named.base, change * of.named.first,
-                   change * of.named.second, of.named.two_sided};
-  AnswerFit fit = fit_answer(own, whitener * (residual - w.centre).head(w.named));
+  const ResponseModel own{of.named.about, change * of.named.base, change * of.named.first,
+                          change * of.named.second, of.named.two_sided};
+  ResponseFit fit = fit_response(own, whitener * (residual - w.centre).head(w.named));
   const double squared = fit.left.squaredNorm();
   const Eigen::Index amplitudes = fit.amplitudes.size();
   return {std::move(fit.amplitudes), penalized_deviance(squared, whitener, amplitudes)};

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "finder/atlas.hpp"
 #include "finder/candidate.hpp"
 #include "finder/null_thresholds.hpp"
+#include "finder/reference_ensemble.hpp"
 
 namespace lilytank {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "finder/slack.hpp"
+#include "finder/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"
 
@@ -107,7 +107,7 @@ Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t s
         Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(c)].value.data(), terms);
   }
   for (int d = 0; d < kDraws; ++d) {
-    const auto drawn = loosened(maps, seed, seed, d);
+    const auto drawn = perturbed_flow(maps, seed, seed, d);
     for (Eigen::Index c = 0; c < n; ++c) {
       const std::size_t i = cells[static_cast<std::size_t>(c)];
       off(c, d) = drawn->samples()[i].mu_x - best.samples()[i].mu_x;

@@ -31,7 +31,7 @@ double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldPara
 }  // namespace
 
 // Named effects first; a shape competes with them where they leave something.
-SelectedModel Diagnoser::explained(ModelSelection& selection, Alignment& alignment,
+SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& sensitivity,
                                    const Vector& residual) {
   SelectedModel e = selection.select(residual);
   const std::vector<EffectFit> shapes = selection.shapes(residual);
@@ -49,15 +49,15 @@ SelectedModel Diagnoser::explained(ModelSelection& selection, Alignment& alignme
   if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
     const std::string& variable = effect(e.found[0]).variable;
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
-      return atlas_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
+      return ensemble_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
     });
     if (same != shapes.end() && std::find(asked.begin(), asked.end(), same->shape) == asked.end()) {
       asked.push_back(same->shape);
     }
   }
   for (const int s : asked) {
-    const Effect curve = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
-    selection.add_shape(s, alignment.aligned(shape_fingerprint(s), curve));
+    const Effect curve = effect_of(ensemble_->plan().shapes[static_cast<std::size_t>(s)]);
+    selection.add_shape(s, sensitivity.aligned(shape_fingerprint(s), curve));
   }
   return asked.empty() ? e : selection.select(residual);
 }
@@ -76,13 +76,13 @@ bool Diagnoser::plain(const ModelSelection& selection, const SelectedModel& e,
   });
 }
 
-Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, Alignment& alignment,
+Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, ScoreSensitivity& sensitivity,
                                   const Vectors& observed, const Vector& residual,
                                   const Refined& start)
     : of_(diagnoser),
-      alignment_(alignment),
+      sensitivity_(sensitivity),
       residual_(residual),
-      calibrated_(diagnoser.atlas_->calibrated(observed.summary)),
+      calibrated_(diagnoser.ensemble_->calibrated(observed.summary)),
       baseline_misfit_(diagnoser.selection_->baseline_misfit(residual)),
       state_{start.selection, start.details, {}, {}} {
   find_homes();
@@ -91,7 +91,7 @@ Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, Alignment& alignment,
 // What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
 void Diagnoser::Refinement::find_homes() {
   std::map<int, double> least;
-  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     const auto scanned = of_.scanned(effects[e], state_.details);
     if (!scanned) continue;
@@ -138,9 +138,9 @@ const RefinedCandidate* Diagnoser::Refinement::refined(const EffectFit& f) const
 
 Fingerprint Diagnoser::Refinement::fingerprint(const EffectFit& f) {
   if (const RefinedCandidate* known = refined(f)) return known->fingerprint;
-  if (f.effect < 0) return alignment_.aligned(of_.shape_fingerprint(f.shape), found_effect(f));
+  if (f.effect < 0) return sensitivity_.aligned(of_.shape_fingerprint(f.shape), found_effect(f));
   const auto e = static_cast<std::size_t>(f.effect);
-  return alignment_.aligned(of_.atlas_->fingerprints()[e], of_.atlas_->plan().effects[e]);
+  return sensitivity_.aligned(of_.ensemble_->fingerprints()[e], of_.ensemble_->plan().effects[e]);
 }
 
 void Diagnoser::Refinement::forget(int family) {
@@ -163,10 +163,10 @@ void Diagnoser::Refinement::refine_fingerprint(EffectFit f, int experiments) {
   f.amplitudes = halfway(f, from);
   const Effect effect = found_effect(f);
   const Fingerprint about =
-      of_.atlas_->fingerprint_about(f.amplitudes, from, effect, calibrated_,
-                                    of_.stage_name(f, state_.details), learned_, experiments);
+      of_.ensemble_->fingerprint_about(f.amplitudes, from, effect, calibrated_,
+                                       of_.stage_name(f, state_.details), learned_, experiments);
   RefinedCandidate& own = state_.refined[id_of(f)];
-  own.fingerprint = alignment_.aligned(about, effect);
+  own.fingerprint = sensitivity_.aligned(about, effect);
   state_.selection.set_fingerprint(f, own.fingerprint);
   own.alone = state_.selection.fit_alone(residual_, f.effect, f.shape);
 }
@@ -205,7 +205,7 @@ EffectFit Diagnoser::Refinement::first_guess(EffectFit f) {
 const JointAmplitudes& Diagnoser::Refinement::filtered(const EffectFit& f, const Effect& effect) {
   const auto known = filtered_.find(id_of(f));
   if (known != filtered_.end()) return known->second;
-  auto linear = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), {effect});
+  auto linear = joint_amplitudes(of_.ensemble_->plan(), sensitivity_.recordings(), {effect});
   return filtered_[id_of(f)] = scanned_or(std::move(linear.front()), effect);
 }
 
@@ -218,7 +218,7 @@ JointAmplitudes Diagnoser::Refinement::scanned_or(JointAmplitudes linear,
 // Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
 std::vector<EffectFit> Diagnoser::Refinement::clearest() {
   std::map<Id, Effect> of;
-  const std::vector<Effect>& effects = of_.atlas_->plan().effects;
+  const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!effects[e].mean_force) continue;
     const Id id = id_of(fit_with({static_cast<int>(e), -1}, {}));
@@ -226,7 +226,7 @@ std::vector<EffectFit> Diagnoser::Refinement::clearest() {
   }
   std::vector<Effect> tried;
   for (const auto& [id, effect] : of) tried.push_back(effect);
-  const auto linear = joint_amplitudes(of_.atlas_->plan(), alignment_.recordings(), tried);
+  const auto linear = joint_amplitudes(of_.ensemble_->plan(), sensitivity_.recordings(), tried);
   std::vector<EffectFit> out;
   for (const auto& [id, effect] : of) {
     const JointAmplitudes& one = filtered_[id] = scanned_or(linear[out.size()], effect);
@@ -276,12 +276,12 @@ std::optional<EffectFit> Diagnoser::Refinement::next_after(const SelectedModel& 
   return std::nullopt;
 }
 
-Diagnoser::Refined Diagnoser::refined(Refined start, Alignment& alignment, const Vectors& observed,
-                                      const Vector& residual) {
+Diagnoser::Refined Diagnoser::refined(Refined start, ScoreSensitivity& sensitivity,
+                                      const Vectors& observed, const Vector& residual) {
   if (start.model.found.empty()) return start;
-  start.details.scans = scans_of(atlas_->plan(), alignment.recordings(), options_.threads);
+  start.details.scans = scans_of(ensemble_->plan(), sensitivity.recordings(), options_.threads);
   if (plain(start.selection, start.model, residual)) return start;
-  return Refinement(*this, alignment, observed, residual, start).run();
+  return Refinement(*this, sensitivity, observed, residual, start).run();
 }
 
 }  // namespace lilytank

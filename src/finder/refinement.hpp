@@ -24,7 +24,7 @@ struct RefinedCandidate {
 class Diagnoser::Refinement {
  public:
   /// `start`: the selection and details of the recordings, with their scans. All must outlive this.
-  Refinement(Diagnoser& diagnoser, Alignment& alignment, const Vectors& observed,
+  Refinement(Diagnoser& diagnoser, ScoreSensitivity& sensitivity, const Vectors& observed,
              const Eigen::VectorXd& residual, const Refined& start);
 
   /// First the candidates that may be it, then whatever leads, what is found and its rivals beside
@@ -55,7 +55,7 @@ class Diagnoser::Refinement {
   // About found amplitudes where there is one, else as learned first.
   Fingerprint fingerprint(const EffectFit& f);
   // Experiments about the amplitudes that were found, and the fingerprint by them.
-  void refine_fingerprint(EffectFit f, int experiments = Atlas::kAbout);
+  void refine_fingerprint(EffectFit f, int experiments = ReferenceEnsemble::kAbout);
   // Where further experiments with an effect are to be.
   Eigen::VectorXd halfway(const EffectFit& f, const Fingerprint& from);
   // Refines fingerprints until the selection needs no more.
@@ -130,7 +130,7 @@ class Diagnoser::Refinement {
   static constexpr double kBeside = 0.5;
 
   Diagnoser& of_;
-  Alignment& alignment_;
+  ScoreSensitivity& sensitivity_;
   const Eigen::VectorXd& residual_;
   const Eigen::VectorXd calibrated_;  // the recordings' parameters by the baseline
   const double baseline_misfit_;      // by the scatter of nulls

@@ -24,7 +24,7 @@ constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range
 }  // namespace
 
 ScorePlan Diagnoser::Refinement::beside(const SelectedModel& m, const Effect& scanned) const {
-  ScorePlan plan = of_.atlas_->plan();
+  ScorePlan plan = of_.ensemble_->plan();
   for (const EffectFit& f : m.found) {
     const Effect effect = found_effect(f);
     const bool own = f.effect < 0 ? effect.variable == scanned.variable : effect.is_of(scanned);
@@ -36,12 +36,12 @@ ScorePlan Diagnoser::Refinement::beside(const SelectedModel& m, const Effect& sc
 bool Diagnoser::Refinement::rescan(const SelectedModel& m) {
   bool moved = false;
   std::set<int> done;
-  for (const Effect& one : of_.atlas_->plan().effects) {
+  for (const Effect& one : of_.ensemble_->plan().effects) {
     if (one.estimated == Estimated::place && done.insert(one.family).second) {
       moved = rescan_stream(m, one) || moved;
     }
   }
-  for (const Effect& one : of_.atlas_->plan().effects) {
+  for (const Effect& one : of_.ensemble_->plan().effects) {
     if (one.scanned_from > 0 && done.insert(one.family).second) moved = rescan(m, one) || moved;
   }
   return moved;
@@ -51,7 +51,7 @@ bool Diagnoser::Refinement::rescan_stream(const SelectedModel& m, const Effect& 
   const ScorePlan plan = beside(m, stream);
   if (plan.beside.empty()) return false;
   StreamPlace& was = state_.details.scans.stream;
-  const StreamPlace now = find_stream(plan, alignment_.recordings(), of_.options_.threads);
+  const StreamPlace now = find_stream(plan, sensitivity_.recordings(), of_.options_.threads);
   if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
   was = now;
   find_homes(), forget(stream.family);
@@ -61,7 +61,7 @@ bool Diagnoser::Refinement::rescan_stream(const SelectedModel& m, const Effect& 
 bool Diagnoser::Refinement::rescan(const SelectedModel& m, const Effect& scanned) {
   const ScorePlan plan = beside(m, scanned);
   if (plan.beside.empty()) return false;
-  const auto all = find_values(plan, alignment_.recordings());
+  const auto all = find_values(plan, sensitivity_.recordings());
   const auto now = all.find(scanned.term);
   if (now == all.end()) return false;
   ScannedValue& was = state_.details.scans.values[now->first];
@@ -73,7 +73,7 @@ bool Diagnoser::Refinement::rescan(const SelectedModel& m, const Effect& scanned
   was = now->second;
   find_homes();
   std::set<int> forgotten;
-  for (const Effect& one : of_.atlas_->plan().effects) {
+  for (const Effect& one : of_.ensemble_->plan().effects) {
     if (one.is_of(scanned) && forgotten.insert(one.family).second) forget(one.family);
   }
   return true;
@@ -85,7 +85,7 @@ std::vector<EffectFit> Diagnoser::Refinement::refinable(const SelectedModel& m) 
   for (const EffectFit& f : m.found) {
     if (f.shape < 0) continue;
     const auto shape = static_cast<std::size_t>(f.shape);
-    const auto same = likeliest(true, of_.atlas_->plan().shapes[shape].variable);
+    const auto same = likeliest(true, of_.ensemble_->plan().shapes[shape].variable);
     if (same && id_of(*same) != id_of(out.front())) out.push_back(*same);
   }
   return out;
@@ -198,8 +198,8 @@ Fingerprint Diagnoser::Refinement::simulated(const std::vector<EffectFit>& found
     effects.push_back(found_effect(f)), each.push_back(fingerprint(f)), at.push_back(f.amplitudes);
   }
   const Fingerprint sum = together(each, at);
-  Fingerprint out =
-      of_.atlas_->fingerprint_about(sum.about, sum, together(effects), calibrated_, name, learned_);
+  Fingerprint out = of_.ensemble_->fingerprint_about(sum.about, sum, together(effects), calibrated_,
+                                                     name, learned_);
   out.base = out.at(sum.about), out.about = sum.about;
   return out;
 }

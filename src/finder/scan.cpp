@@ -44,8 +44,8 @@ Model with_stream(const Model& model, const StreamPlace& place) {
 
 // The places of the grid with the speeds of a linear estimate, those that it favours most first. A
 // smooth error of the flow can do nearly all that a wide stream does: cleared of that, its speed
-// and even its place may be told wrongly; with the flow taken as it is drawn an error of the flow
-// may be told as one.
+// and even its place may be scored wrongly; with the flow taken as it is drawn an error of the flow
+// may be scored as one.
 std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recording>& recordings,
                                 bool flow_as_drawn) {
   ScorePlan scan = plan;
@@ -53,9 +53,9 @@ std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recordi
   std::vector<StreamPlace> out = grid_of(plan.model);
   for (const StreamPlace& place : out) scan.effects.push_back(effect_at(plan.model, place));
   if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
-  const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
+  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const ScoredAmplitude &x = told[2 * k], &y = told[2 * k + 1];
+    const ScoredAmplitude &x = scored[2 * k], &y = scored[2 * k + 1];
     out[k].speed_x = x.estimate, out[k].speed_y = y.estimate, out[k].gain = x.gain + y.gain;
   }
   std::stable_sort(out.begin(), out.end(),
@@ -137,18 +137,18 @@ std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
       scan.effects.back().held[0].value = range;
     }
   }
-  const std::vector<ScoredAmplitude> told = scored_amplitudes(scan, recordings);
+  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
   std::map<const ForceTerm*, ScannedValue> out;
   std::map<const ForceTerm*, double> most;
-  for (std::size_t k = 0; k < told.size(); ++k) {
+  for (std::size_t k = 0; k < scored.size(); ++k) {
     const Effect& effect = scan.effects[k];
     const bool may_be_negative =
         effect.two_sided ||
         std::any_of(plan.effects.begin(), plan.effects.end(),
                     [&](const Effect& e) { return e.negative_of == effect.term; });
     double& best = most.emplace(effect.term, kClearRise).first->second;
-    if (!(told[k].gain > best) || (!may_be_negative && told[k].estimate < 0)) continue;
-    best = told[k].gain, out[effect.term] = {effect.held[0].value, told[k].estimate};
+    if (!(scored[k].gain > best) || (!may_be_negative && scored[k].estimate < 0)) continue;
+    best = scored[k].gain, out[effect.term] = {effect.held[0].value, scored[k].estimate};
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Numbers of effects that recordings tell directly: where in the tank a stream would explain most,
+// Numbers of effects that recordings show directly: where in the tank a stream would explain most,
 // over which range a force between modules would, beside the effects of plan.beside.
 #pragma once
 #include <map>

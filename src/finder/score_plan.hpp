@@ -24,7 +24,8 @@ struct ScorePlan {
   std::vector<Shape> shapes;
   double rate = 30;
   int modules = 15;  ///< identities in all recordings, of each call
-  /// Every body keeps its identity, in all recordings: what single modules differ in can be told.
+  /// Every body keeps its identity, in all recordings: differences between single modules are
+  /// tested.
   bool identities = true;
   /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
   std::vector<Effect> beside;
@@ -52,7 +53,7 @@ struct ScannedValue {
   double value = 0, amplitude = 0;
 };
 
-/// What recordings tell directly of effects that have a place or a range.
+/// Direct estimates from recordings for effects that have a place or a range.
 struct Scans {
   StreamPlace stream;  ///< with which the recordings are likeliest
   /// By the effect's term, of those that are clear; a repulsion is a negative attraction.

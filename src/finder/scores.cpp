@@ -7,7 +7,7 @@
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
 #include "finder/nuisances.hpp"
-#include "finder/scatter.hpp"
+#include "finder/residual_statistics.hpp"
 #include "forces/pairs.hpp"
 #include "statistics/linear.hpp"
 #include "text/words.hpp"
@@ -25,12 +25,12 @@ constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
 
-std::vector<std::unique_ptr<ScatterPart>> parts_of(const ScorePlan& plan) {
-  std::vector<std::unique_ptr<ScatterPart>> parts;
-  parts.push_back(memory_part(plan)), parts.push_back(variance_part(plan));
-  parts.push_back(neighbour_part(plan));
-  if (plan.identities) parts.push_back(module_part(plan));
-  parts.push_back(spectrum_part(plan)), parts.push_back(contact_part(plan));
+std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) {
+  std::vector<std::unique_ptr<ResidualStatistic>> parts;
+  parts.push_back(memory_statistic(plan)), parts.push_back(variance_statistic(plan));
+  parts.push_back(neighbour_statistic(plan));
+  if (plan.identities) parts.push_back(module_statistic(plan));
+  parts.push_back(spectrum_statistic(plan)), parts.push_back(contact_statistic(plan));
   return parts;
 }
 
@@ -115,9 +115,9 @@ class Scorer {
       const auto at = static_cast<Eigen::Index>(first);
       Eigen::MatrixXd own = normal.block(at, at, size, size);
       own.diagonal().array() += kJointKnown;
-      JointAmplitudes told{solve_symmetric(own, score)};
-      told.gain = score.dot(told.estimate);
-      out.push_back(std::move(told)), first += effect.paths.size();
+      JointAmplitudes one{solve_symmetric(own, score)};
+      one.gain = score.dot(one.estimate);
+      out.push_back(std::move(one)), first += effect.paths.size();
     }
     return out;
   }
@@ -126,15 +126,15 @@ class Scorer {
 
   Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
 
-  std::vector<double> tell(ScoreDetails* details) const {
+  std::vector<double> values(ScoreDetails* details) const {
     std::vector<double> values;
-    const auto told = sensitivities_.amplitudes(known_);
+    const auto amplitudes = sensitivities_.amplitudes(known_);
     const auto drawn = [&](std::size_t f, double known) {
-      const double own = told[f].information;
-      values.push_back(own > 0 ? told[f].estimate * own / (own + known) : 0);
+      const double own = amplitudes[f].information;
+      values.push_back(own > 0 ? amplitudes[f].estimate * own / (own + known) : 0);
     };
     for (std::size_t f = 0; f < scored_; ++f) drawn(f, kScoreKnown);
-    for (const auto& part : parts_) part->tell(values, details);
+    for (const auto& part : parts_) part->append_to(values, details);
     for (std::size_t f = scored_; f < total_; ++f) drawn(f, kKnotKnown);
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
@@ -263,10 +263,10 @@ class Scorer {
     }
     const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
     const bool held = frame.contact[i] > kContactPush || touching_[i] != 0;
-    if (visible && frame.told[i] != 0 && !held) {
+    if (visible && frame.usable[i] != 0 && !held) {
       for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
     }
-    out.usable = visible && frame.told[i] != 0 && !held && !lost;
+    out.usable = visible && frame.usable[i] != 0 && !held && !lost;
     if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
     last_[out.module] = frame.frame;
     if (!held && !lost) {
@@ -277,8 +277,8 @@ class Scorer {
 
   const ScorePlan& plan_;
   std::size_t modules_;
-  std::vector<std::unique_ptr<ScatterPart>> parts_;
-  std::size_t scored_, total_;  // features that are told
+  std::vector<std::unique_ptr<ResidualStatistic>> parts_;
+  std::size_t scored_, total_;  // features that are amplitudes
   // Components of effects beside them, and what is known of these and of nuisances.
   std::size_t beside_;
   Eigen::MatrixXd known_;
@@ -378,7 +378,7 @@ std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& r
                           ScoreDetails* details) {
   Scorer scorer(plan);
   scorer.run(recordings);
-  return scorer.tell(details);
+  return scorer.values(details);
 }
 
 }  // namespace lilytank

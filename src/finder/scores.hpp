@@ -1,4 +1,4 @@
-// What innovations tell: how much of each effect's force is in them, how they scatter, and what
+// What innovations show: how much of each effect's force is in them, how they scatter, and what
 // happens when modules touch.
 //
 // A force that the model lacks shows in the next innovations by way of the filter: its sensitivity
@@ -7,7 +7,7 @@
 // and of the flow could have done (nuisances.hpp) and divided by the information that is left, so
 // each is an estimate of the effect's amplitude, in units of the size at which it is tried; that
 // estimate is biased by all that the filter leaves out, as is its expectation by simulation
-// (atlas.hpp).
+// (reference_ensemble.hpp).
 #pragma once
 #include <vector>
 
@@ -21,17 +21,17 @@ std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& r
 
 /// Information of every two of the scores of the plan's effects and, after them, of further ones,
 /// by what they would have done to recordings, [component, component]: what simulated experiments
-/// tell only roughly. 0 where there is none.
+/// show only roughly. 0 where there is none.
 Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
                                    const std::vector<Effect>& further = {});
 /// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules
-/// hardly ever felt would else be told as anything. A score is its estimate times own / (own +
+/// hardly ever felt could else have any estimate. A score is its estimate times own / (own +
 /// this).
 inline constexpr double kScoreKnown = 1;
 /// Correlations that scores with such information have among experiments.
 Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
 /// Variance of a score that no other has, where correlations are divided out.
-inline constexpr double kUnalike = 0.01;
+inline constexpr double kUniqueVariance = 0.01;
 
 /// Every scored component of the plan's effects alone: its amplitude, in sizes, and by how much it
 /// raises twice the log-likelihood.
@@ -47,7 +47,7 @@ struct JointAmplitudes {
   Eigen::VectorXd estimate;
   double gain = 0;
 };
-/// Those of every effect, each by itself; effects that have no mean force tell nothing.
+/// Those of every effect, each by itself; effects without a mean force have none.
 std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
                                               const std::vector<Recording>& recordings,
                                               const std::vector<Effect>& effects);

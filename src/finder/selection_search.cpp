@@ -136,15 +136,15 @@ bool SelectionSearch::within_curve(const EffectCandidate& of,
 
 // From where each member's amplitudes are. Sets every member's z and gain beside the others.
 void SelectionSearch::fit_together(CandidateSet& set) const {
-  std::vector<const Answer*> responses;
+  std::vector<const ResponseModel*> responses;
   std::vector<double> start;
   for (std::size_t i = 0; i < set.of.size(); ++i) {
     responses.push_back(&s_.candidates[set.of[i]].all);
     start.insert(start.end(), set.fits[i].amplitudes.begin(), set.fits[i].amplitudes.end());
   }
-  AnswerFit fit =
-      fit_answers(responses, s_.interactions.empty() ? all_ : Vector(all_ - interactions(set)),
-                  Eigen::Map<const Vector>(start.data(), static_cast<Eigen::Index>(start.size())));
+  ResponseFit fit = fit_responses(
+      responses, s_.interactions.empty() ? all_ : Vector(all_ - interactions(set)),
+      Eigen::Map<const Vector>(start.data(), static_cast<Eigen::Index>(start.size())));
   set.left = std::move(fit.left);
   Eigen::Index at = 0;
   for (std::size_t i = 0; i < set.of.size(); ++i) {

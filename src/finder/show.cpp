@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "finder/flow_uncertainty.hpp"
 #include "finder/scores.hpp"
-#include "finder/slack.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"
@@ -80,7 +80,7 @@ Innovations innovations(const Model& model, const Recording& recording,
   Innovations out;
   predict(model, {recording}, predictor, [&](const PredictedFrame& f) {
     for (std::size_t i = 0; i < f.dx.size(); ++i) {
-      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContactPushed) continue;
+      if (f.usable[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > kContactPushed) continue;
       out[{f.module[i], f.frame}] = {
           std::clamp(f.dx[i] / f.sd_x[i], -kFarInnovation, kFarInnovation),
           std::clamp(f.dy[i] / f.sd_x[i], -kFarInnovation, kFarInnovation),
@@ -137,7 +137,7 @@ std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps&
   const auto stopped = [&] { return o.stop != nullptr && o.stop->load(); };
   for_each_world(count, o.threads, [&](int i) {
     if (stopped()) return;
-    const auto field = loosened(maps, derived_seed(seed, 7), seed, i);
+    const auto field = perturbed_flow(maps, derived_seed(seed, 7), seed, i);
     made[static_cast<std::size_t>(i)] =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
   });

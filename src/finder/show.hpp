@@ -3,8 +3,8 @@
 #pragma once
 #include <vector>
 
-#include "finder/atlas.hpp"
 #include "finder/joint.hpp"
+#include "finder/reference_ensemble.hpp"
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "finder/scatter.hpp"
+#include "finder/residual_statistics.hpp"
 #include "statistics/median.hpp"
 #include "text/number.hpp"
 
@@ -37,7 +37,7 @@ void add_powers(const std::vector<double>& series, const std::array<double, kBan
   for (std::size_t k = 0; k < kBank; ++k) power[k] += re[k] * re[k] + im[k] * im[k];
 }
 
-class Spectrum final : public ScatterPart {
+class Spectrum final : public ResidualStatistic {
  public:
   explicit Spectrum(const ScorePlan& plan)
       : rate_(plan.rate), pieces_(static_cast<std::size_t>(plan.modules)) {
@@ -70,7 +70,7 @@ class Spectrum final : public ScatterPart {
     series.resize(static_cast<std::size_t>(frame.frame), 0.0);
     series.push_back(square > 0 ? along / square : 0);
   }
-  void tell(std::vector<double>& values, ScoreDetails* details) const override {
+  void append_to(std::vector<double>& values, ScoreDetails* details) const override {
     values.push_back(line(details));
     if (details != nullptr) details->swinging = swinging();
     double all = 1e-300, most = 0;
@@ -190,7 +190,7 @@ class Spectrum final : public ScatterPart {
 
 }  // namespace
 
-std::unique_ptr<ScatterPart> spectrum_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> spectrum_statistic(const ScorePlan& plan) {
   return std::make_unique<Spectrum>(plan);
 }
 

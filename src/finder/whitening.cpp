@@ -95,7 +95,7 @@ Whitening whitening_by_nulls(const Matrix& nulls, const Matrix& expected_correla
   out.named = nulls.cols() - static_cast<Eigen::Index>(curves) * kKnots;
   out.expected_root = Matrix::Identity(out.named, out.named);
   Matrix expected = expected_correlation;
-  expected.diagonal().array() += kUnalike;
+  expected.diagonal().array() += kUniqueVariance;
   const Eigen::Index first = expected.rows();
   if (expected.size() > 0) out.expected_root.topLeftCorner(first, first) = lower_root(expected);
   out.centre = nulls.colwise().mean().transpose();

@@ -8,9 +8,9 @@
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "proof/baseline_method.hpp"
 #include "proof/proof_files.hpp"
 #include "proof/sealed.hpp"
-#include "proof/yardstick.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -21,7 +21,7 @@ constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSee
                         kExpectedSeed = 1u << 21, kDrawnSeed = 5;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
-constexpr int kExpectedRuns = 8;  // experiments that tell how strongly an effect shows
+constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
 Experiment open_tank(const ProofOptions& options, const Model& tank) {
@@ -77,11 +77,11 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
   if (row.empty()) return std::nullopt;
   const int kept = static_cast<int>(row[0]);
   if (kept >= 0) {
-    world.regression = diagnoser.atlas().plan().effects[static_cast<std::size_t>(kept)].name;
+    world.regression = diagnoser.ensemble().plan().effects[static_cast<std::size_t>(kept)].name;
   }
   Judged judged = diagnoser.judge(judged_of(row), recordings, d);
   world.verdict = d.verdict;
-  world.displacement = diagnoser.atlas().displacement_misfit(judged.observed.summary);
+  world.displacement = diagnoser.ensemble().displacement_misfit(judged.observed.summary);
   for (const DiagnosisFinding& f : d.findings) {
     world.findings.push_back({f.effect, f.alternatives, f.variable, f.z});
   }
@@ -121,7 +121,8 @@ void compare_parameters(const Diagnosis& d, const std::map<std::string, double>&
   }
 }
 
-// The model of a world that was told rightly, against the key and further recordings of it.
+// The model of an experiment that was diagnosed correctly, against the key and further recordings
+// of it.
 void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
                  double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
   const auto further = film_sealed(tank, s, seconds, seed);
@@ -131,7 +132,7 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   if (s.kind == "unnamed") {
     const int shape = judged.selected.found.front().shape;
     tell_law(s.effects.front(),
-             diagnoser.atlas().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
+             diagnoser.ensemble().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
   }
   compare_parameters(d, truth, world);
   for (const DiagnosisFinding& f : d.findings) {
@@ -149,7 +150,7 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
   const CalibrationSetup& setup = diagnoser.setup();
   const auto truth = truth_of(tank, s);
   std::vector<double> values = setup.start;
-  for (std::size_t k = 0; k < setup.told(); ++k) {
+  for (std::size_t k = 0; k < setup.reported_count(); ++k) {
     const auto at = truth.find(setup.paths()[k]);
     if (at != truth.end()) values[k] = at->second;
   }
@@ -159,8 +160,8 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
-    const Eigen::VectorXd mean =
-        diagnoser.atlas().mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
+    const Eigen::VectorXd mean = diagnoser.ensemble().mean_residual(own.effect, amplitudes, point,
+                                                                    kExpectedRuns, stage, seed);
     const ModelSelection& selection = diagnoser.selection();
     least = std::min(least, own.like < 0 ? selection.shapes(mean).front().z
                                          : selection.expected_z(own.like, mean, kExpectedRuns));
@@ -168,7 +169,7 @@ double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std:
   return s.effects.empty() ? 0 : least;
 }
 
-// Of a drawn tank; nothing else about it is told before the key is opened.
+// Of a drawn tank; nothing else about it is printed before the key is opened.
 DrawnTank tank_of(const ProofOptions& options) {
   return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
 }
@@ -215,8 +216,8 @@ class Examination {
     DiagnosisOptions job = options_.diagnosis;
     job.hold_out = 0;
     if (job.progress) {
-      job.progress = [this, tell = job.progress](double done, const std::string& stage) {
-        tell(done, world_told_ + stage);
+      job.progress = [this, report = job.progress](double done, const std::string& stage) {
+        report(done, world_name_ + stage);
       };
     }
     Diagnoser diagnoser(open, job);
@@ -229,7 +230,7 @@ class Examination {
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
     const double begin = diagnoser.stages().spent();
     for (std::size_t w = 0; w < rows_.size(); ++w) {
-      world_told_ =
+      world_name_ =
           "experiment " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
       if (w < before.size() && !asks_for_model(before[w])) {
         out_.worlds.push_back(before[w]);
@@ -237,8 +238,8 @@ class Examination {
         out_.worlds.push_back(ask(diagnoser, w));
         keep(job.out, before);
       }
-      const ProofWorld& told = out_.worlds.back();
-      modelled_ += told.kind == "null" || told.intervals.empty() ? 0 : 1;
+      const ProofWorld& last = out_.worlds.back();
+      modelled_ += last.kind == "null" || last.intervals.empty() ? 0 : 1;
       diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
                                modelled_ * diagnoser.model_cost());
       if (options_.judged) options_.judged(out_);
@@ -247,7 +248,8 @@ class Examination {
   }
 
  private:
-  // What is told now, and after it what was told before: a world may be asked again for its model.
+  // Results of this call, then those of earlier ones: an experiment may be diagnosed again for its
+  // model.
   void keep(const std::string& dir, const std::vector<ProofWorld>& before) const {
     Proof all = out_;
     for (std::size_t w = all.worlds.size(); w < before.size(); ++w) all.worlds.push_back(before[w]);
@@ -276,8 +278,8 @@ class Examination {
       const auto made = film(static_cast<std::size_t>(i));
       if (!made) return std::vector<double>{};
       Judged j;
-      j.observed = diagnoser.atlas().vectors(*made, &j.details);
-      return row_of(j, sparse_regression(diagnoser.atlas().plan(), *made));
+      j.observed = diagnoser.ensemble().vectors(*made, &j.details);
+      return row_of(j, sparse_regression(diagnoser.ensemble().plan(), *made));
     };
     return diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row);
   }
@@ -300,7 +302,7 @@ class Examination {
     if (!rows_[w].empty()) recordings = film(w).value_or(recordings);
     const std::optional<Judged> judged = judge_world(diagnoser, rows_[w], recordings, d, world);
     if (judged && s.kind == "null") {
-      diagnoser.tell_baseline(*judged, d);
+      diagnoser.report_baseline(*judged, d);
       compare_parameters(d, truth_of(tank_, s), world);
     }
     if (judged && asks_for_model(world)) {
@@ -318,7 +320,7 @@ class Examination {
   std::vector<Sealed> sealed_;
   std::vector<std::vector<double>> rows_;  // what is measured in each
   Proof out_;
-  std::string world_told_;  // before the stage, in the progress
+  std::string world_name_;  // before the stage, in the progress
   int modelled_ = 0;
 };
 

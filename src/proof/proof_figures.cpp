@@ -18,7 +18,7 @@ ProofPoint point_of(const ProofWorld& w) {
             : w.kind == "unnamed" ? "a law of no effect"
                                   : w.effects[0];
   out.expected_z = std::max(w.expected_z, ProofFigures::kLeastZ);
-  // A wrong name is one, whatever was told rightly beside it.
+  // A wrong name is one, whatever is right beside it.
   if (w.wrong_name()) {
     out.outcome = ProofPoint::Outcome::wrong_name;
   } else if (w.right()) {

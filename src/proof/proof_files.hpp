@@ -1,5 +1,5 @@
-// Worlds that a proof has told, kept in its directory's work: a proof that was stopped goes on with
-// the next one.
+// Experiments that a proof has diagnosed, kept in its directory's work: a proof that was stopped
+// goes on with the next one.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lilytank {
 
-/// Writes the worlds that are told; nothing if `dir` is empty. Throws InputError.
+/// Writes the experiments diagnosed so far; nothing if `dir` is empty. Throws InputError.
 void keep_worlds(const std::string& dir, const Proof& so_far);
 
 /// Those kept there of this key, from the first; none of another key's. Throws InputError where

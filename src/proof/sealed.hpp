@@ -58,7 +58,7 @@ std::string key_text(const Sealed& s);
 /// Recordings of it; nothing if a world diverged.
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
                                                   double seconds, std::uint64_t seed);
-/// Every number of a sealed world that a diagnosis may tell, by path.
+/// Every number of a sealed world that a diagnosis may report, by path.
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s);
 
 }  // namespace lilytank

@@ -109,7 +109,7 @@ TEST(LongSmallTank, IsDiagnosed) {
     const Judged complete = diagnoser.judge(filmed(small_tank(), seed), d);
     EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
     EXPECT_FALSE(d.detectable.empty());
-    diagnoser.tell_baseline(complete, d);
+    diagnoser.report_baseline(complete, d);
     ASSERT_EQ(d.parameters.size(), 5u);
     for (const MovedParameter& p : d.parameters) {
       const double truth = parameter_value(small_tank(), p.path);
@@ -152,7 +152,7 @@ TEST(LongSmallTank, IsDiagnosed) {
   EXPECT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);
   EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
   // A compass needle in every module.
-  const Model compass = with_compass(diagnoser.atlas().plan().shapes);
+  const Model compass = with_compass(diagnoser.ensemble().plan().shapes);
   Diagnosis odd;
   diagnoser.model_and_show(diagnoser.judge(filmed(compass, 51), odd), filmed(compass, 52), odd);
   ASSERT_EQ(odd.verdict, Verdict::missing) << diagnosis_text(odd);

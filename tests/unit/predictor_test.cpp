@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "finder/flow_uncertainty.hpp"
 #include "finder/nuisances.hpp"
 #include "finder/scan.hpp"
 #include "finder/scores.hpp"
 #include "finder/show.hpp"
-#include "finder/slack.hpp"
 #include "forces/library.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/emulator.hpp"
@@ -86,7 +86,7 @@ TEST(Predictor, InnovationsOfTheRightModelAreNoise) {
   double sum = 0, square = 0, count = 0;
   predict(model, recordings, predictor_options(model, recordings), [&](const PredictedFrame& f) {
     for (std::size_t i = 0; i < f.dx.size(); ++i) {
-      if (f.told[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > 0.03) continue;
+      if (f.usable[i] == 0 || std::isnan(f.dx[i]) || f.contact[i] > 0.03) continue;
       for (const double z : {f.dx[i] / f.sd_x[i], f.dy[i] / f.sd_x[i]}) {
         sum += z, square += z * z, count += 1;
       }
@@ -334,8 +334,8 @@ TEST(FlowSlack, IsASmallSmoothErrorThatTheSeedFixes) {
   const Model model = drifting(1);
   const FlowField& field = *model.field;
   const FlowMaps maps(model.field);
-  const auto a = loosened(maps, 9, 4, 0), again = loosened(maps, 9, 4, 0),
-             other = loosened(maps, 9, 4, 1);
+  const auto a = perturbed_flow(maps, 9, 4, 0), again = perturbed_flow(maps, 9, 4, 0),
+             other = perturbed_flow(maps, 9, 4, 1);
   double size = 0, error = 0;
   for (std::size_t i = 0; i < field.samples().size(); ++i) {
     const FlowSample &was = field.samples()[i], &is = a->samples()[i];

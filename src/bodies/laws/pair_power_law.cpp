@@ -4,7 +4,7 @@
 namespace lilytank::bodies {
 namespace {
 
-// The strength is told at a gap that occurs: far from there it would hang on the exponent. Gaps
+// The strength is given at a gap that occurs: far from there it would hang on the exponent. Gaps
 // below a fifth of that count as a fifth, so that no step meets a pole.
 class PowerLaw final : public PairLaw {
  public:

@@ -18,19 +18,19 @@ struct Seen {
   double drag_x = 0, drag_y = 0;      ///< m/s^2, by the expected drag
 };
 
-class ScatterPart {
+class ResidualStatistic {
  public:
-  virtual ~ScatterPart() = default;
+  virtual ~ResidualStatistic() = default;
   virtual std::vector<ScoreEntry> entries() const = 0;
   virtual void add(const PredictedFrame& frame, const std::vector<Seen>& seen) = 0;
-  virtual void tell(std::vector<double>& values, ScoreDetails* details) const = 0;
+  virtual void append_to(std::vector<double>& values, ScoreDetails* details) const = 0;
 };
 
-std::unique_ptr<ScatterPart> memory_part(const ScorePlan& plan);
-std::unique_ptr<ScatterPart> variance_part(const ScorePlan& plan);
-std::unique_ptr<ScatterPart> neighbour_part(const ScorePlan& plan);
-std::unique_ptr<ScatterPart> module_part(const ScorePlan& plan);
-std::unique_ptr<ScatterPart> spectrum_part(const ScorePlan& plan);
-std::unique_ptr<ScatterPart> contact_part(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> memory_statistic(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> variance_statistic(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> neighbour_statistic(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> module_statistic(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> spectrum_statistic(const ScorePlan& plan);
+std::unique_ptr<ResidualStatistic> contact_statistic(const ScorePlan& plan);
 
 }  // namespace lilytank

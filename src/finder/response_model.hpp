@@ -6,7 +6,7 @@
 namespace lilytank {
 
 /// base + first d + second d^2, d = amplitudes - about. About 0 the base is nothing.
-struct Answer {
+struct ResponseModel {
   Eigen::VectorXd about;          ///< [amplitude], in units of the effect's sizes
   Eigen::VectorXd base;           ///< [number]
   Eigen::MatrixXd first, second;  ///< [number, amplitude]
@@ -22,18 +22,18 @@ struct Answer {
   Eigen::VectorXd most() const;
   bool at_reach(const Eigen::VectorXd& amplitudes) const;
   /// The first of the numbers.
-  Answer top(Eigen::Index numbers) const;
+  ResponseModel top(Eigen::Index numbers) const;
 };
 
 /// Amplitudes, one answer's after the other's, and what they leave of the data.
-struct AnswerFit {
+struct ResponseFit {
   Eigen::VectorXd amplitudes, left;
 };
 
 /// Least squares [Gauss and Newton] from `start` by answers that add up, within their reach.
-AnswerFit fit_answers(const std::vector<const Answer*>& answers, const Eigen::VectorXd& data,
-                      const Eigen::VectorXd& start);
+ResponseFit fit_responses(const std::vector<const ResponseModel*>& answers,
+                          const Eigen::VectorXd& data, const Eigen::VectorXd& start);
 /// The same by one, from where it may be; amplitudes of 0 if that leaves no less than there was.
-AnswerFit fit_answer(const Answer& answer, const Eigen::VectorXd& data);
+ResponseFit fit_response(const ResponseModel& answer, const Eigen::VectorXd& data);
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-#include "finder/atlas.hpp"
+#include "finder/reference_ensemble.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
-#include "finder/slack.hpp"
+#include "finder/flow_uncertainty.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"
@@ -22,7 +22,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
-constexpr int kAtlasFolds = 8;
+constexpr int kEnsembleFolds = 8;
 constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
 // Of the design, about what was found: parameters are known better than what nulls are spread over.
 constexpr double kNarrow = 0.6;
@@ -47,10 +47,10 @@ FitBounds within() {
 // models that did not know it: as it will be with data.
 Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
   Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
-  for (int fold = 0; fold < kAtlasFolds; ++fold) {
-    const LocalModel parameters(without_fold(summaries, fold, kAtlasFolds));
-    const LocalModel scores(without_fold(numbers, fold, kAtlasFolds));
-    for (Eigen::Index i = fold; i < out.rows(); i += kAtlasFolds) {
+  for (int fold = 0; fold < kEnsembleFolds; ++fold) {
+    const LocalModel parameters(without_fold(summaries, fold, kEnsembleFolds));
+    const LocalModel scores(without_fold(numbers, fold, kEnsembleFolds));
+    for (Eigen::Index i = fold; i < out.rows(); i += kEnsembleFolds) {
       const Vector at =
           parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
       out.row(i) = numbers.numbers.row(i) - scores.mean(at).transpose();
@@ -107,8 +107,8 @@ double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
 }
 
 // By the variance of what calibration is off, beside that of the parameters themselves: all of
-// theirs where it tells nothing of them.
-Vector told_by(const Matrix& points, const Matrix& off) {
+// theirs where it does not constrain them.
+Vector identifiable_share_by(const Matrix& points, const Matrix& off) {
   const auto variance = [](const Matrix& of) {
     return Vector((of.rowwise() - of.colwise().mean()).colwise().squaredNorm().transpose());
   };
@@ -118,8 +118,9 @@ Vector told_by(const Matrix& points, const Matrix& off) {
 
 }  // namespace
 
-Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector& centre,
-             const Matrix& spread, const AtlasOptions& options)
+ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, ScorePlan plan,
+                                     const Vector& centre, const Matrix& spread,
+                                     const EnsembleOptions& options)
     : stages_(stages),
       maps_(maps),
       plan_(std::move(plan)),
@@ -150,10 +151,10 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   // A knot that bodies hardly ever visit is known no better than its neighbours.
   for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
     auto knots = deviation_.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots);
-    std::vector<double> told;
-    std::copy_if(knots.begin(), knots.end(), std::back_inserter(told),
+    std::vector<double> known;
+    std::copy_if(knots.begin(), knots.end(), std::back_inserter(known),
                  [](double d) { return d < kNoWeight; });
-    if (!told.empty()) knots = knots.cwiseMax(median(told));
+    if (!known.empty()) knots = knots.cwiseMax(median(known));
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());
@@ -165,18 +166,20 @@ Atlas::Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Vector&
   }
 }
 
-Eigen::Index Atlas::summary_numbers() const {
+Eigen::Index ReferenceEnsemble::summary_numbers() const {
   return static_cast<Eigen::Index>(stages_.setup().entries().size());
 }
 
-Vectors Atlas::vectors(const std::vector<Recording>& recordings, ScoreDetails* details) const {
+Vectors ReferenceEnsemble::vectors(const std::vector<Recording>& recordings,
+                                   ScoreDetails* details) const {
   return {to_vector(stages_.setup().numbers(recordings)),
           to_vector(score(plan_, recordings, details))};
 }
 
-Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const Vector& about,
-                       const Matrix& spread, const Matrix& amplitudes, const Effect* effect,
-                       std::uint64_t seed) {
+Design ReferenceEnsemble::simulate(const std::string& stage, const Emulator& emulator,
+                                   const Vector& about, const Matrix& spread,
+                                   const Matrix& amplitudes, const Effect* effect,
+                                   std::uint64_t seed) {
   const Matrix points =
       scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   std::vector<ParameterInfo> bounds;
@@ -192,7 +195,7 @@ Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const
       values.push_back(
           std::clamp(absent[k] + amplitude * effect->sizes[k], bounds[k].low, bounds[k].high));
     }
-    const auto field = loosened(maps_, derived_seed(seed, kFieldSeed), seed, i);
+    const auto field = perturbed_flow(maps_, derived_seed(seed, kFieldSeed), seed, i);
     const auto made =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
     if (!made) return std::vector<double>{};
@@ -206,39 +209,42 @@ Design Atlas::simulate(const std::string& stage, const Emulator& emulator, const
   return design_of(where, rows);
 }
 
-Prior Atlas::prior() const {
+Prior ReferenceEnsemble::prior() const {
   return {centre_, spread_.diagonal()};
 }
 
-LocalFit Atlas::nearest(const Vector& summary) const {
+LocalFit ReferenceEnsemble::nearest(const Vector& summary) const {
   return parameters_->fit(summary, within());
 }
 
-Vector Atlas::calibrated(const Vector& summary) const {
+Vector ReferenceEnsemble::calibrated(const Vector& summary) const {
   return parameters_->fit(summary, within(), prior()).fit.point;
 }
 
-Scatter Atlas::told(const Vector& summary, const Prior& before) const {
+Scatter ReferenceEnsemble::posterior(const Vector& summary, const Prior& before) const {
   return turned_back(summaries_, centre_, before, summary).answer;
 }
 
-Vector Atlas::residual(const Vectors& vectors) const {
+Vector ReferenceEnsemble::residual(const Vectors& vectors) const {
   return residual_at(vectors.scores, calibrated(vectors.summary));
 }
 
 // What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
 // ever vary must not outweigh all others.
-Vector Atlas::residual_at(const Vector& scores, const Vector& point) const {
+Vector ReferenceEnsemble::residual_at(const Vector& scores, const Vector& point) const {
   const Vector off = scores - scores_->mean(point);
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
-Vector Atlas::uncalibrated(const Vector& scores) const {
+Vector ReferenceEnsemble::uncalibrated(const Vector& scores) const {
   return scores - scores_->mean(centre_);
 }
 
-Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, const Vector& about,
-                              const Matrix& spread, const Matrix& amplitudes, std::uint64_t seed) {
+ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
+                                                        const std::string& stage,
+                                                        const Vector& about, const Matrix& spread,
+                                                        const Matrix& amplitudes,
+                                                        std::uint64_t seed) {
   const CalibrationSetup& setup = stages_.setup();
   std::vector<double> absent;
   for (std::size_t c = 0; c < effect.paths.size(); ++c) {
@@ -250,8 +256,8 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
                           {.moment_matched = false});
   const Design made = simulate(stage, emulator, about, spread, amplitudes, &effect, seed);
   const Eigen::Index n = made.points.rows();
-  Answers out{made.points.rightCols(amplitudes.cols()), made.points.leftCols(about.size()),
-              Matrix(n, deviation_.size()), Matrix(n, about.size())};
+  Responses out{made.points.rightCols(amplitudes.cols()), made.points.leftCols(about.size()),
+                Matrix(n, deviation_.size()), Matrix(n, about.size())};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vectors v{made.numbers.row(i).head(summary_numbers()),
                     made.numbers.row(i).tail(deviation_.size())};
@@ -262,7 +268,7 @@ Atlas::Answers Atlas::answers(const Effect& effect, const std::string& stage, co
   return out;
 }
 
-double Atlas::displacement_misfit(const Vector& summary) const {
+double ReferenceEnsemble::displacement_misfit(const Vector& summary) const {
   const std::vector<SummaryEntry> entries = stages_.setup().entries();
   std::vector<Eigen::Index> of;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -273,10 +279,11 @@ double Atlas::displacement_misfit(const Vector& summary) const {
   return off.dot(solve_symmetric(covariance, off));
 }
 
-Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed) {
+Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const std::string& stage,
+                                           std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   const int count = options_.experiments * static_cast<int>(m);
-  const Answers made =
+  const Responses made =
       answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
   Matrix x(made.amplitudes.rows(), 2 * m);
   x << made.amplitudes, made.amplitudes.array().square().matrix();
@@ -292,14 +299,15 @@ Fingerprint Atlas::fingerprint(const Effect& effect, const std::string& stage, s
   out.about = Vector::Zero(m), out.base = Vector::Zero(deviation_.size());
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
-  out.told = told_by(made.points, made.moved - made.amplitudes * moved);
+  out.identifiable_share = identifiable_share_by(made.points, made.moved - made.amplitudes * moved);
   out.experiments = options_.experiments, out.two_sided = effect.two_sided;
   out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
   return out;
 }
 
-Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, const Vector& point,
-                            int experiments, const std::string& stage, std::uint64_t seed) {
+Vector ReferenceEnsemble::mean_residual(const Effect& effect, const Vector& amplitudes,
+                                        const Vector& point, int experiments,
+                                        const std::string& stage, std::uint64_t seed) {
   const Matrix at = amplitudes.transpose().replicate(experiments, 1);
   return answers(effect, stage, point, kNarrow * spread_, at, seed)
       .residuals.colwise()
@@ -307,14 +315,15 @@ Vector Atlas::mean_residual(const Effect& effect, const Vector& amplitudes, cons
       .transpose();
 }
 
-Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
-                                     const Effect& effect, const Vector& calibrated,
-                                     const std::string& name, LearnedFingerprints& learned,
-                                     int experiments) {
+Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
+                                                 const Effect& effect, const Vector& calibrated,
+                                                 const std::string& name,
+                                                 LearnedFingerprints& learned, int experiments) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
-  // What a calibration no longer tells beside the effect stays where it is expected.
-  const Vector away = from.told.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
+  // What a calibration no longer identifies beside the effect stays where it is expected.
+  const Vector away =
+      from.identifiable_share.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
   const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
   std::vector<LearnedFingerprint>& own = learned[name];
   if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
@@ -327,8 +336,8 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
-  const Answers made = answers(effect, stage, point, kNarrow * spread_,
-                               about(amplitudes, experiments, effect.two_sided, seed), seed);
+  const Responses made = answers(effect, stage, point, kNarrow * spread_,
+                                 about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
@@ -344,7 +353,7 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
   out.first = secant + solved.bottomRows(m).transpose();
   out.second = Matrix::Zero(out.first.rows(), m);
   out.moved_base = made.moved.colwise().mean().transpose();
-  out.told = told_by(made.points, made.moved);
+  out.identifiable_share = identifiable_share_by(made.points, made.moved);
   const auto n = static_cast<double>(off.rows());
   out.scatter = (made.residuals - off * secant.transpose() - x * solved) *
                 std::sqrt(n / std::max(1.0, n - 1 - kSlopesFitted * static_cast<double>(m)));
@@ -354,9 +363,9 @@ Fingerprint Atlas::fingerprint_about(const Vector& amplitudes, const Fingerprint
 }
 
 // The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
-const LearnedFingerprint* Atlas::nearest_of(const std::vector<LearnedFingerprint>& learned,
-                                            const Vector& amplitudes, const Vector& point,
-                                            int experiments) const {
+const LearnedFingerprint* ReferenceEnsemble::nearest_of(
+    const std::vector<LearnedFingerprint>& learned, const Vector& amplitudes, const Vector& point,
+    int experiments) const {
   const LearnedFingerprint* nearest = nullptr;
   double least = 1;
   for (const LearnedFingerprint& one : learned) {

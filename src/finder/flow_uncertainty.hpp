@@ -12,7 +12,7 @@ namespace lilytank {
 /// leave open, and a smooth random error of `seed` added: of the mean 2 % of its root mean square
 /// per axis, over lengths of a quarter of the tank and more; of the gusts' deviation a common 3 %
 /// and a smooth 3 %.
-std::shared_ptr<const FlowField> loosened(const FlowMaps& maps, std::uint64_t field_seed,
-                                          std::uint64_t seed, std::int64_t run);
+std::shared_ptr<const FlowField> perturbed_flow(const FlowMaps& maps, std::uint64_t field_seed,
+                                                std::uint64_t seed, std::int64_t run);
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-#include "finder/slack.hpp"
+#include "finder/flow_uncertainty.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,8 +51,8 @@ void widen(FlowSample& drawn, const FlowSample& best) {
 
 }  // namespace
 
-std::shared_ptr<const FlowField> loosened(const FlowMaps& maps, std::uint64_t field_seed,
-                                          std::uint64_t seed, std::int64_t run) {
+std::shared_ptr<const FlowField> perturbed_flow(const FlowMaps& maps, std::uint64_t field_seed,
+                                                std::uint64_t seed, std::int64_t run) {
   const FlowField& field = *maps.best();
   std::vector<FlowSample> samples = maps.draw(field_seed, run)->samples();
   for (std::size_t i = 0; i < samples.size(); ++i) widen(samples[i], field.samples()[i]);

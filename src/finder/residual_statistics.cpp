@@ -1,4 +1,4 @@
-#include "finder/scatter.hpp"
+#include "finder/residual_statistics.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ double clipped(double z) {
   return std::clamp(z, -kFarScore, kFarScore);
 }
 
-class Memory final : public ScatterPart {
+class Memory final : public ResidualStatistic {
  public:
   explicit Memory(const ScorePlan& plan) : past_(static_cast<std::size_t>(plan.modules)) {}
   std::vector<ScoreEntry> entries() const override {
@@ -56,7 +56,7 @@ class Memory final : public ScatterPart {
       ring.push(z);
     }
   }
-  void tell(std::vector<double>& values, ScoreDetails*) const override {
+  void append_to(std::vector<double>& values, ScoreDetails*) const override {
     for (const Mean& m : place_) values.push_back(m.value() / std::max(squares_.value(), 1e-9));
     for (const Mean& m : turn_) values.push_back(m.value() / std::max(turn_squares_.value(), 1e-9));
   }
@@ -81,7 +81,7 @@ class Memory final : public ScatterPart {
   Mean squares_, turn_squares_;
 };
 
-class Variance final : public ScatterPart {
+class Variance final : public ResidualStatistic {
  public:
   explicit Variance(const ScorePlan& plan) : radius_(plan.model.tank.radius) {}
   std::vector<ScoreEntry> entries() const override {
@@ -121,7 +121,7 @@ class Variance final : public ScatterPart {
       by_time_.emplace_back(static_cast<float>(frame.time), static_cast<float>(square));
     }
   }
-  void tell(std::vector<double>& values, ScoreDetails*) const override {
+  void append_to(std::vector<double>& values, ScoreDetails*) const override {
     const double all = std::max(all_.value(), 1e-9);
     values.push_back(std::log(all)), values.push_back(std::log(std::max(turn_.value(), 1e-9)));
     for (const Mean& m : by_slip_) values.push_back(m.value() / all);
@@ -151,7 +151,7 @@ class Variance final : public ScatterPart {
 };
 
 // Whether modules near each other are surprised alike.
-class Sharing final : public ScatterPart {
+class Sharing final : public ResidualStatistic {
  public:
   explicit Sharing(const ScorePlan&) {}
   std::vector<ScoreEntry> entries() const override {
@@ -176,7 +176,7 @@ class Sharing final : public ScatterPart {
       }
     }
   }
-  void tell(std::vector<double>& values, ScoreDetails*) const override {
+  void append_to(std::vector<double>& values, ScoreDetails*) const override {
     for (const Mean& m : shared_) values.push_back(m.value());
   }
 
@@ -187,7 +187,7 @@ class Sharing final : public ScatterPart {
 
 // What single modules differ in: how much they answer to drag, how much they scatter, how they
 // turn.
-class ModuleDifferences final : public ScatterPart {
+class ModuleDifferences final : public ResidualStatistic {
  public:
   explicit ModuleDifferences(const ScorePlan& plan)
       : each_(static_cast<std::size_t>(plan.modules)) {}
@@ -210,12 +210,12 @@ class ModuleDifferences final : public ScatterPart {
       m.drag_square.add(one.drag_x * one.drag_x + one.drag_y * one.drag_y);
     }
   }
-  void tell(std::vector<double>& values, ScoreDetails* details) const override {
+  void append_to(std::vector<double>& values, ScoreDetails* details) const override {
     std::array<std::vector<double>, 4> of;
     std::size_t module = 0, heaviest = 0;
     for (const Each& m : each_) {
       ++module;
-      if (m.square.count == 0) continue;  // of nothing but contacts, nothing is told
+      if (m.square.count == 0) continue;  // nothing but contacts: no statistic
       of[0].push_back(std::log(std::max(m.square.value(), 1e-9)));
       of[1].push_back(std::log(std::max(m.turn.value(), 1e-9)));
       of[2].push_back(m.drag.value() / std::max(m.drag_square.value(), 1e-12));
@@ -243,7 +243,7 @@ class ModuleDifferences final : public ScatterPart {
 };
 
 // Where squares touch, for how long, and whether their pictures overlap in parts of the tank.
-class Touches final : public ScatterPart {
+class Touches final : public ResidualStatistic {
  public:
   explicit Touches(const ScorePlan& plan)
       : side_(plan.model.module.side),
@@ -293,7 +293,7 @@ class Touches final : public ScatterPart {
     });
     close(frame, seen);
   }
-  void tell(std::vector<double>& values, ScoreDetails*) const override {
+  void append_to(std::vector<double>& values, ScoreDetails*) const override {
     values.push_back(std::log(std::max(together_.value(), 1e-3)));
     values.push_back(std::log((meetings_ + 1) / std::max(pairs_, 1.0)));
     values.push_back(std::log((near_ + 1) / std::max(pairs_, 1.0)));
@@ -344,19 +344,19 @@ class Touches final : public ScatterPart {
 
 }  // namespace
 
-std::unique_ptr<ScatterPart> memory_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> memory_statistic(const ScorePlan& plan) {
   return std::make_unique<Memory>(plan);
 }
-std::unique_ptr<ScatterPart> variance_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> variance_statistic(const ScorePlan& plan) {
   return std::make_unique<Variance>(plan);
 }
-std::unique_ptr<ScatterPart> neighbour_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> neighbour_statistic(const ScorePlan& plan) {
   return std::make_unique<Sharing>(plan);
 }
-std::unique_ptr<ScatterPart> module_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> module_statistic(const ScorePlan& plan) {
   return std::make_unique<ModuleDifferences>(plan);
 }
-std::unique_ptr<ScatterPart> contact_part(const ScorePlan& plan) {
+std::unique_ptr<ResidualStatistic> contact_statistic(const ScorePlan& plan) {
   return std::make_unique<Touches>(plan);
 }
 

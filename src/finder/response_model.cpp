@@ -1,4 +1,4 @@
-#include "finder/answer.hpp"
+#include "finder/response_model.hpp"
 
 #include "statistics/linear.hpp"
 
@@ -14,55 +14,55 @@ constexpr double kMostSize = 6;  // sizes beyond which an answer is no guide
 // How far from its own amplitudes an answer about found ones holds.
 constexpr double kNearShare = 0.5, kNearLeast = 0.4;
 
-Vector reach(const Answer& of) {
+Vector reach(const ResponseModel& of) {
   return of.local() ? Vector((kNearShare * of.about.cwiseAbs()).array() + kNearLeast)
                     : Vector(Vector::Constant(of.about.size(), kMostSize));
 }
 
 }  // namespace
 
-Vector Answer::at(const Vector& amplitudes) const {
+Vector ResponseModel::at(const Vector& amplitudes) const {
   const Vector d = amplitudes - about;
   return base + first * d + second * d.array().square().matrix();
 }
 
-Matrix Answer::slope(const Vector& amplitudes) const {
+Matrix ResponseModel::slope(const Vector& amplitudes) const {
   return first + 2 * second * (amplitudes - about).asDiagonal();
 }
 
-Vector Answer::least() const {
+Vector ResponseModel::least() const {
   return (about - reach(*this)).cwiseMax(two_sided ? -1e9 : 0.0);
 }
 
-Vector Answer::most() const {
+Vector ResponseModel::most() const {
   return about + reach(*this);
 }
 
-bool Answer::at_reach(const Vector& amplitudes) const {
+bool ResponseModel::at_reach(const Vector& amplitudes) const {
   return ((amplitudes - about).cwiseAbs().array() >= (1 - 1e-9) * reach(*this).array()).any();
 }
 
-Answer Answer::top(Eigen::Index numbers) const {
+ResponseModel ResponseModel::top(Eigen::Index numbers) const {
   return {about, base.head(numbers), first.topRows(numbers), second.topRows(numbers), two_sided};
 }
 
-AnswerFit fit_answers(const std::vector<const Answer*>& answers, const Vector& data,
-                      const Vector& start) {
+ResponseFit fit_responses(const std::vector<const ResponseModel*>& answers, const Vector& data,
+                          const Vector& start) {
   const Eigen::Index m = start.size();
   Vector least(m), most(m);
   Eigen::Index at = 0;
-  for (const Answer* of : answers) {
+  for (const ResponseModel* of : answers) {
     const Eigen::Index n = of->about.size();
     least.segment(at, n) = of->least(), most.segment(at, n) = of->most();
     at += n;
   }
-  AnswerFit best;
+  ResponseFit best;
   Vector a = start;
   Matrix slope(data.size(), m);
   for (int step = 0;; ++step) {
     Vector left = data;
     at = 0;
-    for (const Answer* of : answers) {
+    for (const ResponseModel* of : answers) {
       const Vector own = a.segment(at, of->about.size());
       left -= of->at(own);
       slope.middleCols(at, own.size()) = of->slope(own);
@@ -77,15 +77,15 @@ AnswerFit fit_answers(const std::vector<const Answer*>& answers, const Vector& d
   }
 }
 
-AnswerFit fit_answer(const Answer& answer, const Vector& data) {
+ResponseFit fit_response(const ResponseModel& answer, const Vector& data) {
   const Eigen::Index m = answer.about.size();
   const bool either = answer.two_sided && !answer.local() && m == 1;
-  AnswerFit best{Vector::Zero(m), data};
+  ResponseFit best{Vector::Zero(m), data};
   for (const double sign : {1.0, -1.0}) {
     if (sign < 0 && !either) break;
     Vector start = answer.about;
     if (!answer.local() && m == 1) start(0) = kStart * sign;
-    AnswerFit fit = fit_answers({&answer}, data, start);
+    ResponseFit fit = fit_responses({&answer}, data, start);
     if (fit.left.squaredNorm() < best.left.squaredNorm()) best = std::move(fit);
   }
   return best;

@@ -1,4 +1,4 @@
-// What is suspected: an effect as recordings tell it directly, where its experiments are to be.
+// An effect as direct estimates from recordings have it: where its experiments are simulated.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ using Vector = Eigen::VectorXd;
 }  // namespace
 
 const Effect& Diagnoser::effect(const EffectFit& f) const {
-  return atlas_->plan().effects[static_cast<std::size_t>(f.effect)];
+  return ensemble_->plan().effects[static_cast<std::size_t>(f.effect)];
 }
 
 std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
@@ -30,18 +30,18 @@ std::optional<Diagnoser::Scanned> Diagnoser::scanned(const Effect& effect,
     return Scanned{{{effect.held[0].of, details.swinging}}, std::nullopt};
   }
   const bool negative = effect.negative_of != nullptr;
-  const auto told = details.scans.values.find(negative ? effect.negative_of : effect.term);
-  if (told == details.scans.values.end()) return std::nullopt;
-  const double amplitude = negative ? -told->second.amplitude : told->second.amplitude;
+  const auto scan = details.scans.values.find(negative ? effect.negative_of : effect.term);
+  if (scan == details.scans.values.end()) return std::nullopt;
+  const double amplitude = negative ? -scan->second.amplitude : scan->second.amplitude;
   if (!effect.two_sided && !(amplitude > 0)) return std::nullopt;
-  return Scanned{{{effect.held[0].of, told->second.value}}, std::nullopt};
+  return Scanned{{{effect.held[0].of, scan->second.value}}, std::nullopt};
 }
 
 Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) const {
-  if (f.effect < 0) return effect_of(atlas_->plan().shapes[static_cast<std::size_t>(f.shape)]);
+  if (f.effect < 0) return effect_of(ensemble_->plan().shapes[static_cast<std::size_t>(f.shape)]);
   Effect out = effect(f);
   if (out.estimated == Estimated::gain_and_frequency) out.held[0].value = details.pulsation;
-  if (const auto told = scanned(out, details)) out.held = told->held;
+  if (const auto scan = scanned(out, details)) out.held = scan->held;
   for (auto& [of, value] : out.held) {
     const auto better = details.refined.find(of.path());
     if (better != details.refined.end()) value = better->second;
@@ -73,9 +73,9 @@ std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& detail
 const Fingerprint& Diagnoser::shape_fingerprint(int s) {
   const auto known = shape_fingerprints_.find(s);
   if (known != shape_fingerprints_.end()) return known->second;
-  const Effect shape = effect_of(atlas_->plan().shapes[static_cast<std::size_t>(s)]);
+  const Effect shape = effect_of(ensemble_->plan().shapes[static_cast<std::size_t>(s)]);
   const std::uint64_t seed = derived_seed(options_.seed, 500 + static_cast<std::uint64_t>(s));
-  return shape_fingerprints_[s] = atlas_->fingerprint(shape, "shape " + std::to_string(s), seed);
+  return shape_fingerprints_[s] = ensemble_->fingerprint(shape, "shape " + std::to_string(s), seed);
 }
 
 }  // namespace lilytank

@@ -4,7 +4,7 @@
 
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
-#include "proof/yardstick.hpp"
+#include "proof/baseline_method.hpp"
 
 namespace lilytank {
 namespace {

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "finder/atlas.hpp"
+#include "finder/reference_ensemble.hpp"
 
 namespace lilytank {
 
-class Alignment {
+class ScoreSensitivity {
  public:
-  /// `atlas` and `recordings` must outlive this.
-  Alignment(const Atlas& atlas, const std::vector<Recording>& recordings);
+  /// `ensemble` and `recordings` must outlive this.
+  ScoreSensitivity(const ReferenceEnsemble& ensemble, const std::vector<Recording>& recordings);
 
   /// The fingerprint with its scores as the filter has them, times the factor that its simulations
   /// ask for, and beside that only what they clearly say.
@@ -35,12 +35,13 @@ class Alignment {
   Eigen::VectorXd clear(const Eigen::VectorXd& scores, double error) const;
   double factor(const Eigen::VectorXd& scores, const Eigen::VectorXd& expected) const;
 
-  const Atlas& atlas_;
+  const ReferenceEnsemble& ensemble_;
   const std::vector<Recording>& recordings_;
-  Eigen::Index scores_;           ///< numbers of the atlas that are scores
+  Eigen::Index scores_;           ///< numbers of the ensemble that are scores
   Eigen::MatrixXd own_;           ///< information of the plan's scores
   Eigen::MatrixXd plain_, root_;  ///< takes expected correlations out, and its inverse
-  std::map<std::string, Eigen::MatrixXd> told_;  ///< by variant: of residuals by each amplitude
+  std::map<std::string, Eigen::MatrixXd>
+      responses_;  ///< by variant: of residuals by each amplitude
 };
 
 }  // namespace lilytank

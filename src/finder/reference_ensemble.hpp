@@ -32,7 +32,7 @@ struct LearnedFingerprint {
 };
 using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
 
-struct AtlasOptions {
+struct EnsembleOptions {
   int nulls = 300;       ///< experiments simulated without any effect
   int experiments = 14;  ///< with an effect, for each of its amplitudes
   std::uint64_t seed = 1;
@@ -43,11 +43,12 @@ struct Vectors {
   Eigen::VectorXd summary, scores;
 };
 
-class Atlas {
+class ReferenceEnsemble {
  public:
   /// Simulates what is not kept yet. Throws Stopped, InputError.
-  Atlas(Stages& stages, const FlowMaps& maps, ScorePlan plan, const Eigen::VectorXd& centre,
-        const Eigen::MatrixXd& spread, const AtlasOptions& options);
+  ReferenceEnsemble(Stages& stages, const FlowMaps& maps, ScorePlan plan,
+                    const Eigen::VectorXd& centre, const Eigen::MatrixXd& spread,
+                    const EnsembleOptions& options);
 
   static constexpr int kAbout = 10;  ///< experiments of a fingerprint about found amplitudes
 
@@ -60,12 +61,12 @@ class Atlas {
   Eigen::VectorXd calibrated(const Eigen::VectorXd& summary) const;
   /// What a summary says of the parameters if a baseline is all there is, and how surely: by what
   /// models of the other nulls say of each.
-  Scatter told(const Eigen::VectorXd& summary, const Prior& before) const;
+  Scatter posterior(const Eigen::VectorXd& summary, const Prior& before) const;
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
-  /// Scores less their mean at the parameters about which the atlas was simulated: an effect's own
-  /// score estimates its amplitude to some tenths, whatever a calibration makes of the effect.
+  /// Scores less their mean at the parameters about which the ensemble was simulated: an effect's
+  /// own score estimates its amplitude to some tenths, whatever a calibration makes of the effect.
   Eigen::VectorXd uncalibrated(const Eigen::VectorXd& scores) const;
   /// How far the displacements alone are from what the calibrated baseline gives, a squared
   /// distance by their covariance: all that a comparison of MSDs could see.
@@ -101,12 +102,12 @@ class Atlas {
                   const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
                   const Effect* effect, std::uint64_t seed);
   /// Experiments with an effect, calibrated without it.
-  struct Answers {
+  struct Responses {
     Eigen::MatrixXd amplitudes, points, residuals, moved;  ///< a row each
   };
-  Answers answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
-                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
-                  std::uint64_t seed);
+  Responses answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
+                    const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                    std::uint64_t seed);
   const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
                                        const Eigen::VectorXd& amplitudes,
                                        const Eigen::VectorXd& point, int experiments) const;
@@ -116,7 +117,7 @@ class Atlas {
   Stages& stages_;
   const FlowMaps& maps_;
   ScorePlan plan_;
-  AtlasOptions options_;
+  EnsembleOptions options_;
   Eigen::VectorXd centre_;
   Eigen::MatrixXd spread_;
   Design summaries_;  ///< of nulls

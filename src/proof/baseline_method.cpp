@@ -1,4 +1,4 @@
-#include "proof/yardstick.hpp"
+#include "proof/baseline_method.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
