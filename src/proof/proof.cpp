@@ -48,38 +48,48 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   return e;
 }
 
-// A world's vector as a row, with what a regression says of it before.
+// What is measured of a synthetic experiment before it is diagnosed.
+struct MeasuredExperiment {
+  int regression = -1;  // the catalogue's effect that a sparse regression finds; -1: none
+  Vectors observed;
+  ScoreDetails details;
+};
+
+// As a stage of simulations keeps it: the sizes and details, the summary, the scores.
 constexpr Eigen::Index kRowBegins = 5;
-std::vector<double> row_of(const Judged& j, const KeptTerm& kept) {
-  std::vector<double> row{static_cast<double>(kept.effect),
-                          static_cast<double>(j.observed.summary.size()), j.details.pulsation,
-                          j.details.swinging, static_cast<double>(j.details.heaviest)};
-  row.insert(row.end(), j.observed.summary.begin(), j.observed.summary.end());
-  row.insert(row.end(), j.observed.scores.begin(), j.observed.scores.end());
+std::vector<double> row_of(const MeasuredExperiment& m) {
+  std::vector<double> row{static_cast<double>(m.regression),
+                          static_cast<double>(m.observed.summary.size()), m.details.pulsation,
+                          m.details.swinging, static_cast<double>(m.details.heaviest)};
+  row.insert(row.end(), m.observed.summary.begin(), m.observed.summary.end());
+  row.insert(row.end(), m.observed.scores.begin(), m.observed.scores.end());
   return row;
 }
-Judged judged_of(const std::vector<double>& row) {
-  Judged j;
+
+// Nothing of an experiment that diverged, whose row is empty.
+std::optional<MeasuredExperiment> measured_of(const std::vector<double>& row) {
+  if (row.empty()) return std::nullopt;
+  MeasuredExperiment m;
+  m.regression = static_cast<int>(row[0]);
   const auto summary = static_cast<Eigen::Index>(row[1]);
-  j.details.pulsation = row[2], j.details.swinging = row[3];
-  j.details.heaviest = static_cast<int>(row[4]);
+  m.details.pulsation = row[2], m.details.swinging = row[3];
+  m.details.heaviest = static_cast<int>(row[4]);
   const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
                                               static_cast<Eigen::Index>(row.size()) - kRowBegins);
-  j.observed = {all.head(summary), all.tail(all.size() - summary)};
-  return j;
+  m.observed = {all.head(summary), all.tail(all.size() - summary)};
+  return m;
 }
 
-// What the diagnosis and the simpler methods say of a row; nothing of a world that diverged.
-std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double>& row,
-                                  const std::vector<Recording>& recordings, Diagnosis& d,
-                                  ProofWorld& world) {
-  world.verdict = Verdict::undecided;
-  if (row.empty()) return std::nullopt;
-  const int kept = static_cast<int>(row[0]);
-  if (kept >= 0) {
-    world.regression = diagnoser.ensemble().plan().effects[static_cast<std::size_t>(kept)].name;
+// The verdicts of the diagnosis and of the simpler methods.
+Judged judge_world(Diagnoser& diagnoser, const MeasuredExperiment& measured,
+                   const std::vector<Recording>& recordings, Diagnosis& d, ProofWorld& world) {
+  if (measured.regression >= 0) {
+    const auto effect = static_cast<std::size_t>(measured.regression);
+    world.regression = diagnoser.ensemble().plan().effects[effect].name;
   }
-  Judged judged = diagnoser.judge(judged_of(row), recordings, d);
+  Judged before;
+  before.observed = measured.observed, before.details = measured.details;
+  Judged judged = diagnoser.judge(std::move(before), recordings, d);
   world.verdict = d.verdict;
   world.displacement = diagnoser.ensemble().displacement_misfit(judged.observed.summary);
   for (const DiagnosisFinding& f : d.findings) {
@@ -90,8 +100,8 @@ std::optional<Judged> judge_world(Diagnoser& diagnoser, const std::vector<double
 
 // A law that no effect has, by the knots of a curve that was found: nothing if that one is of
 // something else.
-void tell_law(const SealedEffect& own, const ForceCurve& found,
-              std::map<std::string, double>& truth) {
+void add_law(const SealedEffect& own, const ForceCurve& found,
+             std::map<std::string, double>& truth) {
   const ForceCurve& law = *own.effect.curve;
   for (const std::string& path : own.effect.paths) truth.erase(path);
   if (law.along != found.along || law.toward != found.toward) return;
@@ -131,8 +141,8 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
   auto truth = truth_of(tank, s);
   if (s.kind == "unnamed") {
     const int shape = judged.selected.found.front().shape;
-    tell_law(s.effects.front(),
-             diagnoser.ensemble().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
+    add_law(s.effects.front(),
+            diagnoser.ensemble().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
   }
   compare_parameters(d, truth, world);
   for (const DiagnosisFinding& f : d.findings) {
@@ -226,12 +236,12 @@ class Examination {
     if (job.lock != nullptr) *job.lock = lock;
     if (options_.sealed) options_.sealed(out_.hash);
     diagnoser.prepare(after(diagnoser));
-    rows_ = film_all(diagnoser);
+    measured_ = measure_all(diagnoser);
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
     const double begin = diagnoser.stages().spent();
-    for (std::size_t w = 0; w < rows_.size(); ++w) {
+    for (std::size_t w = 0; w < measured_.size(); ++w) {
       world_name_ =
-          "experiment " + std::to_string(w + 1) + " of " + std::to_string(rows_.size()) + ": ";
+          "experiment " + std::to_string(w + 1) + " of " + std::to_string(measured_.size()) + ": ";
       if (w < before.size() && !asks_for_model(before[w])) {
         out_.worlds.push_back(before[w]);
       } else {
@@ -272,16 +282,21 @@ class Examination {
     return film_sealed(tank_, sealed_[w], seconds_, derived_seed(seed_, kWorldSeed + number(w)));
   }
 
-  std::vector<std::vector<double>> film_all(Diagnoser& diagnoser) const {
+  std::vector<std::optional<MeasuredExperiment>> measure_all(Diagnoser& diagnoser) const {
     const std::string stage = options_.only.empty() ? "synthetic" : "synthetic " + options_.only;
     const auto row = [&](int i) {
       const auto made = film(static_cast<std::size_t>(i));
       if (!made) return std::vector<double>{};
-      Judged j;
-      j.observed = diagnoser.ensemble().vectors(*made, &j.details);
-      return row_of(j, sparse_regression(diagnoser.ensemble().plan(), *made));
+      MeasuredExperiment m;
+      m.observed = diagnoser.ensemble().vectors(*made, &m.details);
+      m.regression = sparse_regression(diagnoser.ensemble().plan(), *made).effect;
+      return row_of(m);
     };
-    return diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row);
+    std::vector<std::optional<MeasuredExperiment>> out;
+    for (const auto& kept : diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row)) {
+      out.push_back(measured_of(kept));
+    }
+    return out;
   }
 
   static bool found(const ProofWorld& world) {
@@ -299,8 +314,12 @@ class Examination {
         expected_z(diagnoser, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
     Diagnosis d;
     std::vector<Recording> recordings;
-    if (!rows_[w].empty()) recordings = film(w).value_or(recordings);
-    const std::optional<Judged> judged = judge_world(diagnoser, rows_[w], recordings, d, world);
+    std::optional<Judged> judged;
+    world.verdict = Verdict::undecided;
+    if (measured_[w]) {
+      recordings = film(w).value_or(recordings);
+      judged = judge_world(diagnoser, *measured_[w], recordings, d, world);
+    }
     if (judged && s.kind == "null") {
       diagnoser.report_baseline(*judged, d);
       compare_parameters(d, truth_of(tank_, s), world);
@@ -318,7 +337,7 @@ class Examination {
   double seconds_;
   std::vector<Shape> shapes_;
   std::vector<Sealed> sealed_;
-  std::vector<std::vector<double>> rows_;  // what is measured in each
+  std::vector<std::optional<MeasuredExperiment>> measured_;  // nothing of those that diverged
   Proof out_;
   std::string world_name_;  // before the stage, in the progress
   int modelled_ = 0;
