@@ -18,7 +18,7 @@ set_tests_properties(layers style words links options package PROPERTIES LABELS 
 
 # "Adding a force" of docs/structure.md, followed in a copy of the tree, which is built: minutes.
 add_test(NAME new_force COMMAND bash ${PROJECT_SOURCE_DIR}/tests/new_force/run.sh ${PROJECT_SOURCE_DIR}
-         ${CMAKE_CXX_COMPILER})
+         ${CMAKE_CXX_COMPILER} ${CMAKE_GENERATOR})
 set_tests_properties(new_force PROPERTIES LABELS "long;tree" TIMEOUT 3600)
 
 # Studies under a real Slurm of one node; skipped, with the reason, where only root could start one or

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# new_force/run.sh SOURCE [COMPILER]: follows "Adding a force" of docs/structure.md in a copy of the tree. The
-# simulator, the calibration and the diagnosis of that copy must know the force.
+# new_force/run.sh SOURCE [COMPILER [GENERATOR]]: follows "Adding a force" of docs/structure.md in a copy of the
+# tree. The simulator, the calibration and the diagnosis of that copy must know the force.
 set -euo pipefail
 source=$1
 tree=$(mktemp -d)
@@ -15,8 +15,8 @@ add_executable(catalogue catalogue.cpp)
 target_include_directories(catalogue PRIVATE src)
 target_link_libraries(catalogue PRIVATE lilytank_diagnose)
 CMAKE
-cmake -S "$tree" -B "$tree/build" ${2:+-DCMAKE_CXX_COMPILER="$2"} -DCMAKE_BUILD_TYPE=Release -DLILYTANK_TESTS=OFF \
-      -DLILYTANK_BENCH=OFF -DLILYTANK_RENDER=OFF > /dev/null
+cmake -S "$tree" -B "$tree/build" ${2:+-DCMAKE_CXX_COMPILER="$2"} ${3:+-G "$3"} -DCMAKE_BUILD_TYPE=Release \
+      -DLILYTANK_TESTS=OFF -DLILYTANK_BENCH=OFF -DLILYTANK_RENDER=OFF > /dev/null
 cmake --build "$tree/build" --target lilytank catalogue -j "$(nproc)" > "$tree/log" || { tail -30 "$tree/log"; exit 1; }
 
 faults=0
