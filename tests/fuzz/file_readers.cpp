@@ -321,7 +321,10 @@ void search_small(const std::atomic<bool>* stop) {
 const std::string& first_state() {
   static const std::string state = [] {
     const std::atomic<bool> stop{true};
-    search_small(&stop);
+    try {
+      search_small(&stop);
+    } catch (const Stopped&) {
+    }
     return stored("search/search.state");
   }();
   return state;
