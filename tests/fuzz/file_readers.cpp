@@ -1,10 +1,9 @@
-// Readers of the product's own formats: what users write, and what it reads back of its own.
-#include <algorithm>
-#include <atomic>
-#include <cstring>
+// Readers of the product's own formats: what users write, and what it reads back of its own. Those
+// of a search: search_readers.cpp.
 #include <optional>
 
 #include "fuzz/readers.hpp"
+#include "fuzz/repaired.hpp"
 #include "io/file_digest.hpp"
 #include "io/poses_csv.hpp"
 #include "io/table.hpp"
@@ -19,13 +18,11 @@
 #include "lilytank/kinetics.hpp"
 #include "lilytank/optimize.hpp"
 #include "lilytank/run.hpp"
-#include "lilytank/search_run.hpp"
 #include "lilytank/study.hpp"
 #include "lilytank/target.hpp"
 #include "study/kept_rows.hpp"
 #include "study/row_text.hpp"
 #include "study/study_record.hpp"
-#include "text/fnv.hpp"
 #include "text/number.hpp"
 
 namespace lilytank::fuzz {
@@ -115,68 +112,6 @@ const Around& around() {
   return all;
 }
 
-std::string stored(const std::string& name) {
-  std::string out;
-  std::FILE* file = std::fopen((scratch() + "/" + name).c_str(), "rb");
-  demand(file != nullptr, "the run left " + name);
-  for (int c; (c = std::fgetc(file)) != EOF;) out += static_cast<char>(c);
-  std::fclose(file);
-  return out;
-}
-
-std::string hash_of(std::string_view text) {
-  Fnv hash;
-  hash.add(text);
-  return hex(hash.value());
-}
-
-/// Reads bytes as they are, and with their checksums made right, or damage would never come
-/// further.
-template <class Read>
-bool with_repair(std::string_view bytes, std::string (*repaired)(std::string_view), Read read) {
-  const bool as_is = read(bytes);
-  return read(repaired(bytes)) || as_is;
-}
-
-/// Rows that end with ",checksum"; kept rows with ";" behind it.
-std::string with_right_rows(std::string_view bytes) {
-  std::string out;
-  while (!bytes.empty()) {
-    const auto end = std::min(bytes.find('\n'), bytes.size());
-    const std::string_view line = bytes.substr(0, end), row = line.substr(0, line.rfind(','));
-    const bool header = out.empty() || row.size() == line.size();
-    out += header ? std::string(line) : with_checksum(std::string(row));
-    if (!header && line.ends_with(';')) out += ';';
-    if (end < bytes.size()) out += '\n';
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
-  }
-  return out;
-}
-
-/// A text with a last line of its checksum.
-std::string with_right_last_line(std::string_view bytes) {
-  return with_checksum_line(std::string(bytes.substr(0, bytes.rfind("# checksum "))));
-}
-
-/// A binary trajectory.
-std::string with_right_frames(std::string_view bytes) {
-  std::string out(bytes);
-  const auto seal = [&](std::size_t begin, std::size_t size) {
-    const std::uint32_t sum = checksum_bits(std::string_view(out).substr(begin, size));
-    std::memcpy(out.data() + begin + size, &sum, sizeof sum);
-  };
-  std::uint32_t bodies = 0;
-  if (out.size() < kTrajectoryHeader) return out;
-  std::memcpy(&bodies, out.data() + 12, sizeof bodies);
-  seal(0, kTrajectoryHeader - sizeof(std::uint32_t));
-  const std::size_t frame = kFrameTime + kFrameBody * std::size_t{bodies};
-  for (std::size_t at = kTrajectoryHeader; at + frame + kFrameChecksum <= out.size();
-       at += frame + kFrameChecksum) {
-    seal(at, frame);
-  }
-  return out;
-}
-
 /// As it is, and with the hash on its first line made right, or damage would never come further.
 bool read_checkpoint(std::string_view bytes) {
   around();
@@ -193,26 +128,6 @@ bool read_checkpoint(std::string_view bytes) {
   };
   if (read()) return true;
   if (text.size() > 17) text.replace(0, 16, hash_of(std::string_view(text).substr(17)));
-  return read();
-}
-
-bool read_search(std::string_view bytes) {
-  std::string text(bytes);
-  const auto read = [&] {
-    return accepts("search.state", [&] {
-      const auto search = restore_search(text, "search.state");
-      const auto trials = search->ask();
-      if (!trials.empty()) search->tell(std::vector<double>(trials.size(), 1.0));
-      restore_search(search->save(), "search.state");
-    });
-  };
-  if (read()) return true;
-  const auto end = text.rfind("hash ");
-  if (end == std::string::npos) return false;
-  text.resize(end);
-  std::string digits = hash_of(text);
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
-  text += "hash " + digits + "\n";
   return read();
 }
 
@@ -300,47 +215,6 @@ bool read_truth(std::string_view bytes) {
   return read_file("truth.csv", bytes, [](const std::string& f) { read_flow_truth(f, 4); });
 }
 
-/// The log of a search of 6 trials; what it lacks is evaluated.
-SearchRunOptions search_options() {
-  SearchRunOptions options;
-  options.dir = scratch() + "/search", options.identity = "fuzz", options.threads = 1;
-  return options;
-}
-std::unique_ptr<Search> small_search() {
-  SwarmOptions options;
-  options.particles = 3, options.iterations = 1;
-  return make_swarm({{"a", 0, 1}}, options, 5);
-}
-void search_small(const std::atomic<bool>* stop) {
-  SearchRunOptions options = search_options();
-  options.stop = stop;
-  run_search(
-      small_search(), [](const Trial& t) { return t.point[0]; }, options);
-}
-/// The checkpoint before the first evaluation: what follows comes from the log.
-const std::string& first_state() {
-  static const std::string state = [] {
-    const std::atomic<bool> stop{true};
-    try {
-      search_small(&stop);
-    } catch (const Stopped&) {
-    }
-    return stored("search/search.state");
-  }();
-  return state;
-}
-std::string search_log() {
-  first_state();
-  search_small(nullptr);
-  return stored("search/evaluations.csv");
-}
-bool read_search_log(std::string_view bytes) {
-  write_scratch("search/search.state", first_state());
-  return with_repair(bytes, with_right_rows, [](std::string_view text) {
-    return read_file("search/evaluations.csv", text,
-                     [](const std::string&) { search_small(nullptr); });
-  });
-}
 bool read_rows(std::string_view bytes) {
   around();
   return with_repair(bytes, with_right_rows, [](std::string_view text) {
@@ -376,14 +250,6 @@ bool read_values(std::string_view bytes) {
       return true;
   }
   return shard;
-}
-
-std::string search_state() {
-  SwarmOptions options;
-  options.particles = 3, options.iterations = 2;
-  const auto swarm = make_swarm({{"a", 0, 1}, {"b", 1, 10, true}}, options, 5);
-  swarm->tell(std::vector<double>(swarm->ask().size(), 2.0));
-  return swarm->save();
 }
 
 std::string checkpoint() {
@@ -437,8 +303,6 @@ std::vector<Reader> file_readers() {
       {"kept-rows", read_kept_rows,
        "lilytank rows 2 " + hex(7) + "\n" + with_checksum("0,1.5,0") + ";\n" +
            with_checksum("1,1.5,nan") + ";\n"},
-      {"search", read_search, search_state()},
-      {"search-log", read_search_log, search_log()},
       {"measured-world", read_measured, to_csv(MeasuredWorld{}, 7)},
       {"flow-truth", read_truth, kFlow},
       {"values", read_values, "1.5 cm\n"},

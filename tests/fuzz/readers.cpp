@@ -48,6 +48,15 @@ std::string write_scratch(const std::string& name, std::string_view bytes) {
   return file;
 }
 
+std::string stored(const std::string& name) {
+  std::string out;
+  std::FILE* file = std::fopen((scratch() + "/" + name).c_str(), "rb");
+  demand(file != nullptr, "the run left " + name);
+  for (int c; (c = std::fgetc(file)) != EOF;) out += static_cast<char>(c);
+  std::fclose(file);
+  return out;
+}
+
 std::string& last_refusal() {
   static std::string message;
   return message;
@@ -68,6 +77,7 @@ std::span<const Reader> readers() {
   static const std::vector<Reader> all = [] {
     std::vector<Reader> out = recording_readers();
     for (Reader& reader : file_readers()) out.push_back(std::move(reader));
+    for (Reader& reader : search_readers()) out.push_back(std::move(reader));
     return out;
   }();
   return all;

@@ -22,6 +22,7 @@ struct Reader {
 std::span<const Reader> readers();
 std::vector<Reader> recording_readers();
 std::vector<Reader> file_readers();
+std::vector<Reader> search_readers();
 
 /// A promise of a reader; where it is broken, the program ends and the input is kept.
 void demand(bool right, const std::string& promise);
@@ -29,6 +30,8 @@ void demand(bool right, const std::string& promise);
 const std::string& scratch();
 /// Writes a file into scratch(); returns its path.
 std::string write_scratch(const std::string& name, std::string_view bytes);
+/// The content of a file in scratch().
+std::string stored(const std::string& name);
 /// The message of the last refusal.
 std::string& last_refusal();
 /// Whether `work` ends without InputError; its message must be one line that holds `named`.
