@@ -12,18 +12,29 @@
 
 namespace lilytank {
 
+/// A parameter of a force term, which lives as long as the program.
+struct ParameterRef {
+  const ForceTerm* term = nullptr;
+  std::size_t index = 0;  ///< into term->parameters()
+  const Parameter* operator->() const { return &term->parameters()[index]; }
+  /// "forces.<term>.<parameter>", as scenario files have it.
+  std::string path() const;
+  /// Its value; of a force that is off, the default.
+  double get(const Model& model) const;
+  /// The number itself. A force that is off is switched on, its other parameters at their defaults.
+  double& in(Model& model) const;
+};
+
 /// Where a number is within any Model: a member of one of its parts, or a parameter of a force
 /// term.
 class ModelNumber {
  public:
   template <class Part>
   ModelNumber(Part Model::*part, double Part::*number) : at_(Member<Part>{part, number}) {}
-  /// The parameter of that index. `term` lives as long as the program.
-  ModelNumber(const ForceTerm& term, std::size_t index) : at_(OfForce{&term, index}) {}
+  ModelNumber(const ParameterRef& of) : at_(of) {}
 
-  /// Its value; of a force that is off, the default.
+  /// As those of ParameterRef.
   double get(const Model& model) const;
-  /// The number itself. A force that is off is switched on, its other parameters at their defaults.
   double& in(Model& model) const;
 
  private:
@@ -34,14 +45,8 @@ class ModelNumber {
     double get(const Model& model) const { return model.*part.*number; }
     double& in(Model& model) const { return model.*part.*number; }
   };
-  struct OfForce {
-    const ForceTerm* term;
-    std::size_t index;
-    double get(const Model& model) const;
-    double& in(Model& model) const;
-  };
-  std::variant<OfForce, Member<ModuleParameters>, Member<BallParameters>, Member<ContactParameters>,
-               Member<FlowParameters>>
+  std::variant<ParameterRef, Member<ModuleParameters>, Member<BallParameters>,
+               Member<ContactParameters>, Member<FlowParameters>>
       at_;
 };
 

@@ -121,10 +121,6 @@ bool Effect::camera() const {
   return !paths.empty() && of_camera(paths.front());
 }
 
-std::string ParameterRef::path() const {
-  return "forces." + std::string(term->name()) + "." + std::string((*this)->name);
-}
-
 std::optional<ParameterRef> parameter_of(const ForceTerm& term, ParameterKind kind) {
   const std::span<const Parameter> all = term.parameters();
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -10,17 +10,10 @@
 #include "lilytank/emulator.hpp"
 #include "lilytank/force.hpp"
 #include "lilytank/model.hpp"
+#include "lilytank/model_parameter.hpp"
 
 namespace lilytank {
 
-/// A parameter of a force term.
-struct ParameterRef {
-  const ForceTerm* term = nullptr;
-  std::size_t index = 0;  ///< into term->parameters()
-  const Parameter* operator->() const { return &term->parameters()[index]; }
-  /// "forces.<term>.<parameter>", as scenario files have it.
-  std::string path() const;
-};
 /// The first parameter of that kind, if the term has one.
 std::optional<ParameterRef> parameter_of(const ForceTerm& term, ParameterKind kind);
 

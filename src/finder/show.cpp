@@ -99,8 +99,7 @@ Model in_phase(const Model& model, const Recording& recording, const PredictorOp
         return !own.empty() && own[0].estimated == Estimated::gain_and_frequency;
       });
   if (pumps == model.forces.end()) return model;
-  const ParameterRef of = *parameter_of(*pumps->term, ParameterKind::phase);
-  const ModelNumber pumps_phase(*of.term, of.index);
+  const ParameterRef pumps_phase = *parameter_of(*pumps->term, ParameterKind::phase);
   Model out = model;
   std::array<Vector2, 2> harmonics{Vector2::Zero(), Vector2::Zero()};
   for (int k = 0; k < kPhases; ++k) {

@@ -54,12 +54,16 @@ InputError not_varied(const std::string& path) {
 
 }  // namespace
 
-double ModelNumber::OfForce::get(const Model& model) const {
-  const auto active = find_active(model.forces, term);
-  return active != model.forces.end() ? active->p[index] : term->parameters()[index].standard;
+std::string ParameterRef::path() const {
+  return "forces." + std::string(term->name()) + "." + std::string((*this)->name);
 }
 
-double& ModelNumber::OfForce::in(Model& model) const {
+double ParameterRef::get(const Model& model) const {
+  const auto active = find_active(model.forces, term);
+  return active != model.forces.end() ? active->p[index] : (*this)->standard;
+}
+
+double& ParameterRef::in(Model& model) const {
   auto active = find_active(model.forces, term);
   if (active == model.forces.end()) active = switch_on(model.forces, term);
   return active->p[index];

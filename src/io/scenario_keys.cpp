@@ -89,7 +89,7 @@ void force_keys(ScenarioDraft& d, Keys& keys) {
     std::size_t i = 0;
     for (const Parameter& p : force.term->parameters()) {
       keys.push_back({base + std::string(p.name), &force.p[i], std::string(p.unit), p.low, p.high,
-                      std::string(p.meaning), p.whole, ModelNumber(*force.term, i)});
+                      std::string(p.meaning), p.whole, ParameterRef{force.term, i}});
       ++i;
     }
   }
