@@ -343,8 +343,9 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
   if (input.scenario || input.rates) {
     const std::string usual = input.scenario ? "out/check-" + input.rules.name : "";
     const std::string dir = options.text("out", usual);
+    std::optional<Kinetics> kinetics;
     // Rates that do not suit the rules are refused before a directory is made.
-    if (input.rates) static_cast<void>(kinetics_of(input.rules, *input.rates, input.modules));
+    if (input.rates) kinetics = kinetics_of(input.rules, *input.rates, input.modules);
     report.lock = claim_directory(
         dir, options.has("force"),
         {"check", identity_of(input),
@@ -355,12 +356,12 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
     report.dir = dir;
     report.diverged = counted.diverged, report.text = diverged_text(counted);
     if (report.diverged > 0 && counted.completion.empty()) return report;
-    const Kinetics kinetics = kinetics_of(input.rules, counted.table, input.modules);
+    if (!kinetics) kinetics = kinetics_of(input.rules, counted.table, input.modules);
     if (!dir.empty())
       write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted.table));
-    face_rate = kinetics.face_rate, evaluation_rate = kinetics.evaluation_rate;
-    report.text += table_text(counted.table) + kinetics_text(input.rules, kinetics) +
-                   run_model(options, input, kinetics, counted, dir);
+    face_rate = kinetics->face_rate, evaluation_rate = kinetics->evaluation_rate;
+    report.text += table_text(counted.table) + kinetics_text(input.rules, *kinetics) +
+                   run_model(options, input, *kinetics, counted, dir);
   }
   NamedContents exports;
   for (const auto& [name, text] : {std::pair("kappa", &to_kappa), std::pair("bngl", &to_bngl)})

@@ -55,7 +55,7 @@ bool asks_for(const VerbOptions& options, std::initializer_list<const char*> nam
   return std::any_of(names.begin(), names.end(), [&](const char* n) { return options.has(n); });
 }
 
-/// Says so where poses were stored too seldom for the frame or the film that is asked for.
+/// Says so where poses were stored too seldom for the requested frame or film.
 void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
                     double at) {
   const bool frame = asks_for(options, {"png", "svg"});
@@ -67,7 +67,8 @@ void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
   std::cerr << note;
 }
 
-/// Draws all that was asked for.
+/// Draws the requested pictures and films. A picture that would be refused is found before a film
+/// is drawn, and written after it.
 void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
   const StoredRun run = load_run(dir);
   const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
@@ -75,17 +76,19 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   Progress progress(options.has("quiet"));
   film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };
+  NamedContents pictures;
   std::vector<std::string> made;
+  for (const char* name : {"png", "svg"}) {
+    if (!options.has(name)) continue;
+    const std::string file = options.text(name);
+    pictures.emplace_back(file, frame_picture(run, at, film.style, file));
+    if (!film.force && holds_other(file, pictures.back().second)) refuse_to_replace(file);
+    made.push_back(file);
+  }
   const auto films = [&](const std::string& file) {
     draw_film(run, film, file);
     made.push_back(file);
   };
-  for (const char* name : {"png", "svg"}) {
-    if (!options.has(name)) continue;
-    const std::string file = options.text(name);
-    write_results({{file, frame_picture(run, at, film.style, file)}}, film.force);
-    made.push_back(file);
-  }
   for (const char* name : {"mp4", "gif"}) {
     if (options.has(name)) films(options.text(name));
   }
@@ -93,8 +96,8 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
     draw_stills(run, film, options.text("stills"));
     made.push_back(options.text("stills"));
   }
-  const bool asked = asks_for(options, {"png", "svg", "mp4", "gif", "stills"});
-  if (!asked) films((std::filesystem::path(dir) / "video.mp4").string());
+  if (made.empty()) films((std::filesystem::path(dir) / "video.mp4").string());
+  write_results(pictures, film.force);
   progress.clear();
   for (const std::string& file : made) std::cout << file << "\n";
 }

@@ -9,6 +9,7 @@
 #include "lilytank/diagnosis.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/proof.hpp"
+#include "lilytank/run.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace lilytank {
@@ -73,6 +74,21 @@ TEST(JobDirectory, isOneProcessAtATime) {
   const auto lock = claim_directory(here.path("out"), false, job("1"));
   EXPECT_THROW(claim_directory(here.path("out"), false, job("1")), InputError);
   EXPECT_THROW(claim_directory(here.path("out"), true, job("1")), InputError);
+}
+
+// A caller who writes reports beside the results of a run keeps others out until they are written.
+TEST(JobDirectory, aRunHandsOverItsLock) {
+  const TemporaryDirectory here;
+  here.write("still.toml", "run.duration = 0.1\nmodule.count = 2\nflow.source = \"still\"\n");
+  const Scenario scenario = load_scenario({here.path("still.toml")}, {});
+  RunOptions options;
+  options.out = here.path("out");
+  std::shared_ptr<const DirectoryLock> lock;
+  options.lock = &lock;
+  run(scenario, options);
+  EXPECT_THROW(run(scenario, options), InputError);
+  lock.reset();
+  EXPECT_TRUE(run(scenario, options).already_complete);
 }
 
 // The lists are not derived from what is written: a file that was forgotten would survive --force.
