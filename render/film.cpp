@@ -71,7 +71,7 @@ bool is_gif(const std::string& file) {
                    "': its name must end in .mp4 or .gif");
 }
 
-// A label of the film's speed makes sense only where one was asked for or follows.
+// A label of the film's speed makes sense only where one is given or follows.
 double shown_speed(const Schedule& s) {
   return s.frames > 1 ? s.speed : 0;
 }

@@ -76,14 +76,14 @@ struct Proof {
   std::string hash;  ///< SHA-256 of the key
   /// Which tank, balls and nulls they share, in words: the same text, the same tank. "": unknown.
   std::string tank;
-  std::string dir;                 ///< that it was read from; "" of one that was just asked
+  std::string dir;                 ///< that it was read from; "" of a new one
   std::size_t sealed = 0;          ///< worlds of the key
   std::vector<ProofWorld> worlds;  ///< those that were judged, from the first
 };
 
 /// Makes or draws a tank, its balls and sealed experiments in it (other steps than the diagnosis's,
 /// gusts point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One
-/// tank's nulls and fingerprints serve all of them. Nothing if it was stopped. Throws InputError.
+/// tank's nulls and fingerprints serve all of them. Throws Stopped, InputError.
 Proof prove(const ProofOptions& options);
 
 /// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by

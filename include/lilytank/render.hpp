@@ -54,7 +54,7 @@ struct FilmOptions {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(double done)> progress;
 };
-/// Throws InputError if ffmpeg, which films need, is not in PATH: to be asked before long work.
+/// Throws InputError if ffmpeg, which films need, is not in PATH. Call it before long work.
 void require_film_program();
 /// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
 /// the file appears whole or not at all. An .mp4 names in its comment the film that it holds, so a

@@ -46,7 +46,7 @@ LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baselin
 
 /// Best gains of single laws in experiments that the fitted baseline makes up, sorted. Large
 /// recordings are cut: what chance gives hangs on the number of coefficients, not of samples. Kept
-/// as they come; nothing if it was stopped.
+/// as they come. Throws Stopped.
 std::vector<double> null_gains(const BodyExperiment& experiment, const std::vector<Group>& groups,
                                const LawTrial& baseline, int number, std::uint64_t seed,
                                const KeptRows& kept);

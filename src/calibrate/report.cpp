@@ -5,6 +5,7 @@
 #include "lilytank/calibration.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -92,9 +93,7 @@ ReportSection misfit_section(const CalibrationResult& c) {
 ReportDocument calibration_report(const CalibrationResult& c) {
   ReportDocument report;
   report.title = "Calibration of " + c.name;
-  report.subtitle = std::to_string(c.recordings) +
-                    (c.recordings == 1 ? " recording" : " recordings") + " of up to " +
-                    std::to_string(c.bodies) +
+  report.subtitle = counted(c.recordings, "recording") + " of up to " + std::to_string(c.bodies) +
                     (c.body == BodyKind::lily ? " Lilies, " : " balls, ") + digits(c.seconds) +
                     " s in all; objective " + c.objective + ", flow " + c.flow + ", step " +
                     digits(1000 * c.dt) + " ms; " + std::to_string(c.rounds) + " local models, " +

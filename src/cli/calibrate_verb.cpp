@@ -50,22 +50,22 @@ void add_calibrate_options(VerbOptions& options) {
 }
 
 // "PATH=LOW..HIGH": takes the place of the parameter of that path, or comes after the others.
-void vary(const VerbOptions& options, const std::string& asked,
+void vary(const VerbOptions& options, const std::string& assignment,
           std::vector<FitParameter>& parameters) {
-  const auto equals = asked.find('='), dots = asked.find("..");
+  const auto equals = assignment.find('='), dots = assignment.find("..");
   const auto malformed = [&]() {
-    options.refuse("--vary " + asked +
+    options.refuse("--vary " + assignment +
                    " is not of the form PATH=LOW..HIGH, as in --vary "
                    "forces.face_drag.K_F=0.1..1");
   };
   if (equals == std::string::npos || dots == std::string::npos || dots < equals) malformed();
-  const ModelParameter of = model_parameter(asked.substr(0, equals));
-  const auto low = parse_number(asked.substr(equals + 1, dots - equals - 1));
-  const auto high = parse_number(asked.substr(dots + 2));
+  const ModelParameter of = model_parameter(assignment.substr(0, equals));
+  const auto low = parse_number(assignment.substr(equals + 1, dots - equals - 1));
+  const auto high = parse_number(assignment.substr(dots + 2));
   if (!low || !high) malformed();
   if (!(*low < *high) || *low < of.low || *high > of.high) {
-    options.refuse("--vary " + asked + ": the range must rise and lie within " + shortest(of.low) +
-                   " .. " + shortest(of.high));
+    options.refuse("--vary " + assignment + ": the range must rise and lie within " +
+                   shortest(of.low) + " .. " + shortest(of.high));
   }
   // A range over a factor of three or more is looked through by factors.
   const bool logarithmic = *low > 0 && *high >= 3 * *low;
@@ -85,7 +85,7 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
   c.objective = objective_named(options.text("objective", "summary"));
   c.flow = flow_named(options.text("flow", "smooth"));
   c.parameters = standard_parameters(c.body);
-  for (const std::string& asked : options.list("vary")) vary(options, asked, c.parameters);
+  for (const std::string& one : options.list("vary")) vary(options, one, c.parameters);
   c.hold_out = static_cast<int>(options.whole("hold-out", 0, 0, 1000));
   c.search_name = options.text(
       "search", c.objective == CalibrationObjective::msd ? "paper-lilies" : c.search_name);

@@ -19,10 +19,6 @@ std::string body_word(BodyKind body) {
   return words[static_cast<std::size_t>(body)];
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 /// "3 gap (marked), 1 jump (cut)".
 std::string findings_line(const std::vector<Finding>& findings) {
   std::string out;
@@ -38,14 +34,13 @@ std::string findings_line(const std::vector<Finding>& findings) {
 
 /// "2 rows without identity, 4 sightings without a position, of 900 rows read"; "" if nothing is.
 std::string left_out_line(const RowCounts& counts) {
-  const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
   std::string out;
   const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
   if (counts.without_identity > 0) {
-    add(counted(size(counts.without_identity), "row") + " without identity");
+    add(counted(counts.without_identity, "row") + " without identity");
   }
-  if (counts.not_seen > 0) add(counted(size(counts.not_seen), "sighting") + " without a position");
-  if (!out.empty()) out += ", of " + counted(size(counts.read), "row") + " read";
+  if (counts.not_seen > 0) add(counted(counts.not_seen, "sighting") + " without a position");
+  if (!out.empty()) out += ", of " + counted(counts.read, "row") + " read";
   return out;
 }
 
@@ -84,8 +79,8 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
   const Numbers n = numbers_of(r);
   const double share =
       static_cast<double>(n.seen) / (static_cast<double>(n.bodies) * static_cast<double>(r.frames));
-  std::cout << "  clock     " << counted(static_cast<std::size_t>(r.frames), "frame") << " at "
-            << significant(r.rate, 6) << " /s, from " << significant(r.start, 6) << " s to "
+  std::cout << "  clock     " << counted(r.frames, "frame") << " at " << significant(r.rate, 6)
+            << " /s, from " << significant(r.start, 6) << " s to "
             << significant(r.time(r.frames - 1), 6) << " s"
             << (checked.frame_step > 1
                     ? "; frame numbers have a common step of " + std::to_string(checked.frame_step)
@@ -104,9 +99,9 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
 void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   const Recording& r = checked.recording;
   std::cout << named.name << "\n  format    " << format_word(checked.format) << ", "
-            << counted(checked.files.size(), "file") << ", "
-            << counted(static_cast<std::size_t>(checked.rows), "row") << "; body "
-            << body_word(r.body) << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
+            << counted(checked.files.size(), "file") << ", " << counted(checked.rows, "row")
+            << "; body " << body_word(r.body)
+            << (r.body == BodyKind::lily && !r.latches ? ", latches off" : "")
             << (r.held_out ? ", held out" : "") << "\n";
   if (!checked.unused_columns.empty()) {
     std::cout << "  not used  " << joined(checked.unused_columns, ", ") << "\n";
@@ -115,8 +110,7 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   if (!left_out.empty()) std::cout << "  left out  " << left_out << "\n";
   if (!checked.times.empty()) std::cout << "  times     " << checked.times << "\n";
   if (checked.comment_lines > 0) {
-    std::cout << "  comments  "
-              << counted(static_cast<std::size_t>(checked.comment_lines), "comment line")
+    std::cout << "  comments  " << counted(checked.comment_lines, "comment line")
               << " passed over\n";
   }
   if (!checked.refused()) {
@@ -206,12 +200,9 @@ int recording_check(const Arguments& arguments) {
   const auto act = [&](const NamedRecording& named, const CheckedRecording& checked) {
     print_findings(checked.findings, options.has("all"));
     const Recording& r = checked.recording;
-    std::cout << named.name << ": " << counted(static_cast<std::size_t>(checked.rows), "row")
+    std::cout << named.name << ": " << counted(checked.rows, "row")
               << (checked.comment_lines > 0
-                      ? ", " +
-                            counted(static_cast<std::size_t>(checked.comment_lines),
-                                    "comment line") +
-                            " passed over"
+                      ? ", " + counted(checked.comment_lines, "comment line") + " passed over"
                       : "")
               << ", findings: " << findings_line(checked.findings);
     if (checked.refused()) {

@@ -9,6 +9,7 @@
 #include "cli/study_verb.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -77,8 +78,7 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
 /// What to tell, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
   if (result.stopped) {
-    throw Stopped("stopped after " + std::to_string(result.runs) +
-                  (result.runs == 1 ? " run" : " runs") +
+    throw Stopped("stopped after " + counted(result.runs, "run") +
                   ", which are kept; the same command resumes the study");
   }
   if (job.shard.count > 1) {

@@ -126,7 +126,7 @@ Arguments with_long_name(Arguments arguments) {
   return arguments;
 }
 
-// Nothing asked for is left undone, and no drawing is overwritten.
+// Every option has an effect, and no drawing is overwritten.
 void check_outputs(const VerbOptions& options) {
   if (options.has("all")) {
     options.refuse_given({"out", "figure"}, "is of one plan; --all writes all into its directory");

@@ -10,8 +10,8 @@ namespace lilytank {
 
 /// Wrenches of every scored component of every effect at its size, then of those that are beside
 /// them, each by its own term. Terms that
-/// only add are asked alone; what terms do to the water goes through the drag's derivative; what
-/// they make of the sum is compared with the sum.
+/// only add are evaluated alone; what terms do to the water goes through the drag's derivative;
+/// what they make of the sum is compared with the sum.
 class Features {
  public:
   /// `model`: of these modules; must outlive this.

@@ -38,7 +38,7 @@ class Sensitivities {
   void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
             double loss, bool usable);
 
-  /// To be called once all is passed, before anything is asked.
+  /// Call once all frames are passed, before the first result is read.
   void finish();
   /// An amplitude that is cleared of nuisances: the most likely one beside them.
   struct Amplitude {

@@ -92,7 +92,7 @@ class Diagnoser {
   /// scanned.
   Effect found_effect(const EffectFit& fit, const ScoreDetails& details) const;
   std::string stage_name(const EffectFit& fit, const ScoreDetails& details) const;
-  /// Learned when it is asked for first.
+  /// Learned at the first call.
   const Fingerprint& shape_fingerprint(int shape);
   void report_ranking(const ModelSelection& selection, const Eigen::VectorXd& residual,
                       const SelectedModel& e, Diagnosis& out) const;
@@ -122,7 +122,7 @@ class Diagnoser {
   Eigen::VectorXd deviation_;  ///< of the baseline's parameters
   std::unique_ptr<ReferenceEnsemble> ensemble_;
   std::unique_ptr<ModelSelection> selection_;
-  std::map<int, Fingerprint> shape_fingerprints_;  ///< those asked for, by the plan's index
+  std::map<int, Fingerprint> shape_fingerprints_;  ///< those learned so far, by the plan's index
 };
 
 }  // namespace lilytank

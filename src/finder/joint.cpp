@@ -266,7 +266,7 @@ class Rounds {
     return about(all_, centre_, width_);
   }
 
-  // Whether an effect is no longer asked for; then all begins again without it.
+  // Whether the data no longer support an effect; the fit then begins again without it.
   bool drops_one(const Design& design, const Prior& prior) {
     FitBounds near = bounds_;
     near.reach = kJointReach;

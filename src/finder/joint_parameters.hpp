@@ -19,9 +19,9 @@ struct Beginning {
 Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
                 const JointStart& baseline, JointFit& fit);
 
-/// The effect after the first, strongest one that the data ask for least, by Wald's distance of its
-/// amplitudes from nothing; none (the list's size) if all are asked for. `point` then becomes the
-/// answer without it.
+/// The effect after the first, strongest one that the data support least, by Wald's distance of its
+/// amplitudes from 0; the list's size if the data support all. `point` then becomes the estimate
+/// without it.
 std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
                      const Eigen::MatrixXd& covariance, double keep, Eigen::VectorXd& point);
 

@@ -329,7 +329,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
     return known->fingerprint;
   }
-  // By what is simulated, not by who asked first.
+  // By what is simulated, not by the order of the calls.
   Fnv place;
   place.add(std::span(amplitudes.data(), static_cast<std::size_t>(m)));
   place.add(std::span(point.data(), static_cast<std::size_t>(point.size())));

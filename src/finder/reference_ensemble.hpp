@@ -1,5 +1,5 @@
 // What experiments in a tank look like if the baseline is all there is, and if an effect is there
-// too: learned from simulations, once for a tank, and then asked for any number of experiments.
+// too: learned from simulations, once for a tank, for any number of experiments.
 //
 // The vector of an experiment is its motion summary, from which parameters are calibrated, and its
 // scores (scores.hpp). Simulations at scattered parameters, each in another flow that the balls
@@ -24,11 +24,11 @@ namespace lilytank {
 
 /// Fingerprints about amplitudes that were found, by the names of effects and shapes, and the
 /// parameters they were learned at. Each judgement learns its own: what is said of one experiment
-/// must not depend on which others were asked before.
+/// must not depend on which others were diagnosed before.
 struct LearnedFingerprint {
   Eigen::VectorXd point;
   Fingerprint fingerprint;
-  int experiments = 0;  ///< that were asked for
+  int experiments = 0;  ///< requested
 };
 using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
 

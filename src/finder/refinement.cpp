@@ -35,15 +35,15 @@ SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& 
                                    const Vector& residual) {
   SelectedModel e = selection.select(residual);
   const std::vector<EffectFit> shapes = selection.shapes(residual);
-  std::vector<int> asked;
+  std::vector<int> tested;
   if (shapes[0].z > selection.shape_threshold() &&
       (e.found.empty() || shapes[0].z > e.found[0].z)) {
-    asked.push_back(shapes[0].shape);
+    tested.push_back(shapes[0].shape);
   }
   double largest = 0;
   for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
   if (e.left_shape.z > std::max(selection.shape_threshold(), 0.15 * largest)) {
-    if (asked.empty() || asked[0] != e.left_shape.shape) asked.push_back(e.left_shape.shape);
+    if (tested.empty() || tested[0] != e.left_shape.shape) tested.push_back(e.left_shape.shape);
   }
   // What leaves much may be a law of the same variable.
   if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
@@ -51,15 +51,16 @@ SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& 
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
       return ensemble_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
     });
-    if (same != shapes.end() && std::find(asked.begin(), asked.end(), same->shape) == asked.end()) {
-      asked.push_back(same->shape);
+    if (same != shapes.end() &&
+        std::find(tested.begin(), tested.end(), same->shape) == tested.end()) {
+      tested.push_back(same->shape);
     }
   }
-  for (const int s : asked) {
+  for (const int s : tested) {
     const Effect curve = effect_of(ensemble_->plan().shapes[static_cast<std::size_t>(s)]);
     selection.add_shape(s, sensitivity.aligned(shape_fingerprint(s), curve));
   }
-  return asked.empty() ? e : selection.select(residual);
+  return tested.empty() ? e : selection.select(residual);
 }
 
 // One effect of a size like those that were simulated explains all there is, leaves nothing, and

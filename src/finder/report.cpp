@@ -206,10 +206,9 @@ ReportSection detectable_section(const Diagnosis& d) {
 ReportDocument diagnosis_report(const Diagnosis& d) {
   ReportDocument report;
   report.title = "Diagnosis of " + d.name;
-  report.subtitle = std::to_string(d.recordings) +
-                    (d.recordings == 1 ? " recording" : " recordings") + " of up to " +
-                    std::to_string(d.modules) + " " + std::string(d.subject->bodies) + ", " +
-                    digits(d.seconds) + " s in all; verdict \"" + name_of(d.verdict) + "\"";
+  report.subtitle = counted(d.recordings, "recording") + " of up to " + std::to_string(d.modules) +
+                    " " + std::string(d.subject->bodies) + ", " + digits(d.seconds) +
+                    " s in all; verdict \"" + name_of(d.verdict) + "\"";
   report.card = card_of(d);
   report.warnings = d.warnings;
   for (const DiagnosisFinding& f : d.findings) report.sections.push_back(section_of(f));

@@ -3,7 +3,7 @@
 //
 // A score is linear in forces at the places where modules were, however strong these are, and the
 // information that two effects share is known from the recordings without any noise. Simulations
-// are then asked only for what the filter does not know: by which factor it shows less than there
+// then measure only what the filter does not know: by which factor it shows less than there
 // is, and what else an effect changes.
 #pragma once
 #include <Eigen/Core>

@@ -189,8 +189,8 @@ std::string words_for_tank(const ProofOptions& options) {
          " min, " + (options.known_flow ? "known flow" : "flow from balls");
 }
 
-// Those of the kind that is asked for.
-std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
+// Those of the requested kind.
+std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
                               const std::vector<Shape>& shapes, std::uint64_t seed) {
   const std::vector<Effect> effects = effect_catalogue(tank);
   std::vector<Sealed> out;
@@ -205,7 +205,7 @@ std::vector<Sealed> asked_for(const ProofOptions& options, const Model& tank,
   return out;
 }
 
-// One tank and its sealed experiments, asked one after another.
+// One tank and its blinded experiments, diagnosed one after another.
 class Examination {
  public:
   explicit Examination(const ProofOptions& options)
@@ -214,7 +214,7 @@ class Examination {
         seed_(derived_seed(options.diagnosis.seed, kKeySeed)),
         seconds_(60 * options.minutes),
         shapes_(shape_catalogue(tank_, seconds_)),
-        sealed_(asked_for(options, tank_, shapes_, seed_)) {
+        sealed_(requested(options, tank_, shapes_, seed_)) {
     out_.tank = words_for_tank(options);
     if (options.drawn_tank) out_.key = key_text(tank_of(options));
     for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);

@@ -111,8 +111,8 @@ void read_worlds(const std::string& file, Proof& proof) {
     const std::size_t number = proof.worlds.size();
     rows.whole(kWorld, static_cast<std::int64_t>(number), static_cast<std::int64_t>(number));
     w.kind = word_in(rows, kKind, {"null", "named", "two", "unnamed"});
-    // A line of the key begins with a world's number, by which kinds that were not asked are left
-    // out.
+    // A line of the key begins with a world's number, by which kinds that were not requested are
+    // left out.
     const std::string line = number < key.size() ? key[number] : "";
     const std::size_t kind = line.find_first_not_of("0123456789");
     if (kind == 0 || kind == std::string::npos || !line.substr(kind).starts_with(" " + w.kind)) {
@@ -226,7 +226,7 @@ Proof read_proof(const std::string& dir) {
   return proof;
 }
 
-// A kill between the two files leaves a world whose model is not there, which is asked again.
+// A kill between the two files leaves a world whose model is not there, which is evaluated again.
 void keep_worlds(const std::string& dir, const Proof& so_far) {
   if (dir.empty()) return;
   const KeptFiles files(dir, so_far.hash);

@@ -60,7 +60,7 @@ bool take_line(std::string_view line, Rows& rows) {
     if (comma == std::string_view::npos) break;
     line.remove_prefix(comma + 1);
   }
-  // More rows than are wanted now may be there: from a call that asked for more.
+  // More rows than are wanted now may be there: from a call for more rows.
   if (*index < static_cast<std::int64_t>(rows.size())) rows[static_cast<std::size_t>(*index)] = row;
   return true;
 }

@@ -96,7 +96,7 @@ void SearchStore::clear() const {
   }
 }
 
-/// The checkpoint comes first: it says whose the files are.
+/// The checkpoint comes first: it says which search the files belong to.
 void SearchStore::open(const Search& fresh) {
   write_atomically(path(search_file::state),
                    with_checksum_line(head_of(identity_, 0, false) + fresh.save()));

@@ -4,13 +4,10 @@
 #include "lilytank/study_summary.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
-
-std::string counted(std::int64_t n, const std::string& one) {
-  return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
-}
 
 // "0.5" for 0.5 h, without digits that say nothing.
 std::string duration_text(double seconds, const TimeScale& unit) {

@@ -1,5 +1,6 @@
 // Names in a sentence or a cell.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,11 @@ inline std::string listed(const std::vector<std::string>& names) {
   for (std::size_t k = 0; k < names.size(); ++k)
     out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
   return out;
+}
+
+/// "1 run", "2 runs".
+inline std::string counted(std::int64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 /// ASCII letters alone.
