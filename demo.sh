@@ -7,13 +7,16 @@ source .ci/packages.sh
 
 out=out/demo
 
-need_packages "${build_packages[@]}" "${film_packages[@]}"
+need_packages "${build_packages[@]}"
+need_packages "${film_packages[@]}" &  # beside the build, which does without them
+film_packages_ready=$!
 
 # A tree that test.sh has configured is used as it is.
 options=()
 [[ -f build/CMakeCache.txt ]] || options=(-DLILYTANK_TESTS=OFF -DLILYTANK_BENCH=OFF)
 configure build -DCMAKE_BUILD_TYPE=Release "${options[@]}"
 cmake --build build --target lilytank
+wait "$film_packages_ready"
 
 build/lilytank run scenarios/demo.toml --out "$out" --force --video
 echo "In $out: video.mp4, yield.png, summary.txt, and the run's data"

@@ -17,7 +17,12 @@ namespace fs = std::filesystem;
 
 /// The first two columns of metrics.csv; the others depend on the number of modules.
 void read_metrics(const std::string& file, StoredRun& run) {
+  constexpr std::string_view first_columns = "time,copies,";
   const std::string text = read_whole(file);
+  if (!text.starts_with(first_columns)) {
+    throw InputError({file, 1, 1},
+                     "the first line does not begin with \"" + std::string(first_columns) + "\"");
+  }
   CsvReader reader(text, file, {text.substr(0, text.find('\n'))}, true);
   while (reader.next()) {
     run.metrics_time.push_back(reader.number(0));

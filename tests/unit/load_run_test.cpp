@@ -68,5 +68,22 @@ TEST_F(LoadRun, CutMetricsAreNotTakenForTheWholeRun) {
   EXPECT_THROW(load_run(path("a")), InputError);
 }
 
+TEST_F(LoadRun, MetricsWithoutTheirFirstColumnsAreRefused) {
+  RunOptions options;
+  options.out = path("a");
+  run(load_scenario({path("long.toml")}, {"run.duration=20"}), options);
+  here_.write("a/checkpoint.bin", "of another version");
+  here_.write("a/metrics.csv", "time\n0\n");
+  try {
+    load_run(path("a"));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    EXPECT_TRUE(
+        what.ends_with("metrics.csv:1:1: the first line does not begin with \"time,copies,\""))
+        << what;
+  }
+}
+
 }  // namespace
 }  // namespace lilytank
