@@ -97,7 +97,7 @@ home flow flow_estimate flow_maps flow_report
 home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize
-home calibrate calibration emulator local_model recovery
+home calibrate calibration emulator response_surface recovery
 home filter predictor
 home finder diagnosis diagnosis_subject
 home proof proof

@@ -3,7 +3,7 @@
 // Recordings are simulated again and again (emulator.hpp) until what they tell is like what the
 // recordings of the experiment tell. What is compared is chosen by the objective: the paper's MSD
 // (Eq. 9), the MSD weighted by its own covariance, or a summary of all motion (motion_summary.hpp).
-// A search finds the region, local models (local_model.hpp) the estimate, and experiments simulated
+// A search finds the region, local models (response_surface.hpp) the estimate, and experiments simulated
 // at the estimate and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
 #include <atomic>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/estimate_line.hpp"
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 namespace lilytank {
 

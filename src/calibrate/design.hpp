@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 namespace lilytank {
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 namespace lilytank {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/setup.hpp"
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 #include "study/kept_rows.hpp"
 
 namespace lilytank {

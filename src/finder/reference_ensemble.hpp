@@ -18,7 +18,7 @@
 #include "calibrate/stages.hpp"
 #include "finder/fingerprint.hpp"
 #include "finder/scores.hpp"
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 namespace lilytank {
 

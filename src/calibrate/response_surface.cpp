@@ -1,4 +1,4 @@
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Local models: a quadratic is found exactly, and what is told of parameters is what theory says.
-#include "lilytank/local_model.hpp"
+#include "lilytank/response_surface.hpp"
 
 #include <gtest/gtest.h>
 
