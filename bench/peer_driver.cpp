@@ -159,8 +159,8 @@ struct Timing {
 
 void time_forces(const World& world, std::vector<Wrench>& out, Timing& timing) {
   const Model& model = world.model();
-  const Moment moment{world.time(), world.state().step, world.state().step / model.steps_per_tick,
-                      world.state().seed};
+  const StepContext moment{world.time(), world.state().step,
+                           world.state().step / model.steps_per_tick, world.state().seed};
   const double start = now();
   for (const ActiveForce& force : model.forces)
     force.term->add(model, world.kinematics(), moment, force.p, out);

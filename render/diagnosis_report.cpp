@@ -17,7 +17,7 @@ std::string unit_of(const FoundCurve& c) {
   return c.value_unit == "N" ? "force (mN)" : "acceleration (" + c.value_unit + ")";
 }
 
-// A value that is this much less certain than most of its curve is told by next to nothing: bodies
+// A value that is this much less certain than most of its curve has almost no data: bodies
 // were hardly ever there.
 constexpr double kUntold = 20;
 

@@ -11,7 +11,7 @@
 namespace lilytank {
 namespace {
 
-// What the base station of src/control knew at a frame, told by what is stored.
+// What the base station of src/control knew at a frame, from the stored events.
 class Follower {
  public:
   explicit Follower(const StoredRun& run) : run_(run), model_(run.scenario.model) {

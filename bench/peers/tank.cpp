@@ -28,7 +28,7 @@ void PeerTank::step() {
 
 void PeerTank::add_library_forces() {
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
-  const Moment now{static_cast<double>(steps_) * kTick, steps_, steps_, seed_};
+  const StepContext now{static_cast<double>(steps_) * kTick, steps_, steps_, seed_};
   for (const ActiveForce& force : model_.forces)
     force.term->add(model_, bodies_.kinematics(), now, force.p, wrenches_);
 }

@@ -1,4 +1,4 @@
-// Everything that lilytank tells of recordings or runs at once, and two of them against each other;
+// All statistics of recordings or runs at once, and the comparison of two of them,
 // as text, tidy tables and (render.hpp) plots.
 #pragma once
 #include <string>
@@ -125,7 +125,7 @@ struct SourceSummary {
 
 /// Whether frames are further apart than a quarter of the velocity's memory. Speeds, spins and the
 /// number of contacts are then too low, contacts too long, and the memory itself is coarse.
-/// False where nothing moves or velocities were not asked for.
+/// False where nothing moves or velocities were not requested.
 bool frames_too_far_apart(const SourceSummary& source);
 
 /// Two sources against each other, second less first.

@@ -1,10 +1,10 @@
 // The parameters of a model from recordings, with intervals [paper, section 4].
 //
-// Recordings are simulated again and again (emulator.hpp) until what they tell is like what the
-// recordings of the experiment tell. What is compared is chosen by the objective: the paper's MSD
-// (Eq. 9), the MSD weighted by its own covariance, or a summary of all motion (motion_summary.hpp).
-// A search finds the region, local models (response_surface.hpp) the estimate, and experiments simulated
-// at the estimate and estimated in their turn the intervals. docs/calibration.md.
+// The parameters are those at which simulated recordings (emulator.hpp) have the statistics of the
+// experiment's recordings. The objective selects the statistics: the paper's MSD (Eq. 9), the MSD
+// weighted by its own covariance, or a summary of all motion (motion_summary.hpp).
+// A search finds the region, response surfaces (response_surface.hpp) the estimate, and experiments
+// simulated at the estimate and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -90,7 +90,7 @@ struct CalibrationOptions {
   int flow_draws = 24;
   /// Simulations of a round, and of the last model.
   int round = 120, last_round = 240;
-  /// Upper bound on the rounds in which the local model follows its answer.
+  /// Upper bound on the rounds in which the response surface is moved to its estimate.
   int most_rounds = 8;
   /// Experiments simulated for the intervals.
   int replicates = 200;
@@ -118,11 +118,11 @@ struct CalibratedParameter {
   FitParameter parameter;
   /// The scenario's value.
   double start = 0;
-  /// The search's answer.
+  /// The search's estimate.
   double searched = 0;
-  /// What all compared numbers say, without its bias, within the bounds; and, of what they leave
-  /// open, the value that makes the MSD most like the recorded one (objective `summary`, flow from
-  /// balls).
+  /// middle: bias-corrected estimate from all statistics, within the bounds. estimate: the value in
+  /// the posterior of `middle` with the least difference of the MSD (objective `summary`, flow from
+  /// balls); otherwise `middle`.
   double middle = 0, estimate = 0;
   /// 95 % interval, bias-corrected.
   double low = 0, high = 0;
@@ -143,19 +143,20 @@ struct ComparedNumber {
   double z() const { return deviation > 0 ? (observed - expected) / deviation : 0; }
 };
 
-/// One local model on the way to the answer.
+/// One response surface on the way to the estimate.
 struct LocalRound {
   /// "rough model 1": of pieces; "local model 1": of whole experiments.
   std::string name;
-  /// Simulations that it rests on.
+  /// Simulations that it is fitted to.
   int simulations = 0;
-  /// Distance of the answer from the centre of the simulated points, in their standard deviations.
+  /// Distance of its estimate from the centre of the simulated points, in their standard
+  /// deviations.
   double moved = 0;
-  /// Value of the objective at that answer.
+  /// Value of the objective at that estimate.
   double misfit = 0;
-  /// The answer lies on the bound of its reach: the next round is centred there.
-  bool at_reach = false;
-  /// Its answer, one value per parameter.
+  /// The estimate lies on the bound of the fit: the next round is centred there.
+  bool at_bound = false;
+  /// One value per parameter.
   std::vector<double> estimate;
 };
 
@@ -201,7 +202,7 @@ struct CalibrationResult {
   /// Of the global search.
   std::vector<IterationRecord> history;
   std::vector<LocalRound> rounds_taken;
-  /// Rounds of local models, and simulations of whole experiments in them.
+  /// Rounds of response surfaces, and simulations of whole experiments in them.
   int rounds = 0, simulations = 0;
   /// A map of mean velocities of the recordings, and of as many simulated ones [paper, Fig. 7].
   VelocityMap real_velocity, simulated_velocity;

@@ -1,5 +1,5 @@
-// A camera over a simulated tank: what a tracker would have recorded of a world whose truth is
-// known. Every number is a function of the seed.
+// A camera over a simulated tank: the recording that a tracker would make of a simulated world.
+// Every number is a function of the seed.
 #pragma once
 #include <cstdint>
 

@@ -19,11 +19,12 @@ namespace lilytank {
 class DirectoryLock;
 
 struct DiagnosisOptions {
-  int hold_out = 1;            ///< recordings kept for showing, where none says held_out: the last
-  double minutes = 10;         ///< that it may take on two cores: scales the simulations
-  double false_alarms = 0.02;  ///< share of experiments with nothing missing that may be called so
+  int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
+  double minutes = 10;  ///< time budget on two cores: scales the simulations
+  double false_alarms =
+      0.02;  ///< false-positive rate: share of null experiments reported as missing
   std::uint64_t seed = 1;
-  std::string out;     ///< directory; empty: nothing is kept
+  std::string out;     ///< directory; empty: nothing is stored
   bool force = false;  ///< replace another diagnosis's files
   /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
   /// with the call.
@@ -34,10 +35,10 @@ struct DiagnosisOptions {
 };
 
 enum class Verdict : std::uint8_t {
-  complete,     ///< nothing is missing that these data could show
-  missing,      ///< findings say what
-  measurement,  ///< the recordings are at fault; no force is looked for
-  undecided,    ///< something differs, and these data cannot say what
+  complete,     ///< no omitted effect that these data can show
+  missing,      ///< an omitted effect; see findings
+  measurement,  ///< the recordings are faulty; no force is searched for
+  undecided,    ///< the model differs; these data cannot identify how
 };
 std::string name_of(Verdict verdict);
 
@@ -48,10 +49,10 @@ struct FoundParameter {
   std::string unit;
 };
 
-/// Values of a curve: an empirical force law, or a map of what is left.
+/// Values of a curve: an empirical force law, or a map of residuals.
 struct FoundCurve {
   std::string variable, direction, unit, value_unit;
-  std::vector<double> at, value, deviation;  ///< deviation: of nothing there
+  std::vector<double> at, value, deviation;  ///< deviation: under the null hypothesis
   double z = 0;                              ///< of the curve as a whole
 };
 
@@ -113,10 +114,10 @@ struct Diagnosis {
   std::vector<GroupFit> held_out;
   double msd_before = 0, msd_after = 0, msd_floor = 0;  ///< m^2, Eq. 9 of held-out recordings
   double msd_removed = 0, msd_low = 0, msd_high = 0;
-  std::vector<FoundCurve> maps;       ///< every shape's curve of what the baseline leaves
+  std::vector<FoundCurve> maps;       ///< every shape's curve of the baseline's residuals
   std::vector<RankedEffect> ranking;  ///< strongest first
   double effect_threshold = 0, shape_threshold = 0, false_alarms = 0;
-  double strongest_left = 0;  ///< z of what is left after the findings
+  double strongest_left = 0;  ///< z of the residuals after the findings
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
   /// What was recorded: wording and sections of the report. Never null.

@@ -46,9 +46,9 @@ BodySums circulation(const SmoothRecording& recording);
 /// Density of centres over the distance from the tank's centre, relative to an even spread over the
 /// tank's circle of radius `tank_radius` (m).
 BodySums radial_density(const SmoothRecording& recording, double tank_radius, const Bins& bins);
-/// Pairs at a distance (m), relative to pairs of the same bodies at different times, which know
-/// nothing of each other: 1 without correlation, whatever the tank's shape and the uneven density.
-/// Looks at ten frames a second, as more would tell little more; so do the next two.
+/// Pairs at a distance (m), relative to pairs of the same bodies at different times, which are
+/// independent of each other: 1 without correlation, whatever the tank's shape and the uneven
+/// density. Uses ten frames a second, as more add little information; so do the next two.
 BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins);
 /// Probability density (1/m) of the distance to the nearest other body seen in the same frame.
 BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins);

@@ -28,7 +28,7 @@ struct Experiment {
   Scenario base;
   /// All [[recording]] tables, read or not.
   std::vector<RecordingSource> sources;
-  /// The recordings that were wanted, in the order of `sources`.
+  /// The recordings that were read, in the order of `sources`.
   std::vector<Recording> recordings;
   /// Findings of their checks, in the same order.
   std::vector<Finding> findings;

@@ -5,9 +5,9 @@
 // `estimate_paper` is Eq. 3: the water's velocity in every frame from a ball's velocity and
 // acceleration, then mean and deviation of these over the frames that fall into a cell.
 //
-// `estimate_smooth` asks which flow makes the balls' equation of motion (drag under gusts, random
-// force, damping) agree with the tracks on average, with fields as smooth as the data say. It tells
-// apart the tracking noise, the balls' own random force and the water's gusts.
+// `estimate_smooth` finds the flow for which the balls' equation of motion (drag under gusts,
+// random force, damping) agrees with the tracks on average; the data determine the smoothness of
+// the fields. It separates the tracking noise, the balls' own random force and the water's gusts.
 //
 // docs/flow.md derives both and lists their measured errors.
 #pragma once

@@ -24,10 +24,10 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
 /// An extracted flow with its uncertainty, as a family of fields. Constant once made.
 class FlowMaps {
  public:
-  /// A flow that is known, or taken to be.
+  /// A flow without error.
   explicit FlowMaps(std::shared_ptr<const FlowField> field) : field_(std::move(field)) {}
-  /// A flow as it was extracted, with draws of the extraction's error, whose mean is taken off, and
-  /// draws of what the data leave open; at least two of these.
+  /// An estimated flow with draws of its error, whose mean is subtracted, and at least two draws
+  /// from the posterior.
   FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
            std::vector<FlowDifference> open);
 

@@ -61,7 +61,7 @@ struct Kinematics {
 };
 
 /// The instant at which forces are evaluated, the key of their random draws, and the water then.
-struct Moment {
+struct StepContext {
   /// s
   double time = 0;
   /// Steps of dt since the start.
@@ -81,18 +81,18 @@ struct Moment {
   double gain = 1;
   /// Factor on its standard deviation alone, beside gain.
   double gust_gain = 1;
-  /// [bodies] What stir() of the terms adds to the water's velocity at each body, m/s; empty:
-  /// nothing.
+  /// [bodies] What perturb_flow() of the terms adds to the water's velocity at each body, m/s;
+  /// empty: nothing.
   std::span<const double> ux, uy;
   /// [bodies] What it adds to the water's rotation about each body, rad/s; empty where ux is.
   std::span<const double> turning;
 };
 
-/// The flow field at that moment: Moment::field, or the model's.
-const FlowField& field_now(const Model& model, const Moment& now);
+/// The flow field of the step: StepContext::field, or the model's.
+const FlowField& field_now(const Model& model, const StepContext& now);
 
-/// Changes of the water by terms that stir. They start from no change and accumulate.
-struct Stirring {
+/// Changes of the flow by terms that perturb it. They start from no change and accumulate.
+struct FlowPerturbation {
   /// Factor on the field's mean and standard deviation; terms multiply it.
   double gain = 1;
   /// [bodies] Added to the water's velocity at a body, m/s.
@@ -133,12 +133,12 @@ class ForceTerm {
   virtual bool baseline() const { return false; }
   /// Adds the wrench on every body to `out` (length k.size()). `p` are the parameters' values in
   /// the order of parameters(). Never throws, never allocates.
-  virtual void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
+  virtual void add(const Model&, const Kinematics&, const StepContext&, std::span<const double> p,
                    std::span<Wrench> out) const {
     static_cast<void>(p), static_cast<void>(out);
   }
-  /// Whether stir() does anything.
-  virtual bool stirs() const { return false; }
+  /// Whether perturb_flow() does anything.
+  virtual bool perturbs_flow() const { return false; }
   /// Whether that is to multiply `water.gain` alone: such terms come first, so that what others do
   /// to the water is done to as much of it as there is.
   virtual bool sets_gain() const { return false; }
@@ -146,15 +146,15 @@ class ForceTerm {
   /// and its rotation, which are to agree: bodies turn with half the curl of what moves them.
   /// Called before any add(); `now` holds what terms before this one did. Never throws or
   /// allocates.
-  virtual void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
-                    Stirring& water) const {
+  virtual void perturb_flow(const Model&, const Kinematics&, const StepContext& now,
+                            std::span<const double> p, FlowPerturbation& water) const {
     static_cast<void>(now), static_cast<void>(p), static_cast<void>(water);
   }
   /// Whether transform() does anything.
   virtual bool transforms() const { return false; }
   /// Changes the sum of all terms' wrenches, once all have added theirs: what a body makes of a
   /// force. Never throws or allocates.
-  virtual void transform(const Model&, const Kinematics&, const Moment& now,
+  virtual void transform(const Model&, const Kinematics&, const StepContext& now,
                          std::span<const double> p, std::span<Wrench> sum) const {
     static_cast<void>(now), static_cast<void>(p), static_cast<void>(sum);
   }

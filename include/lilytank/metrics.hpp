@@ -1,5 +1,5 @@
-// What tracks tell: displacements, autocorrelations, distributions, neighbours. The same functions
-// serve simulated and recorded motion.
+// Statistics of tracks: displacements, autocorrelations, distributions, neighbours. The same
+// functions serve simulated and recorded motion.
 //
 // Every curve is a ratio of two sums over bodies, bin by bin: squared displacements over their
 // number, bodies counted in a ring over all bodies counted. A body's sums are kept apart, as bodies
@@ -77,7 +77,7 @@ CurveEstimate ratio_curve(const BodySums& sums, const Bootstrap& bootstrap = {})
 /// The second curve less the first, with the band of independent bodies. Equal bins.
 CurveEstimate ratio_difference(const BodySums& first, const BodySums& second,
                                const Bootstrap& bootstrap = {});
-/// A number told from the whole curve, with its interval over the same resamples, widened likewise.
+/// A statistic of the whole curve, with its interval over the same resamples, widened likewise.
 Estimate ratio_functional(const BodySums& sums,
                           const std::function<double(const std::vector<double>&)>& functional,
                           const Bootstrap& bootstrap = {});

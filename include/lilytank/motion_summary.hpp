@@ -1,4 +1,4 @@
-// Some ninety numbers that tell how bodies move in a tank: what a model must reproduce.
+// About ninety summary statistics of the motion of bodies in a tank, which a model must reproduce.
 //
 // Every number is computed from the tracks as they were recorded, without a smoother, over all
 // bodies and recordings together. They are meant to be compared with those of a simulated recording

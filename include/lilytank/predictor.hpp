@@ -26,8 +26,8 @@ struct PredictorOptions {
   double forget = 0.5;  ///< s unseen after which a module is no longer carried along
 };
 
-/// What the filter needs to know of recordings: their noise by fit_position and fit_heading, and
-/// jolts with which the model's innovations have the variance that the filter says.
+/// Options of the filter for recordings: their noise by fit_position and fit_heading, and jolts
+/// that give the model's innovations the variance that the filter predicts.
 PredictorOptions predictor_options(const Model& model, const std::vector<Recording>& recordings);
 
 /// What the filter knows at one frame, from this frame and earlier ones only, and what the next

@@ -16,9 +16,9 @@ struct ProofOptions {
   int worlds = 100;
   std::string only;         ///< null, named, two or unnamed: leaves out those of another kind
   double minutes = 4;       ///< of a recording; an experiment has three, and three of balls
-  bool known_flow = false;  ///< no balls: the diagnosis is given the true flow
-  /// The tank is drawn from the seed: pumps, inlets and the parameters that calibrations find. Not
-  /// so: the built-in tank, whose parameters the diagnosis begins with.
+  bool known_flow = false;  ///< no balls: the diagnosis uses the true flow
+  /// true: pumps, inlets and the parameters that calibrations estimate are drawn from the seed.
+  /// false: the built-in tank, with the parameters at which the diagnosis starts.
   bool drawn_tank = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's

@@ -83,7 +83,7 @@ struct Curve {
   /// `low` and `high` as bars at the points instead of a band.
   bool bars = false;
   bool line = true;  ///< false: markers alone
-  /// 0 .. 1: a colour from dark to light, for a number that curves are told apart by; NaN: one of
+  /// 0 .. 1: a colour from dark to light, for the number that distinguishes curves; NaN: one of
   /// the curve's own, by its place.
   double shade = NAN;
 };
@@ -154,7 +154,7 @@ struct Map {
   std::vector<MapPanel> panels;
   /// Pixels, of one map (PNG: twice that).
   int panel_size = 340;
-  /// What hatched cells are, told below the panels if there are any; empty: not told.
+  /// Legend of hatched cells, drawn below the panels where there are any; empty: none.
   std::string hatching;
 };
 /// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.

@@ -1,12 +1,11 @@
-// How numbers that a simulation tells depend on its parameters near one point, and what data then
-// say of the parameters.
+// A quadratic response surface of summary statistics over the parameters, and the parameters that
+// it estimates from data.
 //
-// Simulations at points scattered about the centre give, by regression, the mean of every number as
-// a quadratic function of the parameters, and from what remains the covariance of the numbers in
-// one experiment. Generalised least squares with these two is indirect inference [Gourieroux,
-// Monfort and Renault, J. Appl. Econometrics 8, 1993]: the parameters whose simulated numbers are
-// most like those of the data. It needs no further simulation, so it can be asked for hundreds of
-// data sets.
+// A regression over simulations at points scattered about a centre gives the mean of every
+// statistic as a quadratic function of the parameters; its residuals give the covariance of the
+// statistics in one experiment. Generalised least squares with both is indirect inference
+// [Gourieroux, Monfort and Renault, J. Appl. Econometrics 8, 1993]. A fit needs no further
+// simulation, so hundreds of data sets can be fitted.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -20,78 +19,80 @@ struct Design {
   Eigen::MatrixXd numbers;  ///< [simulation, number]
 };
 
-/// How far data are from a model's numbers.
+/// Distance between the data's statistics and the surface's.
 enum class Misfit {
   /// Squared distance by the inverse covariance (Mahalanobis).
   covariance,
-  /// Sum of sizes, every number alike, as in Eq. 9.
+  /// Sum of absolute differences, each with weight 1, as in Eq. 9.
   absolute,
 };
 
-/// What is taken of coefficients that may be noise.
+/// Treatment of regression coefficients that may be noise.
 enum class Slopes {
-  /// All of it: answers are then held to the centre, which line_through() makes good.
+  /// Used as estimated. Noise in them biases fits towards the centre; inverse_regression()
+  /// corrects the bias.
   found,
-  /// Less the less they exceed their errors: where numbers are many and simulations few.
+  /// Shrunk by their signal-to-noise ratio: for many statistics and few simulations.
   shrunk,
 };
 
-/// Where to look for parameters.
+/// The region that a fit searches.
 struct FitBounds {
-  /// Empty: nowhere but within reach of the design.
+  /// [parameters] Empty: bounded by `reach` alone.
   Eigen::VectorXd low, high;
   /// Largest distance from the centre of the design, in its standard deviations.
   double reach = 4;
 };
 
-/// The best parameters for one set of data.
+/// The parameters of least misfit for one data set.
 struct LocalFit {
   /// [parameters] On the scales that were fitted on.
   Eigen::VectorXd point;
   /// Value of the objective there.
   double misfit = 0;
   /// The fit stopped at FitBounds::reach: simulate a new design around it.
-  bool at_reach = false;
+  bool at_bound = false;
 };
 
-/// What is known of parameters before data speak: a normal law without correlations.
+/// Prior of the parameters: normal, without correlations.
 struct Prior {
   /// [parameters] Mean and standard deviation; infinite deviation: no prior.
   Eigen::VectorXd expected, deviation;
 };
 
-/// The parameters that data and prior ask for together.
-struct KnownFit {
+/// The maximum a posteriori estimate.
+struct MapEstimate {
   LocalFit fit;
   /// [parameters, parameters] Of the posterior, in its normal approximation.
   Eigen::MatrixXd covariance;
-  /// Mean square of what remains, at least 1: where the model does not explain the data, these
-  /// count for that much less, and what was known before for that much more.
-  double doubt = 1;
+  /// Dispersion: mean square of the whitened residuals, at least 1. Where the surface does not
+  /// explain the data, the likelihood is divided by it, and the prior gains weight.
+  double dispersion = 1;
 };
 
 /// A quadratic response surface with the covariance of its residuals. Constant once made.
-class LocalModel {
+class ResponseSurface {
  public:
   /// Needs more simulations than coefficients: 1 + p + p (p + 1) / 2 for p parameters; with fewer
   /// than twice as many, products of different parameters are left out. Numbers that never vary do
   /// not count. Throws std::invalid_argument with too few.
-  explicit LocalModel(const Design& design, Misfit misfit = Misfit::covariance,
-                      Slopes slopes = Slopes::found);
+  explicit ResponseSurface(const Design& design, Misfit misfit = Misfit::covariance,
+                           Slopes slopes = Slopes::found);
 
   /// The mean of the numbers at a point.
   Eigen::VectorXd mean(const Eigen::VectorXd& point) const;
   /// Derivatives of the means, [number, parameter].
   Eigen::MatrixXd slope(const Eigen::VectorXd& point) const;
   /// Covariance of the statistics in one experiment: that of the residuals, its correlations shrunk
-  /// towards 0 by as much as their sampling error asks for [Schaefer and Strimmer, Stat. Appl.
+  /// towards 0 in proportion to their sampling error [Schaefer and Strimmer, Stat. Appl.
   /// Genet. Mol. Biol. 4, 2005].
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
-  /// The parameters whose numbers are nearest to those of data.
+  /// The parameters of least misfit to `numbers` [number].
   LocalFit fit(const Eigen::VectorXd& numbers, const FitBounds& bounds = {}) const;
   /// The maximum a posteriori under a normal prior.
-  KnownFit fit(const Eigen::VectorXd& numbers, const FitBounds& bounds, const Prior& prior) const;
+  MapEstimate fit(const Eigen::VectorXd& numbers, const FitBounds& bounds,
+                  const Prior& prior) const;
   /// fit() with one parameter held at a value: a point of its profile likelihood.
   LocalFit fit_with(const Eigen::VectorXd& numbers, int parameter, double value,
                     const FitBounds& bounds = {}) const;
@@ -99,7 +100,7 @@ class LocalModel {
   double misfit(const Eigen::VectorXd& numbers, const Eigen::VectorXd& point) const;
   /// Covariance of fitted parameters to first order, from the covariance of the numbers.
   Eigen::MatrixXd parameter_covariance(const Eigen::VectorXd& point) const;
-  /// The same of parameters that were known before, to `prior` (deviations): never wider.
+  /// The same with a normal prior of deviations `prior` [parameters]: never wider than the prior.
   Eigen::MatrixXd parameter_covariance(const Eigen::VectorXd& point,
                                        const Eigen::VectorXd& prior) const;
 

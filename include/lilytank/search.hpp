@@ -33,7 +33,7 @@ struct SearchAxis {
 /// The box that is searched.
 using SearchSpace = std::vector<SearchAxis>;
 
-/// One evaluation that is wanted.
+/// One requested evaluation.
 struct Trial {
   /// One value an axis, in its unit.
   std::vector<double> point;
@@ -44,7 +44,7 @@ struct Trial {
   std::int64_t replicate = 0;
 };
 
-/// The point that a search would answer with now.
+/// The best point so far.
 struct Incumbent {
   /// Empty before the first iteration is over.
   std::vector<double> point;
@@ -58,7 +58,7 @@ struct Incumbent {
 /// How an iteration ended: one row of history.csv and one point of a convergence plot (Fig. 6a).
 struct IterationRecord {
   int iteration = 0;             ///< from 1
-  std::int64_t evaluations = 0;  ///< told so far
+  std::int64_t evaluations = 0;  ///< received so far
   double best = 0;               ///< the incumbent's mean
   /// Of the means of this iteration's new points.
   double median = 0, worst = 0;
@@ -78,20 +78,20 @@ class Search {
   /// The values of the trials of ask(), in their order; lower is better. A value that is not finite
   /// is worse than every number. Throws std::logic_error on another count of values.
   virtual void tell(std::span<const double> values) = 0;
-  /// The answer if the search ended now.
+  /// The best point so far.
   virtual Incumbent best() const = 0;
   /// One record for each iteration that is over.
   virtual const std::vector<IterationRecord>& history() const = 0;
   /// Whether a final selection is over: the last record is then its own, and no iteration's.
   virtual bool selected() const = 0;
-  /// Trials told so far, and how many there will be in all. A search whose budget does not divide
-  /// into whole iterations may end a little below it.
+  /// Trials evaluated so far, and how many there will be in all. A search whose budget does not
+  /// divide into whole iterations may end a little below it.
   virtual std::int64_t evaluations() const = 0;
   virtual std::int64_t budget() const = 0;
   /// The box, as given.
   virtual const SearchSpace& space() const = 0;
   /// The whole state as text, with a magic word, a version and a hash; space, options, seed and
-  /// trials that were asked for and not yet told included.
+  /// trials that were requested and not yet evaluated included.
   virtual std::string save() const = 0;
   /// The share of the budget that is spent, 0 .. 1.
   double done() const;
@@ -113,7 +113,7 @@ enum class NoiseRule {
   /// [Pugh, Zhang and Martinoli 2005]. Needs two evaluations.
   reevaluate,
   /// New positions get one evaluation, the rest of an iteration's budget goes, in stages, to those
-  /// new positions and personal bests by whose values the best is told from the rest: optimal
+  /// new positions and personal bests that best separate the best point from the rest: optimal
   /// computing budget allocation [Chen et al. 2000; Pan, Wang and Liu 2006]. Needs two evaluations.
   ocba,
 };

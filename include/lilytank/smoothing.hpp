@@ -53,11 +53,10 @@ struct SmoothingOptions {
 };
 
 /// One coordinate or two that are seen together, frame by frame. Frames in which nothing was seen
-/// are filled by what the frames around them say, with the larger uncertainty that this has; where
-/// they say nothing (polynomials with too few frames in the window), every value is NaN. Under
-/// jolts a body has no acceleration at an instant: the Kalman smoother's is the change of velocity
-/// from the frame before to the frame after, by the time between them (at the ends of a track, on
-/// one side).
+/// are interpolated from the frames around them, with a larger uncertainty; where that is
+/// impossible (polynomials with too few frames in the window), every value is NaN. Under jolts a
+/// body has no acceleration at an instant: the Kalman smoother's is the change of velocity from the
+/// frame before to the frame after, by the time between them (at the ends of a track, on one side).
 struct SmoothTrack {
   std::int64_t id = 0;
   int first = 0;  ///< frame, as in the track

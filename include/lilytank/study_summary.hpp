@@ -83,7 +83,7 @@ struct StudySummary {
   double horizon = 0;
   /// s, where restricted means end: the horizon, or the longest that some setting was watched
   double restricted_to = 0;
-  /// The k that are told of: all, or some round ones where that is many.
+  /// The k that are reported: all, or a few round ones where there are many.
   std::vector<int> copies;
   std::vector<SettingSummary> settings;  ///< by number
   /// Else each setting is compared with setting 0 only.

@@ -1,4 +1,4 @@
-// Experiments of point bodies as their files say them; tables are not read here.
+// Files of experiments of point bodies; their tables are read elsewhere.
 #pragma once
 #include <map>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace lilytank {
 
-/// A name with the place where the file says it.
+/// A name with its place in the file.
 struct NamedAt {
   std::string name;
   SourcePlace place;

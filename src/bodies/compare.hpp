@@ -31,7 +31,7 @@ std::vector<Group> groups_of(const BodyExperiment& experiment);
 LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
 
 /// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise
-/// is more than twice that: it took motion for noise, and `best` says what the tracker's noise is.
+/// is more than twice that: it attributed motion to noise.
 LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
                               const LawTrial& best);
 
@@ -76,8 +76,8 @@ Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& g
 /// distinguished.
 void shake(const std::vector<Group>& groups, LawTrial& outcome);
 
-/// rms over the recorded motion of what two outcomes' accelerations differ by, in units of the
-/// pushes that the first still needs: below 1 neither fit says which of them it is.
+/// rms difference of two outcomes' accelerations over the recorded motion, in units of the random
+/// pushes of the first: below 1 the fits do not distinguish them.
 double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b);
 
 /// Mean square of predictions over a quarter of a run from what the filter believed, per group

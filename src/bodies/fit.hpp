@@ -29,11 +29,12 @@ struct Fitted {
   BodyModel model;
   std::vector<double> numbers;    ///< as packed
   std::vector<double> deviation;  ///< their standard errors (of the packed numbers)
-  double likelihood = 0;          ///< log, of everything that was fitted
+  double likelihood = 0;          ///< log, of all fitted samples
   int lost = 0;                   ///< coordinates whose prediction was not finite
-  std::vector<double> held_out;   ///< log-likelihood of what was left out, by block; empty: not yet
+  std::vector<double>
+      held_out;  ///< log-likelihood of held-out samples, by block; empty: not computed
   double held_out_sum() const;
-  /// Whether the model's predictions are finite: what it says of these samples has a likelihood.
+  /// Whether the model's predictions of these samples are finite, so that they have a likelihood.
   bool usable() const;
 };
 

@@ -1,5 +1,5 @@
-// A model of point bodies: terms of the library, the tracker's noise, and random pushes for all
-// that no term says. Its fitted numbers as one vector.
+// A model of point bodies: terms of the library, the tracker's noise, and random pushes for
+// everything else. Its fitted parameters as one vector.
 #pragma once
 #include <cstdint>
 #include <string>

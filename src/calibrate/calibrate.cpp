@@ -44,9 +44,9 @@ CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptio
   out.flow_csv = setup.corrected_csv(*maps.best());
   const std::vector<double> searched = stages.search(out);
   for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];
-  const std::vector<double> told = setup.numbers(setup.training);
-  const Eigen::VectorXd observed =
-      Eigen::Map<const Eigen::VectorXd>(told.data(), static_cast<Eigen::Index>(told.size()));
+  const std::vector<double> recorded = setup.numbers(setup.training);
+  const Eigen::VectorXd observed = Eigen::Map<const Eigen::VectorXd>(
+      recorded.data(), static_cast<Eigen::Index>(recorded.size()));
   const LocalAnswer answer = find_locally(stages, searched, maps, observed, out);
   out.rounds = answer.rounds;
   find_intervals(stages, answer, maps, observed, out);

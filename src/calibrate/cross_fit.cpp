@@ -19,7 +19,7 @@ const FitBounds kFree{{}, {}, 5};
 LocalFit CrossFit::of(const Eigen::VectorXd& numbers) const {
   LocalFit out;
   out.point = Eigen::VectorXd::Zero(estimates.cols());
-  for (const LocalModel& model : models) {
+  for (const ResponseSurface& model : models) {
     const LocalFit fit = model.fit(numbers, kFree);
     out.point += fit.point / kFolds, out.misfit += fit.misfit / kFolds;
   }
@@ -31,7 +31,7 @@ CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit mis
   const Eigen::Index n = design.points.rows(), p = design.points.cols();
   CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), {}, 0, {}};
   for (int fold = 0; fold < kFolds; ++fold) {
-    const LocalModel& model =
+    const ResponseSurface& model =
         out.models.emplace_back(without_fold(design, fold, kFolds), misfit, slopes);
     for (Eigen::Index i = fold; i < n; i += kFolds) {
       const LocalFit fit = model.fit(design.numbers.row(i).transpose(), kFree);
@@ -43,7 +43,7 @@ CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit mis
   return out;
 }
 
-HonestFit turned_round(const Design& design, const CrossFit& fit, double least) {
+BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, double least) {
   using Matrix = Eigen::MatrixXd;
   const Eigen::VectorXd centre = design.points.colwise().mean().transpose();
   const Matrix off = design.points.rowwise() - centre.transpose();
@@ -65,11 +65,11 @@ HonestFit turned_round(const Design& design, const CrossFit& fit, double least) 
           student_half_width(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
 }
 
-TurnedBack turned_back(const Design& design, const Eigen::VectorXd& centre, const Prior& prior,
-                       const Eigen::VectorXd& data) {
+InverseRegression inverse_regression(const Design& design, const Eigen::VectorXd& centre,
+                                     const Prior& prior, const Eigen::VectorXd& data) {
   CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);
   Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
-  Scatter answer = scatter_of(line, centre, by_others.answer, prior);
+  ParameterEstimate answer = estimate_of(line, centre, by_others.answer, prior);
   return {std::move(by_others), std::move(line), std::move(answer)};
 }
 

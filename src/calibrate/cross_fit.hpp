@@ -1,4 +1,5 @@
-// What local models say of simulations that they did not know: as it will be with data.
+// Cross-fitted response surfaces: estimates of simulations that the surface was not fitted to,
+// which have the same errors as estimates from data.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -8,15 +9,15 @@
 
 namespace lilytank {
 
-/// Estimates of every simulation of a design, each by a model of the others, and of data by all of
-/// these models.
+/// Estimates for every simulation of a design, each from a surface fitted without it, and for the
+/// data from all these surfaces.
 struct CrossFit {
   Eigen::MatrixXd estimates;  ///< [simulation, parameter]
   Eigen::VectorXd misfits;    ///< [simulation]
   Eigen::VectorXd answer;     ///< of data, the mean over the models
   double misfit = 0;          ///< of data, likewise
-  std::vector<LocalModel> models;
-  /// What all models together say of numbers, as of data: the answer, and the mean misfit.
+  std::vector<ResponseSurface> models;
+  /// The mean estimate and the mean misfit over the surfaces for other numbers.
   LocalFit of(const Eigen::VectorXd& numbers) const;
 };
 
@@ -24,31 +25,28 @@ struct CrossFit {
 /// are too few.
 CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit misfit, Slopes slopes);
 
-/// What data say of the parameters, and how surely, by what the models say of simulations whose
-/// parameters are known. The slopes of a local model carry noise, and a hundred numbers that do not
-/// depend on a parameter at all seem to tell it: answers are drawn to the centre. Their line in the
-/// truth says by how much, and is turned round.
-struct HonestFit {
+/// The data's estimate, corrected for bias. Noise in a surface's slopes draws estimates to the
+/// centre: a hundred statistics that do not depend on a parameter seem to. The regression of the
+/// simulations' estimates on their true parameters measures this bias; its inverse removes it.
+struct BiasCorrectedFit {
   Eigen::VectorXd point;
   Eigen::MatrixXd covariance;  ///< of an answer's error
   Eigen::MatrixXd errors;      ///< of the design's simulations, a row each
   double wide = 0;             ///< half width of a 95 % interval, in deviations
 };
-/// `least`: what the line's slope is taken for where it is less, a share: without it, directions
-/// that a design hardly tells would lead anywhere.
-HonestFit turned_round(const Design& design, const CrossFit& fit, double least);
+/// `least`: floor of the regression's slope (1: no bias); below it a direction is not identifiable
+/// and its inverse would diverge.
+BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, double least);
 
-/// Answers are drawn to the design's centre by the noise of the local model's slopes. Each
-/// simulation is estimated by a model that did not know it: their estimates are a line in the
-/// truth, and its inverse at the data's estimate by the same models, together with what is known
-/// before, gives the values.
-struct TurnedBack {
+/// Bias correction with a prior: the cross-fitted estimates are regressed on the true parameters,
+/// and the inverse of this line at the data's estimate is combined with the prior.
+struct InverseRegression {
   CrossFit by_others;
   Line line;
-  Scatter answer;
+  ParameterEstimate answer;
 };
 /// `centre`: of the line. Throws as cross_fit.
-TurnedBack turned_back(const Design& design, const Eigen::VectorXd& centre, const Prior& prior,
-                       const Eigen::VectorXd& data);
+InverseRegression inverse_regression(const Design& design, const Eigen::VectorXd& centre,
+                                     const Prior& prior, const Eigen::VectorXd& data);
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-// Where simulations for a local model are made, and what they told.
+// Design points of a response surface and the statistics of their simulations.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,7 +17,7 @@ Eigen::MatrixXd scattered(const Eigen::VectorXd& centre, const Eigen::MatrixXd& 
 Eigen::MatrixXd spread_of(const Eigen::MatrixXd& covariance, double errors,
                           const Eigen::VectorXd& most);
 
-/// Points and the numbers that simulations told there; empty rows are worlds that diverged and are
+/// Points and the statistics of their simulations; empty rows are worlds that diverged and are
 /// left out. Throws InputError if these are more than half.
 Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);
 

@@ -11,8 +11,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// From the covariance of what is told, and how far it is from the line's centre.
-void tell_spread(const Line& line, const Matrix& covariance, const Vector& off, Scatter& out) {
+// From the covariance of the estimate and its distance from the line's centre.
+void set_deviation(const Line& line, const Matrix& covariance, const Vector& off,
+                   ParameterEstimate& out) {
   out.deviation = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   const Vector inverse = out.deviation.cwiseMax(1e-300).cwiseInverse();
   out.correlation = inverse.asDiagonal() * covariance * inverse.asDiagonal();
@@ -42,15 +43,15 @@ Line line_through(const Matrix& off, const Matrix& values) {
 }
 
 // The normal law of parameters given their answer.
-Scatter scatter_of(const Line& line, const Vector& centre, const Vector& answer,
-                   const Prior& prior) {
-  Scatter out;
+ParameterEstimate estimate_of(const Line& line, const Vector& centre, const Vector& answer,
+                              const Prior& prior) {
+  ParameterEstimate out;
   const Matrix before = prior.deviation.array().square().matrix().asDiagonal();
   const Matrix answers = line.slope * before * line.slope.transpose() + line.covariance;
   out.back = solve_symmetric(answers, Matrix(line.slope * before)).transpose();
   const Vector expected = line.at_centre + line.slope * (prior.expected - centre);
   out.estimate = prior.expected + out.back * (answer - expected);
-  tell_spread(line, before - out.back * line.slope * before, out.estimate - centre, out);
+  set_deviation(line, before - out.back * line.slope * before, out.estimate - centre, out);
   return out;
 }
 

@@ -1,5 +1,5 @@
-// Estimates of experiments whose parameters are known, as a line in these, and its inverse: what
-// data's estimate says of their parameters, and how surely.
+// Regression of estimates on the true parameters of simulated experiments, and its inverse: the
+// posterior of the data's parameters.
 #pragma once
 #include <Eigen/Core>
 
@@ -7,7 +7,7 @@
 
 namespace lilytank {
 
-/// How values depend on the parameters about a centre: a line, and what scatters about it.
+/// Linear regression of values on the parameters about a centre, with its residuals.
 struct Line {
   Eigen::VectorXd at_centre;
   Eigen::MatrixXd slope;       ///< [value, parameter]
@@ -20,17 +20,16 @@ struct Line {
 /// a point.
 Line line_through(const Eigen::MatrixXd& off, const Eigen::MatrixXd& values);
 
-/// Parameters of data from what the local model takes them for.
-struct Scatter {
+/// Bias-corrected parameters of the data.
+struct ParameterEstimate {
   Eigen::VectorXd estimate, deviation;
   Eigen::MatrixXd correlation, back;
   double wide = 0;  ///< half width of a 95 % interval in deviations
 };
-/// The local model's slopes carry noise, which draws its answers to its centre. Experiments of
-/// known parameters tell by how much: `line` is through their answers, and this is what `answer`
-/// then says together with what is known of the parameters before: what answers hardly tell stays
-/// as it was expected, and its interval is no wider than that. `centre`: of the line.
-Scatter scatter_of(const Line& line, const Eigen::VectorXd& centre, const Eigen::VectorXd& answer,
-                   const Prior& prior);
+/// Posterior of the parameters for the surface's estimate `answer`, by the regression `line` about
+/// `centre` and the prior. A parameter on which the estimates hardly depend keeps its prior mean;
+/// no interval is wider than the prior's.
+ParameterEstimate estimate_of(const Line& line, const Eigen::VectorXd& centre,
+                              const Eigen::VectorXd& answer, const Prior& prior);
 
 }  // namespace lilytank

@@ -37,7 +37,7 @@ struct Replicates {
   Matrix covariance;
   double wide;  ///< half width of a 95 % interval in deviations
   double misfit;
-  LocalModel model;  ///< of all simulations that count
+  ResponseSurface model;  ///< of all simulations that count
 };
 
 // By models that did not know them. All simulations about the answer count, and the line through
@@ -48,14 +48,14 @@ Replicates by_others(const LocalAnswer& answer, Design made, const Vector& obser
   all.points << answer.design.points, made.points;
   all.numbers << answer.design.numbers, made.numbers;
   const CrossFit fit = cross_fit(all, observed, Misfit::covariance, Slopes::found);
-  const HonestFit honest = turned_round(all, fit, kLeastSlope);
-  return {std::move(made),     honest.errors.bottomRows(n),
-          fit.misfits.tail(n), honest.point,
-          honest.covariance,   honest.wide,
-          fit.misfit,          LocalModel(all)};
+  const BiasCorrectedFit corrected = bias_corrected(all, fit, kLeastSlope);
+  return {std::move(made),      corrected.errors.bottomRows(n),
+          fit.misfits.tail(n),  corrected.point,
+          corrected.covariance, corrected.wide,
+          fit.misfit,           ResponseSurface(all)};
 }
 
-// The paper's objective has flat directions, along which no line could be turned round: its
+// The paper's objective has flat directions, along which no regression can be inverted: its
 // estimates stay within the bounds, and all replicates are at the answer.
 Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design made) {
   FitBounds bounds = stages.bounds();
@@ -126,7 +126,7 @@ void tell_numbers(const Stages& stages, const Replicates& replicates, const Vect
 }
 
 // Points of the replicates: about the answer, so that it is seen how estimates follow them. The
-// paper's objective has flat directions, along which no line could be turned round.
+// paper's objective has flat directions, along which no regression can be inverted.
 Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const Vector& centre,
                         std::uint64_t seed) {
   const CalibrationOptions& o = stages.setup().options;
@@ -224,7 +224,7 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
   warn_of_entangled(n, out);
   if (!answer.settled) {
     out.warnings.push_back("the estimate had not settled after " + std::to_string(answer.rounds) +
-                           " local models: intervals may be too short");
+                           " response surfaces: intervals may be too short");
   }
   if (out.misfit_p < kMisfits) {
     out.warnings.push_back(

@@ -107,7 +107,7 @@ class Way {
       simulated.add(points, stages_.simulate(name, points, seed, maps_, phase.of));
       const LocalRound last = look(simulated.near(centre_, spread_), close || fixed_, name);
       if (answer_->settled && last.simulations >= phase.enough) return;
-      close = !last.at_reach;
+      close = !last.at_bound;
     }
   }
 
@@ -125,27 +125,27 @@ class Way {
  private:
   // Asks one local model, and puts the next round's points where it points to.
   LocalRound look(Design design, bool close, const std::string& name) {
-    LocalModel model(design, kind_);
+    ResponseSurface model(design, kind_);
     FitBounds near = bounds_;
     near.reach = kRoundReach;
     LocalFit fit = model.fit(observed_, near);
     Matrix next = own_;
     if (fixed_ && kind_ == Misfit::covariance) {
       const CrossFit by_others = cross_fit(design, observed_, kind_, Slopes::found);
-      const HonestFit honest = turned_round(design, by_others, kLeastAnswerSlope);
-      fit = within_reach(honest.point, by_others.misfit);
-      next = next_spread(honest.covariance);
+      const BiasCorrectedFit corrected = bias_corrected(design, by_others, kLeastAnswerSlope);
+      fit = within_reach(corrected.point, by_others.misfit);
+      next = next_spread(corrected.covariance);
     } else if (fixed_) {
       next = next_spread(model.parameter_covariance(fit.point));
-    } else if (!fit.at_reach) {
+    } else if (!fit.at_bound) {
       next = rough_spread(model, fit);
     }
     const Vector moved = solve_lower(spread_, fit.point - centre_);
     const bool wide = (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0;
     const bool settled =
-        close && wide && !stretched_ && !fit.at_reach && moved.norm() < kSettledWithin;
+        close && wide && !stretched_ && !fit.at_bound && moved.norm() < kSettledWithin;
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
-                      fit.at_reach, stages_.from_scale(fit.point)});
+                      fit.at_bound, stages_.from_scale(fit.point)});
     answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
                                 static_cast<int>(taken_.size()), settled, own_});
     // A centre that is good enough stays, so that all simulations about it count.
@@ -155,7 +155,7 @@ class Way {
     centre_ = fit.point, own_ = next;
     // Parameters that hardly differ in what they do make a long and narrow valley: points that are
     // scattered along the way taken so far lead through it in a few rounds.
-    stretched_ = fit.at_reach || moved.norm() > kFarOff;
+    stretched_ = fit.at_bound || moved.norm() > kFarOff;
     spread_ = own_;
     if (stretched_) spread_ = lower_root(own_ * own_.transpose() + step * step.transpose());
     return taken_.back();
@@ -170,7 +170,7 @@ class Way {
   }
 
   // Where the numbers are not explained yet, errors are larger than their covariance says.
-  Matrix rough_spread(const LocalModel& model, const LocalFit& fit) const {
+  Matrix rough_spread(const ResponseSurface& model, const LocalFit& fit) const {
     const auto freedom = static_cast<double>(observed_.size() - centre_.size());
     const double unexplained =
         kind_ == Misfit::covariance ? std::max(1.0, fit.misfit / freedom) : 1;

@@ -21,34 +21,34 @@ constexpr double kNearestSettled = 1;  // ... that its answer may be off their c
 constexpr int kMostRounds = 6;
 // Points of a round at least: three for each coefficient of a quadratic of five parameters.
 constexpr int kPerParameter = 12;
-constexpr int kEvaluations = 4000;  // of a local model
+constexpr int kEvaluations = 4000;  // of a response surface
 
-// The way there, in parameters that are told; nuisances stay as they are.
+// The way there, in parameters that the report lists; nuisances stay as they are.
 class Nearest {
  public:
   Nearest(Stages& stages, const Vector& middle, const Matrix& covariance)
       : stages_(stages),
-        told_(static_cast<Eigen::Index>(stages.setup().reported_count())),
+        reported_(static_cast<Eigen::Index>(stages.setup().reported_count())),
         middle_(middle),
-        to_unit_(lower_inverse(lower_root(covariance.topLeftCorner(told_, told_)))) {
+        to_unit_(lower_inverse(lower_root(covariance.topLeftCorner(reported_, reported_)))) {
     const FitBounds all = stages.bounds();
-    bounds_.low = all.low.head(told_), bounds_.high = all.high.head(told_);
+    bounds_.low = all.low.head(reported_), bounds_.high = all.high.head(reported_);
     const std::vector<double> curve = stages.setup().displacements(stages.setup().training);
     observed_ = Eigen::Map<const Vector>(curve.data(), static_cast<Eigen::Index>(curve.size()));
-    spread_ = spread_of(covariance.topLeftCorner(told_, told_), 1,
+    spread_ = spread_of(covariance.topLeftCorner(reported_, reported_), 1,
                         kMostSpread * (bounds_.high - bounds_.low));
   }
 
   // From a centre about which simulations were made before.
   NearestPoint from(const Vector& centre) {
     NearestPoint out;
-    Vector told = centre.head(told_);
+    Vector reported = centre.head(reported_);
     while (!out.settled && out.rounds < kMostRounds) {
-      const Vector next = step(told, ++out.rounds);
-      out.settled = solve_lower(spread_, next - told).cwiseAbs().maxCoeff() < kNearestSettled;
-      told = next;
+      const Vector next = step(reported, ++out.rounds);
+      out.settled = solve_lower(spread_, next - reported).cwiseAbs().maxCoeff() < kNearestSettled;
+      reported = next;
     }
-    out.point = with(told);
+    out.point = with(reported);
     return out;
   }
 
@@ -57,38 +57,38 @@ class Nearest {
     const std::uint64_t seed =
         derived_seed(stages_.setup().options.seed, kNearestSeed + static_cast<unsigned>(round));
     const int count =
-        std::max(stages_.setup().options.round, static_cast<int>(kPerParameter * told_));
+        std::max(stages_.setup().options.round, static_cast<int>(kPerParameter * reported_));
     const Matrix points = scattered(centre, spread_, count, bounds_, seed);
     Matrix whole(count, middle_.size());
     for (int i = 0; i < count; ++i) whole.row(i) = with(points.row(i));
     const std::string stage = "displacements " + std::to_string(round);
-    const LocalModel model(design_of(points, stages_.displacements(stage, whole, seed)),
-                           Misfit::absolute);
+    const ResponseSurface model(design_of(points, stages_.displacements(stage, whole, seed)),
+                                Misfit::absolute);
     return least(model, centre, seed);
   }
 
-  Vector with(const Vector& told) const {
+  Vector with(const Vector& reported) const {
     Vector out = middle_;
-    out.head(told_) = told;
+    out.head(reported_) = reported;
     return out;
   }
 
   // Twice the negative log likelihood of parameters: normal by what all numbers say, and of the sum
   // of the MSD's differences' sizes, whose mean among equal experiments is `usual` [Laplace].
-  double doubt(const LocalModel& model, double usual, const Vector& point) const {
-    const double by_numbers = (to_unit_ * (point - middle_.head(told_))).squaredNorm();
+  double deviance(const ResponseSurface& model, double usual, const Vector& point) const {
+    const double by_numbers = (to_unit_ * (point - middle_.head(reported_))).squaredNorm();
     return by_numbers + 2 * model.misfit(observed_, point) / usual;
   }
 
-  Vector least(const LocalModel& model, const Vector& centre, std::uint64_t seed) {
+  Vector least(const ResponseSurface& model, const Vector& centre, std::uint64_t seed) {
     const double usual = std::sqrt(2 / std::numbers::pi) *  // of a normal deviate's size
                          model.covariance().diagonal().cwiseSqrt().sum();
     SearchSpace space;
-    for (Eigen::Index k = 0; k < told_; ++k) {
+    for (Eigen::Index k = 0; k < reported_; ++k) {
       space.push_back({"z" + std::to_string(k), -kNearestReach, kNearestReach});
     }
     const auto point = [&](const std::vector<double>& z) -> Vector {
-      const Vector at = centre + spread_ * Eigen::Map<const Vector>(z.data(), told_);
+      const Vector at = centre + spread_ * Eigen::Map<const Vector>(z.data(), reported_);
       return at.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     };
     CmaEsOptions options;
@@ -97,14 +97,14 @@ class Nearest {
     const auto search = make_cma_es(space, options, seed);
     for (auto trials = search->ask(); !trials.empty(); trials = search->ask()) {
       std::vector<double> values;
-      for (const Trial& t : trials) values.push_back(doubt(model, usual, point(t.point)));
+      for (const Trial& t : trials) values.push_back(deviance(model, usual, point(t.point)));
       search->tell(values);
     }
     return point(search->best().point);
   }
 
   Stages& stages_;
-  Eigen::Index told_;
+  Eigen::Index reported_;
   Vector middle_;
   Matrix to_unit_, spread_;
   FitBounds bounds_;

@@ -96,8 +96,9 @@ ReportDocument calibration_report(const CalibrationResult& c) {
   report.subtitle = counted(c.recordings, "recording") + " of up to " + std::to_string(c.bodies) +
                     (c.body == BodyKind::lily ? " Lilies, " : " balls, ") + digits(c.seconds) +
                     " s in all; objective " + c.objective + ", flow " + c.flow + ", step " +
-                    digits(1000 * c.dt) + " ms; " + std::to_string(c.rounds) + " local models, " +
-                    std::to_string(c.simulations) + " simulated experiments";
+                    digits(1000 * c.dt) + " ms; " + std::to_string(c.rounds) +
+                    " response surfaces, " + std::to_string(c.simulations) +
+                    " simulated experiments";
   report.card = card_of(c);
   report.sections.push_back(parameters_section(c));
   if (!c.msd.empty()) report.sections.push_back(msd_section(c));

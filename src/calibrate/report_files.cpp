@@ -118,14 +118,14 @@ std::string history_csv(const CalibrationResult& c) {
   return out;
 }
 
-// How the local models came to the answer.
+// How the response surfaces came to the answer.
 std::string rounds_csv(const CalibrationResult& c) {
   std::string out = "round,simulations,moved,misfit,at_reach";
   for (const CalibratedParameter& p : c.parameters) out += "," + p.parameter.path;
   out += "\n";
   for (const LocalRound& r : c.rounds_taken) {
     out += r.name + "," + std::to_string(r.simulations) + "," + number(r.moved) + "," +
-           number(r.misfit) + (r.at_reach ? ",1" : ",0");
+           number(r.misfit) + (r.at_bound ? ",1" : ",0");
     for (const double v : r.estimate) out += "," + number(v);
     out += "\n";
   }

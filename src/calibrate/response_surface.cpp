@@ -15,7 +15,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kMostSteps = 60;
 constexpr double kNeverVaries = 1e-10;
-constexpr int kDoubts = 3;    // rounds in which a doubt settles
+constexpr int kDispersionRounds = 3;  // rounds of reweighting until the dispersion is stable
 constexpr double kNoise = 2;  // standard errors up to which a coefficient is taken for noise
 
 Eigen::Index coefficients_of(Eigen::Index p, bool products) {
@@ -24,11 +24,12 @@ Eigen::Index coefficients_of(Eigen::Index p, bool products) {
 
 }  // namespace
 
-LocalModel::LocalModel(const Design& design, Misfit misfit, Slopes slopes) : kind_(misfit) {
+ResponseSurface::ResponseSurface(const Design& design, Misfit misfit, Slopes slopes)
+    : kind_(misfit) {
   const Eigen::Index n = design.points.rows(), p = design.points.cols();
   products_ = n >= 2 * coefficients_of(p, true);
   const Eigen::Index q = coefficients_of(p, products_);
-  if (n <= q + 1) throw std::invalid_argument("too few simulations for a local model");
+  if (n <= q + 1) throw std::invalid_argument("too few simulations for a response surface");
   centre_ = design.points.colwise().mean();
   const Matrix off = design.points.rowwise() - centre_.transpose();
   Matrix spread = off.transpose() * off / static_cast<double>(n - 1);
@@ -47,7 +48,7 @@ LocalModel::LocalModel(const Design& design, Misfit misfit, Slopes slopes) : kin
 // Coefficients that may be noise are drawn towards nothing, by the more the less they exceed their
 // errors [Breiman's garrote, Technometrics 37, 1995]. A hundred numbers that depend on a parameter
 // by noise alone would seem to tell it, and hold the answer at the centre.
-void LocalModel::shrink(const Vector& errors) {
+void ResponseSurface::shrink(const Vector& errors) {
   for (Eigen::Index k = 0; k < coefficients_.rows(); ++k) {
     const double deviation = std::sqrt(covariance_(k, k));
     for (Eigen::Index j = 1; j < coefficients_.cols(); ++j) {
@@ -58,7 +59,7 @@ void LocalModel::shrink(const Vector& errors) {
   }
 }
 
-void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
+void ResponseSurface::find_covariance(const Matrix& residuals, double freedom) {
   const Eigen::Index d = residuals.cols();
   const Vector deviation = (residuals.colwise().squaredNorm() / freedom).cwiseSqrt();
   Matrix z = residuals;
@@ -75,11 +76,11 @@ void LocalModel::find_covariance(const Matrix& residuals, double freedom) {
   if (kind_ == Misfit::absolute) whitener_ = Matrix::Identity(d, d);
 }
 
-Vector LocalModel::standard(const Vector& point) const {
+Vector ResponseSurface::standard(const Vector& point) const {
   return to_unit_ * (point - centre_);
 }
 
-Vector LocalModel::basis(const Vector& z) const {
+Vector ResponseSurface::basis(const Vector& z) const {
   const Eigen::Index p = z.size();
   Vector out(coefficients_of(p, products_));
   out(0) = 1, out.segment(1, p) = z, out.segment(1 + p, p) = z.array().square();
@@ -90,7 +91,7 @@ Vector LocalModel::basis(const Vector& z) const {
   return out;
 }
 
-Matrix LocalModel::basis_slope(const Vector& z) const {
+Matrix ResponseSurface::basis_slope(const Vector& z) const {
   const Eigen::Index p = z.size();
   Matrix out = Matrix::Zero(coefficients_of(p, products_), p);
   for (Eigen::Index i = 0; i < p; ++i) out(1 + i, i) = 1, out(1 + p + i, i) = 2 * z(i);
@@ -101,20 +102,20 @@ Matrix LocalModel::basis_slope(const Vector& z) const {
   return out;
 }
 
-Vector LocalModel::mean(const Vector& point) const {
+Vector ResponseSurface::mean(const Vector& point) const {
   return coefficients_ * basis(standard(point));
 }
 
-Matrix LocalModel::slope(const Vector& point) const {
+Matrix ResponseSurface::slope(const Vector& point) const {
   return coefficients_ * basis_slope(standard(point)) * to_unit_;
 }
 
-double LocalModel::misfit(const Vector& numbers, const Vector& point) const {
+double ResponseSurface::misfit(const Vector& numbers, const Vector& point) const {
   const Vector r = whitener_ * (numbers - mean(point));
   return kind_ == Misfit::absolute ? r.cwiseAbs().sum() : r.squaredNorm();
 }
 
-Matrix LocalModel::parameter_covariance(const Vector& point) const {
+Matrix ResponseSurface::parameter_covariance(const Vector& point) const {
   const Matrix a = whitener_ * slope(point);
   Matrix information = a.transpose() * a;
   information.diagonal().array() += 1e-12 * information.trace();
@@ -122,41 +123,42 @@ Matrix LocalModel::parameter_covariance(const Vector& point) const {
   return back * covariance_ * back.transpose();
 }
 
-Matrix LocalModel::parameter_covariance(const Vector& point, const Vector& prior) const {
+Matrix ResponseSurface::parameter_covariance(const Vector& point, const Vector& prior) const {
   const Matrix a = whitener_ * slope(point);
   Matrix information = a.transpose() * a;
   information.diagonal() += prior.cwiseAbs2().cwiseInverse();
   return symmetric_inverse(information);
 }
 
-LocalFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds) const {
+LocalFit ResponseSurface::fit(const Vector& numbers, const FitBounds& bounds) const {
   return solve(numbers, -1, 0, bounds, {});
 }
 
-KnownFit LocalModel::fit(const Vector& numbers, const FitBounds& bounds, const Prior& prior) const {
-  KnownFit out;
+MapEstimate ResponseSurface::fit(const Vector& numbers, const FitBounds& bounds,
+                                 const Prior& prior) const {
+  MapEstimate out;
   const auto freedom =
       static_cast<double>(std::max<Eigen::Index>(1, numbers.size() - prior.expected.size()));
-  for (int k = 0; k < kDoubts; ++k) {
-    const Prior weighed{prior.expected, prior.deviation / out.doubt};
+  for (int k = 0; k < kDispersionRounds; ++k) {
+    const Prior weighed{prior.expected, prior.deviation / out.dispersion};
     out.fit = solve(numbers, -1, 0, bounds, weighed);
-    out.doubt = std::max(1.0, out.fit.misfit / freedom);
+    out.dispersion = std::max(1.0, out.fit.misfit / freedom);
   }
   // The prior's trust is no knowledge: errors do not shrink by it.
-  out.covariance =
-      out.doubt * parameter_covariance(out.fit.point, prior.deviation / std::sqrt(out.doubt));
+  out.covariance = out.dispersion *
+                   parameter_covariance(out.fit.point, prior.deviation / std::sqrt(out.dispersion));
   return out;
 }
 
-LocalFit LocalModel::fit_with(const Vector& numbers, int parameter, double value,
-                              const FitBounds& bounds) const {
+LocalFit ResponseSurface::fit_with(const Vector& numbers, int parameter, double value,
+                                   const FitBounds& bounds) const {
   return solve(numbers, parameter, value, bounds, {});
 }
 
 // One least-squares problem: Levenberg and Marquardt within a box, with weights that turn squares
 // into sizes where those are asked for.
-struct LocalModel::Problem {
-  const LocalModel& model;
+struct ResponseSurface::Problem {
+  const ResponseSurface& model;
   const Vector& numbers;
   int held;
   Vector low, high;
@@ -193,8 +195,8 @@ struct LocalModel::Problem {
   }
 };
 
-LocalFit LocalModel::solve(const Vector& numbers, int held, double value, const FitBounds& bounds,
-                           const Prior& prior) const {
+LocalFit ResponseSurface::solve(const Vector& numbers, int held, double value,
+                                const FitBounds& bounds, const Prior& prior) const {
   const Vector reach = bounds.reach * unit_.rowwise().norm();
   Problem problem{*this, numbers, held, centre_ - reach, centre_ + reach};
   if (bounds.low.size() > 0) {
@@ -223,7 +225,7 @@ LocalFit LocalModel::solve(const Vector& numbers, int held, double value, const 
   for (Eigen::Index k = 0; k < at.size(); ++k) {
     if (k == held) continue;
     const bool far = std::fabs(at(k) - centre_(k)) >= reach(k) * (1 - 1e-9);
-    out.at_reach = out.at_reach || far;
+    out.at_bound = out.at_bound || far;
   }
   return out;
 }

@@ -49,13 +49,13 @@ struct CalibrationSetup {
   std::string corrected_csv(const FlowField& best) const;
 };
 
-/// Reads nothing further than the experiment; extracts the flow. Throws InputError.
+/// Estimates the flow; reads no file beside the experiment. Throws InputError.
 CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& options);
 
-/// Adds what recordings say to the hash of an identity.
+/// Adds the recordings to the hash of an identity.
 void add_recordings(const std::vector<Recording>& recordings, Fnv& hash);
 
-/// Recordings cut into pieces of `seconds`, what is left over left out; headings and ids kept.
+/// Recordings cut into pieces of `seconds`, a shorter remainder is dropped; headings and ids kept.
 std::vector<Recording> pieces_of(const std::vector<Recording>& recordings, double seconds);
 
 }  // namespace lilytank

@@ -19,7 +19,7 @@ class Stages {
 
   /// The flow and the draws of its error; the setup's model then has the best of it.
   FlowMaps flow_maps();
-  /// The search's answer, with nuisances at their start.
+  /// The search's estimate, with nuisances at their start.
   std::vector<double> search(CalibrationResult& out);
 
   using Of = CalibrationSetup::Of;
@@ -64,13 +64,13 @@ class Stages {
          spent_ = 0;  ///< in simulated experiments
 };
 
-/// A local model about the answer, what it rests on, and the data's fit.
+/// A response surface about the estimate, its simulations, and the data's fit.
 struct LocalAnswer {
   Design design;
-  LocalModel model;
+  ResponseSurface model;
   LocalFit fit;
   int rounds = 0;
-  bool settled = false;  ///< the last design was about the answer
+  bool settled = false;  ///< the last design was centred at the estimate
   Eigen::MatrixXd
       spread;  ///< of the designs: a lower triangle, points are its products with normals
 };
@@ -87,10 +87,11 @@ struct NearestPoint {
   int rounds = 0;
   bool settled = false;  ///< the last round was about the point
 };
-/// Numbers are those of any flow that the balls allow, and drag, damping and the water's strength
-/// do nearly the same: along these they may leave an experiment open. Of the parameters that they
-/// allow, by their middle and covariance (fitted scale, nuisances at the end), these are the ones
-/// whose MSD in the best flow is most like the recorded one [Eq. 9]. `centre`: where to begin.
+/// The statistics are averaged over the flow's posterior, and drag, damping and K_v have nearly the
+/// same effect on them, so a combination of the parameters may remain undetermined. Among the
+/// parameters of the posterior (mean `middle` and covariance, on the fitted scale, nuisances at the
+/// end), these have the least difference of the MSD [Eq. 9] in the best flow. `centre`: start of
+/// the search.
 NearestPoint nearest_displacements(Stages& stages, const Eigen::VectorXd& middle,
                                    const Eigen::MatrixXd& covariance,
                                    const Eigen::VectorXd& centre);

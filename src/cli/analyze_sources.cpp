@@ -36,7 +36,7 @@ const ScenarioEntry& entry(const Scenario& scenario, const std::string& path) {
   throw InputError("'" + path + "' is no key of a scenario" + did_you_mean(path, paths));
 }
 
-// A length as a tank's are told: "-7 cm" of -0.07, "5 mm" of 0.005.
+// A length in the unit of tanks: "-7 cm" of -0.07, "5 mm" of 0.005.
 std::string length_text(double metres) {
   const double size = std::fabs(metres);
   if (size >= 1) return without_rounding(metres) + " m";

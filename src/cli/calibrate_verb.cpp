@@ -32,7 +32,7 @@ void add_calibrate_options(VerbOptions& options) {
       "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(
       "budget", "evaluations of the search (1500; of a swarm as many as the paper)", text(), "N")(
       "replicates", "experiments simulated for the intervals (200)", text(), "N")(
-      "simulations", "of the first local models (120); the last one has twice as many", text(),
+      "simulations", "of the first response surfaces (120); the last one has twice as many", text(),
       "N")("comparisons", "experiments simulated for Eq. 9 before and after (24)", text(), "N")(
       "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
       "N")("start", "overlay with the values at which the search starts, as calibrated.toml",

@@ -1,4 +1,4 @@
-// What users are told of runs whose poses were stored too seldom for what is made of them.
+// Warnings about runs that store poses too seldom for a film or an analysis.
 #pragma once
 #include <string>
 #include <vector>

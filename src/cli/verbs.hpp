@@ -1,4 +1,4 @@
-// What the program can be told to do. A verb is one file beside this one and one line in main.cpp.
+// The verbs. A verb is one file beside this one and one line in main.cpp.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-// The catalogue of effects: what the force terms say of themselves (lilytank/effect.hpp), and what
-// a camera and contacts may do.
+// The catalogue of effects: those of the force terms (lilytank/effect.hpp), of the camera and of
+// contacts.
 #pragma once
 #include <optional>
 #include <string>
@@ -35,15 +35,16 @@ struct Effect {
   std::vector<double> sizes;       ///< at which each is simulated: some ten deviations in minutes
   std::vector<std::string> units;  ///< of the amplitudes
   bool two_sided = false;          ///< amplitudes may be negative
-  /// Other numbers of the term.
+  /// Other parameters of the term.
   std::vector<HeldParameter> held;
-  /// Of those, the ones that are found along once the effect is there: path, unit, bounds.
+  /// Those of `held` that are refined once the effect is selected: path, unit, bounds.
   std::vector<FitParameter> refine;
-  /// Where a scan over the values of what is refined begins; 0: it is not scanned.
+  /// First value of the scan of a refined parameter; 0: no scan.
   double scanned_from = 0;
-  /// Of an empirical force, whose knots are the amplitudes.
+  /// Curve of an empirical force; its knots are the amplitudes.
   std::optional<ForceCurve> curve;
-  std::string variable;  ///< of what the mismatch is a function: position, radius, pair, slip, ...
+  std::string
+      variable;  ///< variable that the mismatch depends on: position, radius, pair, slip, ...
   /// The cheapest experiment that would distinguish it from others of its kind; "" if there is
   /// none.
   std::string split;
@@ -88,7 +89,7 @@ struct Shape {
 };
 /// `seconds`: of the longest recording.
 std::vector<Shape> shape_catalogue(const Model& model, double seconds);
-/// The shape as an effect whose amplitudes are its knots.
+/// The shape as an effect; its knots are the amplitudes.
 Effect effect_of(const Shape& shape);
 
 }  // namespace lilytank

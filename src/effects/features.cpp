@@ -37,14 +37,14 @@ Features::Features(const std::vector<Effect>& effects, const std::vector<Effect>
   wrenches_.assign(features_.size(), std::vector<Wrench>(n));
 }
 
-void Features::find(const Kinematics& k, const Moment& now) {
+void Features::find(const Kinematics& k, const StepContext& now) {
   (*base_)(k, now, baseline_);
   derive(k, now);
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Feature& feature = features_[f];
     std::vector<Wrench>& out = wrenches_[f];
     if (feature.kind == Feature::Kind::stirs) {
-      stir(*feature.forces.front().term, feature.forces.front().p, k, now, out);
+      perturb_flow(*feature.forces.front().term, feature.forces.front().p, k, now, out);
       continue;
     }
     if (feature.kind == Feature::Kind::adds) {
@@ -70,15 +70,15 @@ void Features::add(const Effect& effect, std::size_t component) {
                 [&](const ActiveForce& force) { return force.term != effect.term; });
   for (const ActiveForce& force : feature.forces) {
     if (force.term->transforms()) feature.kind = Feature::Kind::transforms;
-    if (force.term->stirs()) feature.kind = Feature::Kind::stirs;
+    if (force.term->perturbs_flow()) feature.kind = Feature::Kind::stirs;
   }
   features_.push_back(std::move(feature));
 }
 
-// The drag and its derivatives in water that the model's own terms stir.
-void Features::derive(const Kinematics& k, const Moment& now) {
-  Moment water = now;
-  base_->stir(k, water);
+// The drag and its derivatives in the flow that the model's own terms perturb.
+void Features::derive(const Kinematics& k, const StepContext& now) {
+  StepContext water = now;
+  base_->perturb_flow(k, water);
   const bool stirred = !water.ux.empty();
   const auto drag = [&](double x, double y, double turning, double gain, double gusts,
                         std::vector<Wrench>& out) {
@@ -86,7 +86,7 @@ void Features::derive(const Kinematics& k, const Moment& now) {
       ux_[i] = (stirred ? water.ux[i] : 0) + x, uy_[i] = (stirred ? water.uy[i] : 0) + y;
       turning_[i] = (stirred ? water.turning[i] : 0) + turning;
     }
-    Moment other = now;
+    StepContext other = now;
     other.ux = ux_, other.uy = uy_, other.turning = turning_;
     other.gain = water.gain + gain, other.gust_gain = water.gust_gain + gusts;
     (*drag_sum_)(k, other, out);
@@ -108,11 +108,11 @@ void Features::derive(const Kinematics& k, const Moment& now) {
   probe(0, 0, 0, 0, kGusty, kGusty, by_gusts_);
 }
 
-void Features::stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
-                    const Moment& now, std::vector<Wrench>& out) {
+void Features::perturb_flow(const ForceTerm& term, const std::vector<double>& p,
+                            const Kinematics& k, const StepContext& now, std::vector<Wrench>& out) {
   for (auto* of : {&ux_, &uy_, &turning_}) std::fill(of->begin(), of->end(), 0.0);
-  Stirring water{1, ux_, uy_, turning_, 1};
-  term.stir(model_, k, now, p, water);
+  FlowPerturbation water{1, ux_, uy_, turning_, 1};
+  term.perturb_flow(model_, k, now, p, water);
   const double gain = water.gain - 1;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Wrench &x = by_x_[i], &y = by_y_[i], &turned = by_turning_[i], &all = by_gain_[i];

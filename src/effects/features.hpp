@@ -17,7 +17,7 @@ class Features {
   /// `model`: of these modules; must outlive this.
   Features(const std::vector<Effect>& effects, const std::vector<Effect>& beside,
            const Model& model);
-  void find(const Kinematics& k, const Moment& now);
+  void find(const Kinematics& k, const StepContext& now);
   std::size_t size() const { return features_.size(); }
   const Wrench& at(std::size_t feature, std::size_t i) const { return wrenches_[feature][i]; }
   const Wrench& drag(std::size_t i) const { return drag_[i]; }
@@ -38,9 +38,9 @@ class Features {
     std::unique_ptr<ForceSum> sum;
   };
   void add(const Effect& effect, std::size_t component);
-  void derive(const Kinematics& k, const Moment& now);
-  void stir(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
-            const Moment& now, std::vector<Wrench>& out);
+  void derive(const Kinematics& k, const StepContext& now);
+  void perturb_flow(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
+                    const StepContext& now, std::vector<Wrench>& out);
 
   const Model& model_;
   std::vector<Feature> features_;

@@ -1,4 +1,4 @@
-// How innovations answer to accelerations that the model lacks, carried along with the filter.
+// Sensitivity of the innovations to accelerations that the model omits, propagated with the filter.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

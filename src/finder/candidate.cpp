@@ -63,7 +63,7 @@ EffectFit fitted(const EffectCandidate& candidate, const ResponseModel& response
   out.effect = candidate.effect, out.shape = candidate.shape,
   out.about = candidate.source.local() ? candidate.source.experiments : 0;
   out.gain = data.squaredNorm() - fit.left.squaredNorm();
-  out.at_bound = out.gain > 0 && response.at_reach(fit.amplitudes);
+  out.at_bound = out.gain > 0 && response.at_bound(fit.amplitudes);
   out.amplitudes = std::move(fit.amplitudes);
   return out;
 }

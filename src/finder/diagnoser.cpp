@@ -176,14 +176,14 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
                           .cwiseMin(kMostPointSpread * range);
   const std::uint64_t seed = derived_seed(options_.seed, 3000 + static_cast<std::uint64_t>(round));
   const Matrix points = scattered(before.point, wide.asDiagonal(), budget_.centre, bounds, seed);
-  const LocalModel model(
+  const ResponseSurface model(
       design_of(points, stages_.simulate("centre " + std::to_string(round), points, seed, maps)),
       Misfit::covariance, Slopes::shrunk);
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
   near.reach = kAnswerReach;
   // What the baseline does not explain must not push its parameters about.
-  const KnownFit known =
+  const MapEstimate known =
       model.fit(Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())),
                 near, {stages_.to_scale(setup_.start), kPrior * range});
   const LocalFit& fit = known.fit;
@@ -192,7 +192,7 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
   const bool enough =
       (kWideEnough * deviation.cwiseMin(kMostPointSpread / kWideEnough * range) - wide).maxCoeff() <
       1e-9;
-  return {fit.point, deviation, enough && !fit.at_reach && moved.cwiseAbs().maxCoeff() < kStays};
+  return {fit.point, deviation, enough && !fit.at_bound && moved.cwiseAbs().maxCoeff() < kStays};
 }
 
 ScorePlan Diagnoser::plan(const Vector& centre) const {

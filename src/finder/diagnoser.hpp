@@ -58,8 +58,8 @@ class Diagnoser {
   Stages& stages() { return stages_; }
 
  private:
-  /// Where the baseline's parameters are, their errors, and whether the answer lay among the points
-  /// that were simulated.
+  /// The baseline's parameters, their errors, and whether the estimate lay among the simulated
+  /// points.
   struct Centre {
     Eigen::VectorXd point, deviation;
     bool settled = false;

@@ -7,23 +7,23 @@
 
 namespace lilytank {
 
-/// How residuals answer to an effect.
+/// Response of the residuals to an effect.
 struct Fingerprint : ResponseModel {
-  /// How far the effect moves calibrated parameters: about 0 by amplitude, about others as it is.
+  /// Change of the calibrated parameters: slope in the amplitude, and value at `about`.
   Eigen::MatrixXd moved_first;  ///< [parameter, amplitude]
   Eigen::VectorXd moved_base;   ///< [parameter]
   /// Shares of the parameters' distances from their expected values that calibration still
   /// identifies beside the effect, by its experiments.
   Eigen::VectorXd identifiable_share;  ///< [parameter]
-  /// About found amplitudes: what its experiments are off, a row each, by the degrees of freedom.
+  /// Residuals of its experiments, a row each, scaled by the degrees of freedom; empty about 0.
   Eigen::MatrixXd scatter;
-  int experiments = 0;  ///< that it rests on, for each amplitude
+  int experiments = 0;  ///< simulated for each amplitude
   /// The first numbers are known without noise (score_sensitivity.hpp).
   Eigen::Index exact = 0;
-  /// Power of the amplitude by which residuals grow, from 1 to 2.5: what makes motion more
-  /// irregular is hardly seen while it is small.
+  /// Power of the amplitude by which residuals grow, from 1 to 2.5: an effect
+  /// that makes motion more irregular is hardly visible while it is weak.
   double growth = 1;
-  /// Variance of its own noise in every residual, whose deviation is one.
+  /// Variance of its own noise, relative to a residual's variance under the null hypothesis.
   double noise_at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };

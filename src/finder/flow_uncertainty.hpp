@@ -1,5 +1,5 @@
-// How far a flow map may be off: farther than its own error draws say, and smooth errors of the
-// mean and of the gusts beside, which no finding may rest on.
+// Uncertainty of a flow map: its error draws, inflated, and smooth errors of the mean and of the
+// gusts. No finding may be explained by these.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -145,8 +145,8 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
 // The answer by experiments simulated where it is, estimated as the data were. Those of a design
 // scatter more: slopes' errors and laws that are not straight move estimates of what is far from
 // its centre, and the data are not far.
-Scatter checked(const TurnedBack& last, const Vector& at, const Matrix& numbers,
-                const Prior& prior) {
+ParameterEstimate checked(const InverseRegression& last, const Vector& at, const Matrix& numbers,
+                          const Prior& prior) {
   Matrix estimates(numbers.rows(), at.size());
   for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
     estimates.row(i) = last.by_others.of(numbers.row(i).transpose()).point.transpose();
@@ -158,10 +158,10 @@ Scatter checked(const TurnedBack& last, const Vector& at, const Matrix& numbers,
   line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
   line.freedom = std::max(1.0, n - 1 - p);
   line.slope = last.line.slope;
-  return scatter_of(line, at, last.by_others.answer, prior);
+  return estimate_of(line, at, last.by_others.answer, prior);
 }
 
-void set_interval(const Scatter& answer, JointFit& fit) {
+void set_interval(const ParameterEstimate& answer, JointFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const FitParameter& p = fit.parameters[i];
@@ -174,7 +174,8 @@ void set_interval(const Scatter& answer, JointFit& fit) {
 
 // The next design: about the answer, as far as this one reaches, and as wide as the answer's errors
 // ask for. True if it is where this one is.
-bool settled(const Scatter& answer, const FitBounds& bounds, Vector& centre, Matrix& width) {
+bool settled(const ParameterEstimate& answer, const FitBounds& bounds, Vector& centre,
+             Matrix& width) {
   const Vector reach = kJointReach * width.diagonal();
   const Vector next = answer.estimate.cwiseMax(bounds.low).cwiseMin(bounds.high);
   const Vector moved = (next - centre).cwiseQuotient(width.diagonal());
@@ -207,7 +208,7 @@ class Rounds {
   }
 
   JointFit run() {
-    TurnedBack last;
+    InverseRegression last;
     int most = kMostRounds;
     for (int k = 1; k <= most && !fit_.settled; ++k) {
       const Design design = simulated(k);
@@ -216,7 +217,7 @@ class Rounds {
         ++most;
         continue;
       }
-      last = turned_back(design, centre_, prior, data_);
+      last = inverse_regression(design, centre_, prior, data_);
       fit_.settled = settled(last.answer, bounds_, centre_, width_);
     }
     set_interval(check(last), fit_);
@@ -246,7 +247,7 @@ class Rounds {
     return out;
   }
 
-  Scatter check(const TurnedBack& last) {
+  ParameterEstimate check(const InverseRegression& last) {
     const Vector at = last.answer.estimate.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     const std::uint64_t seed = derived_seed(rounds_.seed, kCheckSeed);
     const Matrix points = at.transpose().replicate(kChecks, 1);
@@ -270,11 +271,11 @@ class Rounds {
   bool drops_one(const Design& design, const Prior& prior) {
     FitBounds near = bounds_;
     near.reach = kJointReach;
-    const LocalModel model(design, Misfit::covariance, Slopes::shrunk);
-    const KnownFit known = model.fit(data_, near, prior);
+    const ResponseSurface model(design, Misfit::covariance, Slopes::shrunk);
+    const MapEstimate known = model.fit(data_, near, prior);
     Vector point = known.fit.point;
     const std::size_t dropped =
-        needless(stages_, effects_, known.covariance / known.doubt, rounds_.keep, point);
+        needless(stages_, effects_, known.covariance / known.dispersion, rounds_.keep, point);
     if (dropped == effects_.size()) return false;
     read_point(stages_, point, effects_);
     const auto at = static_cast<std::ptrdiff_t>(dropped);

@@ -1,4 +1,4 @@
-// Baseline and effects as one list of parameters: which stand where, and what a point of them says.
+// Parameters of baseline and effects as one vector, and conversions between the two.
 #pragma once
 #include <vector>
 
@@ -6,16 +6,16 @@
 
 namespace lilytank {
 
-/// Where the first design is and how wide, and to which deviation effects' amplitudes are known
-/// about its centre (infinity: not at all).
+/// Centre and width of the first design, and prior deviations of the effects' amplitudes about the
+/// centre (infinity: no prior).
 struct Beginning {
   std::vector<double> at, wide, known;
   void add(double centre, double width, double deviation) {
     at.push_back(centre), wide.push_back(width), known.push_back(deviation);
   }
 };
-/// The first design, from the baseline's answer and what the selection said of the effects; fills
-/// `fit` with the model that has the effects and the list of what is fitted.
+/// The first design, from the baseline's estimate and the selection's amplitudes; sets the model
+/// with the effects and the list of fitted parameters in `fit`.
 Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
                 const JointStart& baseline, JointFit& fit);
 
@@ -25,7 +25,7 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
 std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
                      const Eigen::MatrixXd& covariance, double keep, Eigen::VectorXd& point);
 
-/// What a point says of the effects: their amplitudes by their sizes, and what is refined of them.
+/// Sets amplitudes (relative to their sizes) and refined parameters of the effects from a point.
 void read_point(const Stages& stages, const Eigen::VectorXd& point,
                 std::vector<JointEffect>& effects);
 

@@ -64,7 +64,7 @@ std::vector<double> Diagnoser::report_baseline(const Judged& judged, Diagnosis& 
   // Where the baseline does not explain the recordings, nobody knows how far off it is.
   if (out.verdict != Verdict::complete) return alone;
   const FitBounds bounds = stages_.bounds();
-  const Scatter posterior = ensemble_->posterior(
+  const ParameterEstimate posterior = ensemble_->posterior(
       summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
   for (std::size_t i = 0; i < setup_.reported_count(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);

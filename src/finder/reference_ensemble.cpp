@@ -48,8 +48,8 @@ FitBounds within() {
 Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
   Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
   for (int fold = 0; fold < kEnsembleFolds; ++fold) {
-    const LocalModel parameters(without_fold(summaries, fold, kEnsembleFolds));
-    const LocalModel scores(without_fold(numbers, fold, kEnsembleFolds));
+    const ResponseSurface parameters(without_fold(summaries, fold, kEnsembleFolds));
+    const ResponseSurface scores(without_fold(numbers, fold, kEnsembleFolds));
     for (Eigen::Index i = fold; i < out.rows(); i += kEnsembleFolds) {
       const Vector at =
           parameters.fit(summaries.numbers.row(i).transpose(), within(), prior).fit.point;
@@ -136,8 +136,8 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   const Design numbers{summaries_.points,
                        all.numbers.rightCols(all.numbers.cols() - summary_numbers())};
   const Eigen::Index n = all.points.rows();
-  parameters_ = std::make_unique<LocalModel>(summaries_);
-  scores_ = std::make_unique<LocalModel>(numbers);
+  parameters_ = std::make_unique<ResponseSurface>(summaries_);
+  scores_ = std::make_unique<ResponseSurface>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
   informations_ = score_informations(plan_, setup.training);
   null_residuals_ = held_out_residuals(summaries_, numbers, prior());
@@ -221,8 +221,8 @@ Vector ReferenceEnsemble::calibrated(const Vector& summary) const {
   return parameters_->fit(summary, within(), prior()).fit.point;
 }
 
-Scatter ReferenceEnsemble::posterior(const Vector& summary, const Prior& before) const {
-  return turned_back(summaries_, centre_, before, summary).answer;
+ParameterEstimate ReferenceEnsemble::posterior(const Vector& summary, const Prior& before) const {
+  return inverse_regression(summaries_, centre_, before, summary).answer;
 }
 
 Vector ReferenceEnsemble::residual(const Vectors& vectors) const {

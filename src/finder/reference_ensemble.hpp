@@ -56,12 +56,12 @@ class ReferenceEnsemble {
   Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
   /// Parameters (fitted scale) that explain a summary best.
   LocalFit nearest(const Eigen::VectorXd& summary) const;
-  /// Those that a summary asks for as far as a baseline explains it: where it does not, they stay
-  /// where experiments are simulated, and do not imitate what is missing.
+  /// Parameters fitted to a summary as far as a baseline explains it: the rest must not move them
+  /// to imitate an omitted effect.
   Eigen::VectorXd calibrated(const Eigen::VectorXd& summary) const;
-  /// What a summary says of the parameters if a baseline is all there is, and how surely: by what
-  /// models of the other nulls say of each.
-  Scatter posterior(const Eigen::VectorXd& summary, const Prior& before) const;
+  /// Posterior of the parameters for a summary under the baseline, with errors from cross-fitted
+  /// surfaces of the null experiments.
+  ParameterEstimate posterior(const Eigen::VectorXd& summary, const Prior& before) const;
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
@@ -93,7 +93,7 @@ class ReferenceEnsemble {
   Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
                                 const Eigen::VectorXd& point, int experiments,
                                 const std::string& stage, std::uint64_t seed);
-  const LocalModel& parameters() const { return *parameters_; }
+  const ResponseSurface& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
  private:
@@ -121,7 +121,7 @@ class ReferenceEnsemble {
   Eigen::VectorXd centre_;
   Eigen::MatrixXd spread_;
   Design summaries_;  ///< of nulls
-  std::unique_ptr<LocalModel> parameters_, scores_;
+  std::unique_ptr<ResponseSurface> parameters_, scores_;
   Eigen::VectorXd deviation_;
   Eigen::MatrixXd null_residuals_, informations_;
   Eigen::Index named_ = 0;

@@ -10,13 +10,13 @@
 
 namespace lilytank {
 
-/// What experiments about found amplitudes say of one effect or shape.
+/// Response of one effect or shape, from experiments simulated about its estimated amplitudes.
 struct RefinedCandidate {
   Fingerprint fingerprint;  ///< about these amplitudes
   SingleFit alone;          ///< by it and the scatter of its experiments
-  Eigen::VectorXd step;     ///< by which the amplitudes moved last; empty before that
-  int moves = 0;            ///< times that its experiments followed the amplitudes
-  bool centred = false;     ///< its experiments were repeated once to be where it is found
+  Eigen::VectorXd step;     ///< last change of the amplitudes; empty before that
+  int moves = 0;            ///< number of times that its experiments were moved
+  bool centred = false;     ///< its experiments were repeated at the estimate
 };
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by

@@ -38,7 +38,7 @@ Vector ResponseModel::most() const {
   return about + reach(*this);
 }
 
-bool ResponseModel::at_reach(const Vector& amplitudes) const {
+bool ResponseModel::at_bound(const Vector& amplitudes) const {
   return ((amplitudes - about).cwiseAbs().array() >= (1 - 1e-9) * reach(*this).array()).any();
 }
 

@@ -1,11 +1,11 @@
-// How numbers answer to the amplitudes of an effect, and amplitudes that are fitted to numbers.
+// Response of the statistics to the amplitudes of an effect, and the fit of amplitudes to data.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
 
 namespace lilytank {
 
-/// base + first d + second d^2, d = amplitudes - about. About 0 the base is nothing.
+/// base + first d + second d^2, d = amplitudes - about. About 0 the base is 0.
 struct ResponseModel {
   Eigen::VectorXd about;          ///< [amplitude], in units of the effect's sizes
   Eigen::VectorXd base;           ///< [number]
@@ -16,24 +16,25 @@ struct ResponseModel {
   Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;
   /// Change of every number by each amplitude, [number, amplitude].
   Eigen::MatrixXd slope(const Eigen::VectorXd& amplitudes) const;
-  /// How far amplitudes may go: those that cannot be negative stop at nothing, those about found
-  /// ones stay near them.
+  /// Bounds of the amplitudes: 0 for those that cannot be negative; close to `about` where that is
+  /// not 0.
   Eigen::VectorXd least() const;
   Eigen::VectorXd most() const;
-  bool at_reach(const Eigen::VectorXd& amplitudes) const;
+  bool at_bound(const Eigen::VectorXd& amplitudes) const;
   /// The first of the numbers.
   ResponseModel top(Eigen::Index numbers) const;
 };
 
-/// Amplitudes, one answer's after the other's, and what they leave of the data.
+/// Amplitudes of all models in order, and the residuals of the data.
 struct ResponseFit {
   Eigen::VectorXd amplitudes, left;
 };
 
-/// Least squares [Gauss and Newton] from `start` by answers that add up, within their reach.
+/// Least squares [Gauss and Newton] from `start` by models that add up, within their bounds.
 ResponseFit fit_responses(const std::vector<const ResponseModel*>& answers,
                           const Eigen::VectorXd& data, const Eigen::VectorXd& start);
-/// The same by one, from where it may be; amplitudes of 0 if that leaves no less than there was.
+/// The same by one model, from within its bounds; amplitudes of 0 if the fit does not reduce the
+/// residuals.
 ResponseFit fit_response(const ResponseModel& answer, const Eigen::VectorXd& data);
 
 }  // namespace lilytank

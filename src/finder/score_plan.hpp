@@ -64,8 +64,8 @@ struct Scans {
 struct ScoreDetails {
   double pulsation = 0;  ///< Hz, the strongest line in the flow's gain
   double swinging = 0;   ///< Hz, the clearest line across the slip; 0: none is clear
-  int heaviest = 0;      ///< module that answers least
-  Scans scans;           ///< left to whoever asks for them
+  int heaviest = 0;      ///< module with the weakest response
+  Scans scans;           ///< computed on request
   /// Ranges, times and lengths by path, where experiments with others than those of the catalogue
   /// and of scans fit better.
   std::map<std::string, double> refined;

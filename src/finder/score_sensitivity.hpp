@@ -1,10 +1,9 @@
-// What the filter itself says of an effect: how much of it every score would show in the very
-// recordings that are judged.
+// Sensitivity of the scores to an effect, computed by the filter along the recordings under test.
 //
-// A score is linear in forces at the places where modules were, however strong these are, and the
-// information that two effects share is known from the recordings without any noise. Simulations
-// then measure only what the filter does not know: by which factor it shows less than there
-// is, and what else an effect changes.
+// A score is linear in forces at the recorded positions, however strong these are, and the
+// information that two effects share follows from the recordings without noise. Simulations then
+// measure only the rest: the factor by which the filter underestimates an effect, and the effect's
+// influence on other statistics.
 #pragma once
 #include <Eigen/Core>
 #include <map>
@@ -20,8 +19,8 @@ class ScoreSensitivity {
   /// `ensemble` and `recordings` must outlive this.
   ScoreSensitivity(const ReferenceEnsemble& ensemble, const std::vector<Recording>& recordings);
 
-  /// The fingerprint with its scores as the filter has them, times the factor that its simulations
-  /// ask for, and beside that only what they clearly say.
+  /// The fingerprint with the filter's scores times the factor estimated from its simulations;
+  /// other statistics are kept where they are significant.
   Fingerprint aligned(Fingerprint of, const Effect& effect);
   const std::vector<Recording>& recordings() const { return recordings_; }
   /// Variance that the named numbers' residuals have beyond that of nulls, where modules of these

@@ -150,7 +150,7 @@ class Scorer {
       model_ = frame.model, recording_ = frame.recording;
       features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);
     }
-    const Moment now{.time = frame.time, .gusts = false, .expected = true};
+    const StepContext now{.time = frame.time, .gusts = false, .expected = true};
     features_->find(frame.now, now);
     for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
     push_pairs(frame);
@@ -160,7 +160,7 @@ class Scorer {
     for (const auto& part : parts_) part->add(frame, seen_);
   }
 
-  void push(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+  void push(const PredictedFrame& frame, const StepContext& now, std::size_t i) {
     Pushes& to = pushes_[i];
     to.clear();
     const Model& model = *model_;
@@ -249,7 +249,7 @@ class Scorer {
     return model_->tank.radius - radius <= kTouch + way;
   }
 
-  Seen pass(const PredictedFrame& frame, const Moment& now, std::size_t i) {
+  Seen pass(const PredictedFrame& frame, const StepContext& now, std::size_t i) {
     Seen out;
     out.module = static_cast<std::size_t>(frame.module[i]), out.index = i;
     const Vec2 slip = slip_of(*model_, frame.now, now, static_cast<int>(i));

@@ -151,7 +151,7 @@ void SelectionSearch::fit_together(CandidateSet& set) const {
     const EffectCandidate& of = s_.candidates[set.of[i]];
     EffectFit& f = set.fits[i];
     f.amplitudes = fit.amplitudes.segment(at, f.amplitudes.size());
-    f.at_bound = of.all.at_reach(f.amplitudes);
+    f.at_bound = of.all.at_bound(f.amplitudes);
     f.moved = of.source.moved(f.amplitudes);
     at += f.amplitudes.size();
     const Vector own = set.left + of.all.at(f.amplitudes);

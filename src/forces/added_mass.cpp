@@ -35,7 +35,7 @@ class AddedMass final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
   bool transforms() const override { return true; }
-  void transform(const Model& model, const Kinematics& k, const Moment& now,
+  void transform(const Model& model, const Kinematics& k, const StepContext& now,
                  std::span<const double> p, std::span<Wrench> sum) const override {
     const ModuleParameters& module = model.module;
     const double extra = p[0] * model.flow.rho * module.side * module.side * module.draught;

@@ -24,8 +24,8 @@ class BallDrag final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool baseline() const override { return true; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     const double scale = 0.5 * model.flow.rho * model.ball.drag_area * p[0];
     const FlowField& field = field_now(model, now);
     const double K_v = model.flow.K_v * now.gain;

@@ -24,7 +24,7 @@ class BodyForce final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model&, const Kinematics&, const Moment&, std::span<const double> p,
+  void add(const Model&, const Kinematics&, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (Wrench& w : out) w.fx += p[0], w.fy += p[1];
   }

@@ -26,7 +26,7 @@ class Coriolis final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model& model, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (int i = 0; i < k.size(); ++i) {
       const double m = i < k.modules ? model.module.mass : model.ball.mass;

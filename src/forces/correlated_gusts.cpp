@@ -75,9 +75,9 @@ class CorrelatedGusts final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
-  void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-            Stirring& water) const override {
+  bool perturbs_flow() const override { return true; }
+  void perturb_flow(const Model& model, const Kinematics& k, const StepContext& now,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     if (!now.gusts || (p[0] == 0 && p[3] == 0)) return;
     const EddyWaves waves = waves_of(now.seed, p[1], p[2], now.time, model.module.side / 2);
     const double own = std::sqrt(p[3]) * model.flow.K_v * water.gain;

@@ -63,8 +63,8 @@ class EmpiricalForce final : public ForceTerm {
   std::string objection(const Model&, std::span<const double> p) const override {
     return p[2] < p[3] ? "" : "high: it must be above low";
   }
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     const ForceCurve curve{static_cast<Along>(static_cast<int>(p[0])),
                            static_cast<Toward>(static_cast<int>(p[1])), p[2], p[3]};
     if (curve.along == Along::gap) return add_pairs(model, k, curve, p, out);

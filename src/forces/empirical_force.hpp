@@ -47,8 +47,8 @@ inline KnotShare place_on(const ForceCurve& curve, double value) {
 }
 
 /// The variable's value at body i.
-inline double value_along(Along along, const Model& model, const Kinematics& k, const Moment& now,
-                          int i) {
+inline double value_along(Along along, const Model& model, const Kinematics& k,
+                          const StepContext& now, int i) {
   switch (along) {
     case Along::radius:
       return std::sqrt(k.x[i] * k.x[i] + k.y[i] * k.y[i]);
@@ -70,8 +70,8 @@ inline double value_along(Along along, const Model& model, const Kinematics& k, 
 }
 
 /// The wrench of size 1 (N, or N m) in that direction on body i.
-inline Wrench unit_toward(Toward toward, const Model& model, const Kinematics& k, const Moment& now,
-                          int i) {
+inline Wrench unit_toward(Toward toward, const Model& model, const Kinematics& k,
+                          const StepContext& now, int i) {
   const auto unit = [](double x, double y) {
     const double size = std::sqrt(x * x + y * y);
     return size > 0 ? Wrench{x / size, y / size, 0} : Wrench{};

@@ -39,8 +39,8 @@ class FaceDrag final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool baseline() const override { return true; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     const int segments = static_cast<int>(p[1]);
     DragSettings settings(model, segments, now);
     const double scale =

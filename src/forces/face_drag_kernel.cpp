@@ -188,7 +188,7 @@ namespace lilytank {
 
 HWY_EXPORT(drag);
 
-DragSettings::DragSettings(const Model& model, int segments_, const Moment& now)
+DragSettings::DragSettings(const Model& model, int segments_, const StepContext& now)
     : field(&field_now(model, now)),
       gusts(now.expected ? Gusts::moment_matched : model.flow.gusts),
       gusty(now.gusts || now.expected),

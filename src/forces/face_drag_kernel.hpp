@@ -12,7 +12,7 @@ constexpr int kMostSegments = 24;
 
 /// What is the same for all modules in a step.
 struct DragSettings {
-  DragSettings(const Model& model, int segments_, const Moment& now);
+  DragSettings(const Model& model, int segments_, const StepContext& now);
 
   const FlowField* field;
   Gusts gusts;

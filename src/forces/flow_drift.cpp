@@ -22,10 +22,10 @@ class FlowDrift final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
+  bool perturbs_flow() const override { return true; }
   bool sets_gain() const override { return true; }
-  void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
-            Stirring& water) const override {
+  void perturb_flow(const Model&, const Kinematics&, const StepContext& now,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     water.gain *= std::fmax(0, 1 + p[0] * now.time);
   }
 };

@@ -31,10 +31,10 @@ class FlowPulsation final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
+  bool perturbs_flow() const override { return true; }
   bool sets_gain() const override { return true; }
-  void stir(const Model&, const Kinematics&, const Moment& now, std::span<const double> p,
-            Stirring& water) const override {
+  void perturb_flow(const Model&, const Kinematics&, const StepContext& now,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     const double cycles = p[1] * now.time;
     const double angle = 2 * kPi * (cycles - std::floor(cycles)) + p[2];
     water.gain *= 1 + p[0] * rotation(angle).c;

@@ -7,7 +7,7 @@ namespace lilytank {
 ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
     : model_(&model), forces_(&forces) {
   for (const ActiveForce& force : forces) {
-    if (force.term->stirs()) stirring_.push_back(&force);
+    if (force.term->perturbs_flow()) stirring_.push_back(&force);
     if (force.term->transforms()) transforming_.push_back(&force);
   }
   if (stirring_.empty()) return;
@@ -17,22 +17,22 @@ ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
   stirred_y_.resize(stirred_x_.size()), stirred_turning_.resize(stirred_x_.size());
 }
 
-void ForceSum::stir(const Kinematics& k, Moment& now) {
+void ForceSum::perturb_flow(const Kinematics& k, StepContext& now) {
   if (stirring_.empty()) return;
   std::fill(stirred_x_.begin(), stirred_x_.end(), 0.0);
   std::fill(stirred_y_.begin(), stirred_y_.end(), 0.0);
   std::fill(stirred_turning_.begin(), stirred_turning_.end(), 0.0);
   now.ux = stirred_x_, now.uy = stirred_y_, now.turning = stirred_turning_;
-  Stirring water{1, stirred_x_, stirred_y_, stirred_turning_, 1};
+  FlowPerturbation water{1, stirred_x_, stirred_y_, stirred_turning_, 1};
   for (const ActiveForce* force : stirring_) {
-    force->term->stir(*model_, k, now, force->p, water);
+    force->term->perturb_flow(*model_, k, now, force->p, water);
     now.gain = water.gain, now.gust_gain = water.gust_gain;
   }
 }
 
-void ForceSum::operator()(const Kinematics& k, Moment now, std::span<Wrench> out) {
+void ForceSum::operator()(const Kinematics& k, StepContext now, std::span<Wrench> out) {
   std::fill(out.begin(), out.end(), Wrench{});
-  stir(k, now);
+  perturb_flow(k, now);
   for (const ActiveForce& force : *forces_) force.term->add(*model_, k, now, force.p, out);
   for (const ActiveForce* force : transforming_)
     force->term->transform(*model_, k, now, force->p, out);

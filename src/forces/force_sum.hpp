@@ -16,9 +16,9 @@ class ForceSum {
   ForceSum(const Model& model, const std::vector<ActiveForce>& forces);
 
   /// `now` with what the terms make of the water at each body; it points into this object.
-  void stir(const Kinematics& k, Moment& now);
+  void perturb_flow(const Kinematics& k, StepContext& now);
   /// Sets `out` [bodies] to the sum of all wrenches.
-  void operator()(const Kinematics& k, Moment now, std::span<Wrench> out);
+  void operator()(const Kinematics& k, StepContext now, std::span<Wrench> out);
 
  private:
   const Model* model_;

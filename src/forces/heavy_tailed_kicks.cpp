@@ -32,7 +32,7 @@ class HeavyTailedKicks final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model&, const Kinematics& k, const Moment& now, std::span<const double> p,
+  void add(const Model&, const Kinematics& k, const StepContext& now, std::span<const double> p,
            std::span<Wrench> out) const override {
     if (!now.gusts) return;
     for (int i = 0; i < k.modules; ++i) {

@@ -38,7 +38,7 @@ class HeterogeneousModule final : public ForceTerm {
     return "module: there are only " + std::to_string(model.module.count) + ", counted from 0";
   }
   bool transforms() const override { return true; }
-  void transform(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+  void transform(const Model&, const Kinematics& k, const StepContext&, std::span<const double> p,
                  std::span<Wrench> sum) const override {
     const int i = static_cast<int>(p[1]);
     // Of an assembly only the sum of forces counts: inner ones must go on cancelling each other.

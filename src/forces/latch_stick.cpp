@@ -29,7 +29,7 @@ class LatchStick final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model& model, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     const double far = 1.42 * model.module.side + 8 * p[1];
     for_near_pairs(k, far, [&](const NearPair& pair) {

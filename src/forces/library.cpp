@@ -41,7 +41,7 @@ std::span<const ForceTerm* const> force_library() {
   return terms;
 }
 
-const FlowField& field_now(const Model& model, const Moment& now) {
+const FlowField& field_now(const Model& model, const StepContext& now) {
   return now.field != nullptr ? *now.field : *model.field;
 }
 

@@ -35,9 +35,9 @@ class LocalFlow final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
-  void stir(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
-            Stirring& water) const override {
+  bool perturbs_flow() const override { return true; }
+  void perturb_flow(const Model&, const Kinematics& k, const StepContext&,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     const double width = 2 * p[4] * p[4];
     constexpr int kBlock = 64;  // bodies at a time
     double share[kBlock];

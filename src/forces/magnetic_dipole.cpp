@@ -38,7 +38,7 @@ class MagneticDipole final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model& model, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     const Rot turned = rotation(p[1]);
     const double side = model.module.side;

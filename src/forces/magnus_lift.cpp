@@ -27,8 +27,8 @@ class MagnusLift final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     const double side = model.module.side;
     const double scale = p[0] * model.flow.rho * model.module.draught * 2 * side * side;
     for (int i = 0; i < k.modules; ++i) {

@@ -27,7 +27,7 @@ class MassOffset final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
   bool transforms() const override { return true; }
-  void transform(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+  void transform(const Model&, const Kinematics& k, const StepContext&, std::span<const double> p,
                  std::span<Wrench> sum) const override {
     for (int i = 0; i < k.modules; ++i) {
       const double x = k.c[i] * p[0] - k.s[i] * p[1], y = k.s[i] * p[0] + k.c[i] * p[1];

@@ -55,7 +55,7 @@ class PairForce final : public ForceTerm {
     return attracts_ ? kAttraction : kRepulsion;
   }
 
-  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model& model, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     const double strength = attracts_ ? p[0] : -p[0];
     for_near_pairs(k, model.module.side + 8 * p[1], [&](const NearPair& pair) {

@@ -18,13 +18,13 @@ class RotationalDrag final : public ForceTerm {
   std::string_view name() const override { return "rotational_drag"; }
   std::string_view summary() const override { return "the water turns a module along with itself"; }
   std::string_view equation() const override {
-    return "torque = coefficient (curl u / 2 - omega), u the mean flow and what stirs it";
+    return "torque = coefficient (curl u / 2 - omega), u the mean flow with its perturbations";
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
       double turning = gradient_at(model, now, k.x[i], k.y[i]).curl() / 2;
       if (!now.turning.empty()) turning += now.turning[i];

@@ -25,7 +25,7 @@ class SelfPropulsion final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model&, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
       out[i].fx += k.c[i] * p[0] - k.s[i] * p[1];

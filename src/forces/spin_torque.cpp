@@ -19,7 +19,7 @@ class SpinTorque final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model&, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) out[i].torque += p[0];
   }

@@ -28,8 +28,8 @@ class StochasticForce final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool baseline() const override { return true; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     if (!now.gusts) return;
     const double sigma = p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
     alignas(64) float z[2 * kBulkBodies];

@@ -30,8 +30,8 @@ class ViscousDrag final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
       const Vec2 w = slip_of(model, k, now, i);
       out[i].fx += p[0] * w.x(), out[i].fy += p[0] * w.y();

@@ -39,8 +39,8 @@ class VortexShedding final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     if (!now.gusts) return;
     const double scale = 0.5 * p[0] * model.flow.rho * model.module.draught * model.module.side;
     for (int i = 0; i < k.modules; ++i) {

@@ -13,14 +13,14 @@ constexpr double kWide = 5;            // deviations beyond which the lee is not
 constexpr int kShieldedTogether = 64;  // modules in the lee that are looked at together
 
 // The moment without what terms have added to the water so far.
-Moment still(Moment now) {
+StepContext still(StepContext now) {
   now.ux = now.uy = now.turning = {};
   return now;
 }
 
 // What the modules [first, last) miss: of the water as it was, so that no order of modules counts.
-void shield(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-            int first, int last, Stirring& water) {
+void shield(const Model& model, const Kinematics& k, const StepContext& now,
+            std::span<const double> p, int first, int last, FlowPerturbation& water) {
   const double far = 4 * p[1] + model.module.side, wide = kWide * p[2];
   double left[kShieldedTogether];  // of the relative flow at each
   std::fill(left, left + kShieldedTogether, 1.0);
@@ -68,9 +68,9 @@ class WakeShielding final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
-  void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-            Stirring& water) const override {
+  bool perturbs_flow() const override { return true; }
+  void perturb_flow(const Model& model, const Kinematics& k, const StepContext& now,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     for (int first = 0; first < k.modules; first += kShieldedTogether) {
       shield(model, k, still(now), p, first, std::min(first + kShieldedTogether, k.modules), water);
     }

@@ -35,7 +35,7 @@ class WallForce final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model& model, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model& model, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
       const double r = std::sqrt(k.x[i] * k.x[i] + k.y[i] * k.y[i]);

@@ -34,9 +34,9 @@ class WallLayer final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
-  bool stirs() const override { return true; }
-  void stir(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-            Stirring& water) const override {
+  bool perturbs_flow() const override { return true; }
+  void perturb_flow(const Model& model, const Kinematics& k, const StepContext& now,
+                    std::span<const double> p, FlowPerturbation& water) const override {
     for (int i = 0; i < k.size(); ++i) {
       const double r = std::sqrt(k.x[i] * k.x[i] + k.y[i] * k.y[i]);
       const double depth = std::fmax(0, model.tank.radius - r);

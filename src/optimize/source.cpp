@@ -196,7 +196,7 @@ void Optimization::Source::check_corners() const {
   }
 }
 
-// What a search refuses of its numbers is told where the file has them.
+// Reports a number that the search refuses at its place in the file.
 std::int64_t Optimization::Source::checked_budget() const {
   const std::string& where = file.hybrid_place.file;
   const CmaEsOptions& o = file.cma_es;

@@ -13,8 +13,8 @@ struct NeighbourQuery;
 /// for many, with the same result. Lists are found on a uniform grid, for a distance that is larger
 /// by a margin, and serve all searches until bodies have moved by that margin; what is asked of
 /// them is tested anew, so no result depends on the age of a list. Float32 and vector code; a pair
-/// that misses the distance by a few micrometres may be told too, so users test what they need for
-/// themselves.
+/// that misses the distance by a few micrometres may be reported too, so users test what they need
+/// for themselves.
 class Neighbours {
  public:
   static constexpr int kFew = 64;  ///< up to so many bodies the grid does not pay

@@ -66,7 +66,7 @@ std::vector<double> parts(const std::vector<double>& ratio, const std::vector<ch
 std::vector<char> competitors(std::span<const OcbaCandidate> candidates) {
   std::vector<char> active;
   for (const OcbaCandidate& c : candidates) active.push_back(competes(c) ? 1 : 0);
-  // Nothing to be told of any: all alike.
+  // No difference is known: equal shares.
   if (best_of(candidates) < 0) std::fill(active.begin(), active.end(), char{1});
   return active;
 }

@@ -24,10 +24,10 @@ Incumbent incumbent_of(const SearchSpace& space, const std::vector<double>& u, c
   return {from_unit(space, u), tally.mean, tally.standard_error(), tally.count};
 }
 
-void check_count(std::size_t told, std::size_t asked) {
-  if (told == asked && asked > 0) return;
-  throw std::logic_error("a search received " + std::to_string(told) + " values where it needs " +
-                         std::to_string(asked));
+void check_count(std::size_t received, std::size_t requested) {
+  if (received == requested && requested > 0) return;
+  throw std::logic_error("a search received " + std::to_string(received) +
+                         " values where it needs " + std::to_string(requested));
 }
 
 void save_history(StateWriter& out, const std::vector<IterationRecord>& history) {

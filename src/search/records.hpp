@@ -14,8 +14,8 @@ IterationRecord record_of(std::vector<double> means, std::int64_t evaluations,
 /// `u`: in the unit box.
 Incumbent incumbent_of(const SearchSpace& space, const std::vector<double>& u, const Tally& tally);
 
-/// Throws std::logic_error unless as many values were told as were asked for, and some were.
-void check_count(std::size_t told, std::size_t asked);
+/// Throws std::logic_error unless as many values were received as requested, and at least one.
+void check_count(std::size_t received, std::size_t requested);
 
 void save_history(StateWriter& out, const std::vector<IterationRecord>& history);
 std::vector<IterationRecord> load_history(StateReader& in, std::size_t axes);

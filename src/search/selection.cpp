@@ -41,7 +41,7 @@ std::vector<int> Selection::plan() const {
   return out;
 }
 
-std::vector<Trial> Selection::ask(const SearchSpace& space, std::int64_t told,
+std::vector<Trial> Selection::ask(const SearchSpace& space, std::int64_t evaluated,
                                   bool common_random_numbers) {
   if (!begun() || over()) return {};
   if (asked_.empty()) asked_ = plan();
@@ -50,7 +50,7 @@ std::vector<Trial> Selection::ask(const SearchSpace& space, std::int64_t told,
   for (std::size_t i = 0; i < asked_.size(); ++i) {
     ahead = i > 0 && asked_[i] == asked_[i - 1] ? ahead + 1 : 0;
     const std::int64_t common = first_replicate_ + tally(asked_[i]).count + ahead;
-    const std::int64_t own = told + static_cast<std::int64_t>(i);
+    const std::int64_t own = evaluated + static_cast<std::int64_t>(i);
     trials.push_back({from_unit(space, point(asked_[i])), common_random_numbers ? common : own});
   }
   return trials;

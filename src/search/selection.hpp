@@ -23,9 +23,10 @@ class Selection {
 
   bool begun() const { return !points_.empty(); }
   bool over() const { return spent_ >= evaluations_; }
-  /// What to evaluate next; empty once it is over. `told`: values that the search had so far.
-  std::vector<Trial> ask(const SearchSpace& space, std::int64_t told, bool common_random_numbers);
-  /// How many trials were asked for and not yet told.
+  /// What to evaluate next; empty once it is over. `evaluated`: values received so far.
+  std::vector<Trial> ask(const SearchSpace& space, std::int64_t evaluated,
+                         bool common_random_numbers);
+  /// Number of trials requested and not yet evaluated.
   std::size_t asked() const { return asked_.size(); }
   void tell(std::span<const double> values);
   /// Whether every candidate has values.

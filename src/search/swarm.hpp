@@ -63,8 +63,8 @@ class Swarm final : public Search {
   std::uint64_t seed_;
   std::vector<Particle> particles_;
   int iteration_ = 0;  ///< that are over
-  int spent_ = 0;      ///< evaluations told in this iteration
-  int stage_ = 0;      ///< batches told in this iteration
+  int spent_ = 0;      ///< evaluations received in this iteration
+  int stage_ = 0;      ///< batches received in this iteration
   std::int64_t evaluations_ = 0;
   std::vector<Slot> wanted_;
   Selection selection_;  ///< begun after the last iteration

@@ -32,7 +32,7 @@ class SearchJob {
         throw Stopped();
       }
       search.tell(values_);
-      store_.told(search);
+      store_.completed(search);
     }
     store_.finish(search);
     return std::move(result_);

@@ -91,7 +91,7 @@ std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, 
   record.observe(world);
   const double dt = scenario.model.dt;
   const auto steps = static_cast<std::int64_t>(std::floor(scenario.duration / dt + 0.5));
-  double told = 0;
+  double reported = 0;
   bool left = false;
   while (world.state().step < steps && row.status == RunStatus::ok && !left) {
     if (asked(stop)) return std::nullopt;
@@ -100,10 +100,10 @@ std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, 
     // Looked at where something happened: what stands changes with events only.
     left = !world.events().empty() && over(early, world, record);
     if (world.state().step % kStepsPerLook != 0) continue;
-    simulated(world.time() - told);
-    told = world.time();
+    simulated(world.time() - reported);
+    reported = world.time();
   }
-  simulated(world.time() - told);
+  simulated(world.time() - reported);
   out.simulated = world.time();
   row.duration = left ? static_cast<double>(steps) * dt : world.time();
   row.possible = record.possible_copies();

@@ -24,8 +24,8 @@ struct WorldRun {
   double simulated = 0;  ///< s; row.duration is the planned end where the world was left early
 };
 
-/// Runs a scenario's world; nothing if `stop` was set before its end. `simulated` is told how much
-/// simulated time (s) has passed since it was last told. Throws InputError if the bodies do not fit
+/// Runs a scenario's world; nothing if `stop` was set before its end. `simulated` receives the
+/// simulated time (s) since its last call. Throws InputError if the bodies do not fit
 /// in the tank.
 std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
                                   const std::atomic<bool>* stop,

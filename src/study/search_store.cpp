@@ -180,7 +180,7 @@ void SearchStore::keep(std::size_t index, const Trial& trial, double value) {
   logged_ = Clock::now();
 }
 
-void SearchStore::told(const Search& search) {
+void SearchStore::completed(const Search& search) {
   ++batch_;
   if (Clock::now() - saved_ >= kBetweenCheckpoints) checkpoint(search);
 }

@@ -41,8 +41,8 @@ class SearchStore {
   std::vector<std::optional<double>> known(const std::vector<Trial>& trials) const;
   /// Logs a value of the batch, from any thread.
   void keep(std::size_t index, const Trial& trial, double value);
-  /// The batch is complete and was told; now and then makes a checkpoint.
-  void told(const Search& search);
+  /// Records a complete batch that the search has received; writes a checkpoint from time to time.
+  void completed(const Search& search);
   /// Checkpoint and history now.
   void checkpoint(const Search& search);
   /// Checkpoint and history after the last batch, and the log in the order of the trials.

@@ -43,7 +43,7 @@ struct World::Impl {
     linear_to_angular = decay.linear / decay.angular;
   }
 
-  Moment now() const {
+  StepContext now() const {
     const FlowField* field =
         state.field == 0 ? model->field.get() : model->other_fields[state.field - 1].get();
     return {.time = state.step * model->dt,
@@ -128,8 +128,8 @@ bool World::Impl::healthy() const {
 
 // The worst body and the term with the largest force on it, from the wrenches of this step.
 void World::Impl::blame() {
-  Moment moment = now();
-  forces.stir(kinematics, moment);
+  StepContext moment = now();
+  forces.perturb_flow(kinematics, moment);
   const auto badness = [&](int slot) {
     const double size = std::fabs(state.vx[slot]) + std::fabs(state.vy[slot]) +
                         std::fabs(state.omega[slot]) * assemblies.reach[slot];

@@ -21,11 +21,11 @@ struct Stirred {
   double gain = 1, gust_gain = 1;
 };
 Stirred stirred(const Model& model, const MovingBodies& bodies, const ActiveForce& f,
-                const Moment& now) {
+                const StepContext& now) {
   const std::vector<double> none(bodies.x.size(), 0.0);
   Stirred s{none, none, none};
-  Stirring water{1, s.x, s.y, s.turning, 1};
-  f.term->stir(model, bodies.view(), now, f.p, water);
+  FlowPerturbation water{1, s.x, s.y, s.turning, 1};
+  f.term->perturb_flow(model, bodies.view(), now, f.p, water);
   s.gain = water.gain, s.gust_gain = water.gust_gain;
   return s;
 }
@@ -56,9 +56,9 @@ Model uniform(double ux, double uy = 0) {
 
 TEST(CandidateForces, WhatTermsDoToTheWaterIsFiniteLinearAndNothingWithoutThem) {
   const Model model = standard_model();
-  const Moment now{.time = 1.3, .step = 52, .gust = 52, .seed = 3};
+  const StepContext now{.time = 1.3, .step = 52, .gust = 52, .seed = 3};
   for (const ForceTerm* term : force_library()) {
-    if (!term->stirs()) continue;
+    if (!term->perturbs_flow()) continue;
     const MovingBodies bodies(12, 6, 11);
     ActiveForce one = with_defaults(*term), two = one, none = one;
     one.p[0] = 0.01, two.p[0] = 0.02, none.p[0] = 0;
@@ -194,8 +194,8 @@ TEST(CandidateForces, WhatSlowsTheWaterSlowsAsMuchAsPumpsMove) {
     const std::string_view name = pumps.term->name();
     model.forces = {force("wall_layer", {1, 0.1}), pumps};
     ForceSum sum(model);
-    Moment now{.time = 1, .gusts = false};
-    sum.stir(b.view(), now);
+    StepContext now{.time = 1, .gusts = false};
+    sum.perturb_flow(b.view(), now);
     EXPECT_NEAR(now.gain, 1.5, 1e-9) << name;
     EXPECT_NEAR(now.ux[0], -1.5 * std::exp(-0.1) * 0.2, 1e-9) << name;
   }
@@ -215,7 +215,7 @@ TEST(CandidateForces, AHeavyModuleDrivesNoAssembly) {
 TEST(CandidateForces, EddiesOfEverySeedAreFinite) {
   const Model model = standard_model();
   for (const std::uint64_t seed : {559079u, 966946u}) {
-    const Moment now{.time = 1.3, .step = 52, .gust = 52, .seed = seed};
+    const StepContext now{.time = 1.3, .step = 52, .gust = 52, .seed = seed};
     const Stirred s = stirred(model, lone(), force("correlated_gusts", {0.02}), now);
     EXPECT_TRUE(std::isfinite(s.x[0]) && std::isfinite(s.y[0])) << seed;
   }
@@ -234,7 +234,7 @@ TEST(CandidateForces, WallsByHand) {
 
 TEST(CandidateForces, PumpsByHand) {
   const Model model = uniform(0.2);
-  const Moment now{.time = 2.5};
+  const StepContext now{.time = 2.5};
   const auto pulse = force("flow_pulsation", {0.2, 0.9, 0.4});
   EXPECT_NEAR(stirred(model, lone(), pulse, now).gain,
               1 + 0.2 * std::cos(2 * kPi * 0.9 * 2.5 + 0.4), 1e-12);
@@ -351,7 +351,7 @@ TEST(CandidateForces, RandomForcesHaveTheirSizes) {
   double noise = 0, knocks = 0;
   const int steps = 40000;
   for (int step = 0; step < steps; ++step) {
-    const Moment now{.time = step * kTick, .step = step, .gust = step, .seed = 5};
+    const StepContext now{.time = step * kTick, .step = step, .gust = step, .seed = 5};
     const double f = wrenches(model, b, force("state_dependent_noise", {0.01, 0.02}), now)[0].fx;
     const double k = wrenches(model, b, force("heavy_tailed_kicks", {1e-4, 4}), now)[0].fx;
     noise += f * f, knocks += k * k * kTick * kTick;

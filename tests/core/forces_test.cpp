@@ -38,7 +38,7 @@ TEST(Forces, EveryTermIsFiniteAndLinearInItsStrengthAndZeroWithoutIt) {
     const MovingBodies bodies(12, 6, 11);
     ActiveForce one = with_defaults(*term), two = one, none = one;
     one.p[0] = 0.01, two.p[0] = 0.02, none.p[0] = 0;
-    const Moment now{.time = 1, .step = 40, .gust = 40, .seed = 3};
+    const StepContext now{.time = 1, .step = 40, .gust = 40, .seed = 3};
     const auto a = wrenches(model, bodies, one, now), b = wrenches(model, bodies, two, now);
     const auto zero = wrenches(model, bodies, none, now);
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -19,7 +19,7 @@ class SpringToMiddle final : public ForceTerm {
   std::span<const Parameter> parameters() const override { return kParameters; }
   std::span<const EffectDescription> effects() const override { return kEffects; }
 
-  void add(const Model&, const Kinematics& k, const Moment&, std::span<const double> p,
+  void add(const Model&, const Kinematics& k, const StepContext&, std::span<const double> p,
            std::span<Wrench> out) const override {
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].fx -= p[0] * k.x[i], out[i].fy -= p[0] * k.y[i];

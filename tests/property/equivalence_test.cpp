@@ -26,8 +26,8 @@ class ReferenceDrag final : public ForceTerm {
   std::string_view summary() const override { return "the reference"; }
   std::string_view equation() const override { return "Eq. 5"; }
   std::span<const Parameter> parameters() const override { return {}; }
-  void add(const Model& model, const Kinematics& k, const Moment& now, std::span<const double> p,
-           std::span<Wrench> out) const override {
+  void add(const Model& model, const Kinematics& k, const StepContext& now,
+           std::span<const double> p, std::span<Wrench> out) const override {
     for (int i = 0; i < k.modules; ++i) {
       const Wrench w = test::face_drag_reference(model, k, p[0], 10, i, [&](int face, int q) {
         const auto z = normal_pair({now.seed, Stream::gust, now.gust, static_cast<std::uint32_t>(i),

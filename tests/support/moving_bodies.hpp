@@ -29,7 +29,7 @@ struct MovingBodies {
 };
 
 inline std::vector<Wrench> wrenches(const Model& model, const MovingBodies& bodies,
-                                    const ActiveForce& f, const Moment& now) {
+                                    const ActiveForce& f, const StepContext& now) {
   std::vector<Wrench> out(bodies.x.size());
   f.term->add(model, bodies.view(), now, f.p, out);
   return out;

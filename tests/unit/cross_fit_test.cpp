@@ -1,4 +1,4 @@
-// What local models say of simulations that they did not know, and what follows for data.
+// What response surfaces say of simulations that they did not know, and what follows for data.
 #include "calibrate/cross_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ TEST(CrossFit, numbersOfNothingTellNothing) {
   }
   FitBounds free;
   free.reach = 5;
-  const LocalModel model(t.design);
+  const ResponseSurface model(t.design);
   const CrossFit others = cross_fit(t.design, t.data, Misfit::covariance, Slopes::found);
   double known = 0, unknown = 0;
   for (int i = 0; i < 200; ++i) {
@@ -68,7 +68,7 @@ TEST(CrossFit, numbersOfNothingTellNothing) {
   EXPECT_LT(std::fabs(unknown), 0.5);
 }
 
-// 300 intervals of 95 % hold with a deviation of 1.3 %; those of the local model itself, which
+// 300 intervals of 95 % hold with a deviation of 1.3 %; those of the response surface itself, which
 // takes the noise of its slopes for knowledge, do not.
 TEST(CrossFit, intervalsHoldWhatIsHardlyTold) {
   int held = 0, trusting = 0;
@@ -76,10 +76,10 @@ TEST(CrossFit, intervalsHoldWhatIsHardlyTold) {
   for (int i = 0; i < kTrials; ++i) {
     const Trial t = trial(80, static_cast<std::uint64_t>(100 + i));
     const CrossFit fit = cross_fit(t.design, t.data, Misfit::covariance, Slopes::found);
-    const HonestFit honest = turned_round(t.design, fit, 0);
+    const BiasCorrectedFit honest = bias_corrected(t.design, fit, 0);
     const double half = honest.wide * std::sqrt(honest.covariance(1, 1));
     held += std::fabs(honest.point(1) - t.truth(1)) < half ? 1 : 0;
-    const LocalModel model(t.design);
+    const ResponseSurface model(t.design);
     const LocalFit own = model.fit(t.data);
     const double claimed = 1.96 * std::sqrt(model.parameter_covariance(own.point)(1, 1));
     trusting += std::fabs(own.point(1) - t.truth(1)) < claimed ? 1 : 0;
@@ -92,7 +92,7 @@ TEST(CrossFit, intervalsHoldWhatIsHardlyTold) {
 TEST(CrossFit, whatIsToldWellKeepsItsError) {
   const Trial t = trial(400, 7);
   const CrossFit fit = cross_fit(t.design, t.data, Misfit::covariance, Slopes::found);
-  const HonestFit honest = turned_round(t.design, fit, 0);
+  const BiasCorrectedFit honest = bias_corrected(t.design, fit, 0);
   const double expected = 1 / std::sqrt(kNumbers);
   EXPECT_NEAR(std::sqrt(honest.covariance(0, 0)), expected, 0.15 * expected);
   EXPECT_NEAR(honest.wide, 1.96, 0.05);

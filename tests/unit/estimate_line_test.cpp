@@ -42,7 +42,7 @@ TEST(EstimateLine, answersWithoutNoiseAreTheTruth) {
   centre << 10, 20, off << 0.7, -1.3;
   const Vector answer = line.at_centre + line.slope * off;
   const Prior prior{centre, Vector::Ones(2)};
-  EXPECT_LT((scatter_of(line, centre, answer, prior).estimate - centre - off).norm(), 1e-6);
+  EXPECT_LT((estimate_of(line, centre, answer, prior).estimate - centre - off).norm(), 1e-6);
 }
 
 // One parameter, answers s theta + e: the normal law's mean and variance given an answer.
@@ -52,7 +52,7 @@ TEST(EstimateLine, withPriorIsTheNormalLawGivenTheAnswer) {
   line.covariance = Matrix::Constant(1, 1, 0.09), line.inverse = Matrix::Zero(2, 2);
   line.freedom = 1e9;
   const Prior prior{Vector::Constant(1, 0.3), Vector::Constant(1, 1.5)};
-  const Scatter s = scatter_of(line, Vector::Zero(1), Vector::Constant(1, 2.5), prior);
+  const ParameterEstimate s = estimate_of(line, Vector::Zero(1), Vector::Constant(1, 2.5), prior);
   const double before = 2.25, answers = 0.16 * before + 0.09;
   EXPECT_NEAR(s.estimate(0), 0.3 + before * 0.4 * (0.5 - 0.4 * 0.3) / answers, 1e-12);
   EXPECT_NEAR(s.deviation(0), std::sqrt(before * 0.09 / answers), 1e-12);
@@ -68,7 +68,8 @@ TEST(EstimateLine, intervalsHoldTheTruth) {
   int held = 0;
   for (int i = 30; i < 2030; ++i) {
     const Vector answer = fresh.answers.row(i);
-    const Scatter s = scatter_of(line, Vector::Zero(2), answer, {Vector::Zero(2), Vector::Ones(2)});
+    const ParameterEstimate s =
+        estimate_of(line, Vector::Zero(2), answer, {Vector::Zero(2), Vector::Ones(2)});
     held += std::fabs(s.estimate(0) - fresh.off(i, 0)) < s.wide * s.deviation(0) ? 1 : 0;
   }
   EXPECT_NEAR(held / 2000.0, 0.95, 0.035);

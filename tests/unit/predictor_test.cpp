@@ -60,13 +60,13 @@ TEST(ExpectedTank, DragIsTheMeanOverGusts) {
   }
   ASSERT_NE(drag, nullptr);
   std::vector<Wrench> expected(1);
-  const Moment calm{.gusts = false, .expected = true};
+  const StepContext calm{.gusts = false, .expected = true};
   drag->term->add(model, body.view(), calm, drag->p, expected);
   const int draws = 4000;
   double sum[3] = {0, 0, 0}, square[3] = {0, 0, 0};
   for (int k = 0; k < draws; ++k) {
     std::vector<Wrench> w(1);
-    const Moment now{.step = k * 5, .gust = k, .seed = 7};
+    const StepContext now{.step = k * 5, .gust = k, .seed = 7};
     drag->term->add(model, body.view(), now, drag->p, w);
     const double v[3] = {w[0].fx, w[0].fy, w[0].torque};
     for (int c = 0; c < 3; ++c) sum[c] += v[c], square[c] += v[c] * v[c];

@@ -1,4 +1,5 @@
-// Local models: a quadratic is found exactly, and what is told of parameters is what theory says.
+// Response surfaces: a quadratic is found exactly, and what is told of parameters is what theory
+// says.
 #include "lilytank/response_surface.hpp"
 
 #include <gtest/gtest.h>
@@ -38,9 +39,9 @@ Design design(int count, double noise) {
   return out;
 }
 
-TEST(LocalModel, findsAQuadraticAndItsParameters) {
+TEST(ResponseSurface, findsAQuadraticAndItsParameters) {
   for (const Misfit misfit : {Misfit::covariance, Misfit::absolute}) {
-    const LocalModel model(design(60, 1e-7), misfit);
+    const ResponseSurface model(design(60, 1e-7), misfit);
     Vector at(2);
     at << 0.7, -0.35;
     EXPECT_LT((model.mean(at) - truth(at)).norm(), 1e-5);
@@ -49,13 +50,13 @@ TEST(LocalModel, findsAQuadraticAndItsParameters) {
     EXPECT_LT((model.slope(at) - slope).norm(), 1e-4);
     const LocalFit fit = model.fit(truth(at));
     EXPECT_LT((fit.point - at).norm(), 1e-4);
-    EXPECT_FALSE(fit.at_reach);
+    EXPECT_FALSE(fit.at_bound);
   }
 }
 
-TEST(LocalModel, intervalsFromTheCovarianceAreThoseThatScatterShows) {
+TEST(ResponseSurface, intervalsFromTheCovarianceAreThoseThatScatterShows) {
   const double noise = 0.02;
-  const LocalModel model(design(400, noise));
+  const ResponseSurface model(design(400, noise));
   Vector at(2);
   at << 0.5, -0.2;
   const Matrix expected = model.parameter_covariance(at);
@@ -85,8 +86,8 @@ TEST(LocalModel, intervalsFromTheCovarianceAreThoseThatScatterShows) {
   EXPECT_NEAR(misfit, 3, 0.4);
 }
 
-TEST(LocalModel, aProfileRisesByOneAtAStandardError) {
-  const LocalModel model(design(400, 0.02));
+TEST(ResponseSurface, aProfileRisesByOneAtAStandardError) {
+  const ResponseSurface model(design(400, 0.02));
   Vector at(2);
   at << 0.5, -0.2;
   const LocalFit best = model.fit(truth(at));
@@ -98,8 +99,8 @@ TEST(LocalModel, aProfileRisesByOneAtAStandardError) {
   }
 }
 
-TEST(LocalModel, boundsHoldAndReachIsTold) {
-  const LocalModel model(design(60, 1e-7));
+TEST(ResponseSurface, boundsHoldAndReachIsTold) {
+  const ResponseSurface model(design(60, 1e-7));
   Vector at(2);
   at << 0.7, -0.35;
   FitBounds bounds;
@@ -109,24 +110,24 @@ TEST(LocalModel, boundsHoldAndReachIsTold) {
   at << 5, -0.2;
   FitBounds near;
   near.reach = 1;
-  EXPECT_TRUE(model.fit(truth(at), near).at_reach);
+  EXPECT_TRUE(model.fit(truth(at), near).at_bound);
 }
 
 // Data that the model explains outweigh what was known before; data that it does not explain must
 // not push parameters about.
-TEST(LocalModel, whatIsNotExplainedLeavesParametersWhereTheyWereExpected) {
-  const LocalModel model(design(400, 0.02));
+TEST(ResponseSurface, whatIsNotExplainedLeavesParametersWhereTheyWereExpected) {
+  const ResponseSurface model(design(400, 0.02));
   Vector expected(2), at(2);
   expected << 0.5, -0.2, at << 0.7, -0.35;
   const Prior prior{expected, Vector::Constant(2, 0.3)};
-  const KnownFit explained = model.fit(truth(at), {}, prior);
+  const MapEstimate explained = model.fit(truth(at), {}, prior);
   EXPECT_EQ(explained.doubt, 1);
   EXPECT_LT((explained.fit.point - at).norm(), 0.02);
   Vector odd = truth(expected);
   odd(1) += 2;  // a hundred of its deviations
   FitBounds near;
   near.reach = 10;
-  const KnownFit unexplained = model.fit(odd, near, prior);
+  const MapEstimate unexplained = model.fit(odd, near, prior);
   EXPECT_GT(unexplained.doubt, 100);
   EXPECT_LT((unexplained.fit.point - expected).norm(),
             0.6 * (model.fit(odd, near).point - expected).norm());
@@ -134,7 +135,7 @@ TEST(LocalModel, whatIsNotExplainedLeavesParametersWhereTheyWereExpected) {
 }
 
 // Two of 150 numbers tell the parameter; 60 simulations leave slopes of noise in all others.
-TEST(LocalModel, shrunkSlopesDoNotHoldAnswersToTheCentre) {
+TEST(ResponseSurface, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   constexpr int kSimulations = 60, kNumbers = 150;
   Design d{Matrix(kSimulations, 1), Matrix(kSimulations, kNumbers)};
   const auto numbers = [&](int row, double at) {
@@ -149,7 +150,7 @@ TEST(LocalModel, shrunkSlopesDoNotHoldAnswersToTheCentre) {
     d.numbers.row(i) = numbers(i, d.points(i, 0));
   }
   const auto slope_of_answers = [&](Slopes slopes) {
-    const LocalModel model(d, Misfit::covariance, slopes);
+    const ResponseSurface model(d, Misfit::covariance, slopes);
     double both = 0, square = 0;
     for (int i = kSimulations; i < kSimulations + 400; ++i) {
       const double at = i % 2 == 0 ? 1 : -1;
@@ -161,9 +162,9 @@ TEST(LocalModel, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   EXPECT_GT(slope_of_answers(Slopes::shrunk), 0.75);
 }
 
-TEST(LocalModel, tooFewSimulationsAreRefused) {
-  EXPECT_THROW(LocalModel(design(6, 0.1)), std::invalid_argument);
-  EXPECT_NO_THROW(LocalModel(design(9, 0.1)));  // without products of the two
+TEST(ResponseSurface, tooFewSimulationsAreRefused) {
+  EXPECT_THROW(ResponseSurface(design(6, 0.1)), std::invalid_argument);
+  EXPECT_NO_THROW(ResponseSurface(design(9, 0.1)));  // without products of the two
 }
 
 }  // namespace
