@@ -96,8 +96,9 @@ std::string picture_html(const ReportPicture& picture) {
   const std::string prefix = picture.name + "-";
   for (const std::string mark : {"id=\"", "href=\"#", "url(#"}) {
     for (std::size_t at = svg.find(mark); at != std::string::npos;
-         at = svg.find(mark, at + mark.size() + prefix.size())) {
-      svg.insert(at + mark.size(), prefix);
+         at = svg.find(mark, at + mark.size())) {
+      const bool in_tag = svg[svg.find_last_of("<>", at)] == '<';  // not in a name from input
+      if (in_tag) svg.insert(at + mark.size(), prefix);
     }
   }
   svg.insert(std::string_view("<svg").size(),

@@ -53,11 +53,13 @@ TEST(ReportDocument, NamesFromInputAreEscapedOnThePage) {
 
 TEST(ReportDocument, PicturesKeepTheirIdsApartAndHaveAlternativeTexts) {
   const std::string svg =
-      "<?xml version=\"1.0\"?>\n<svg><g id=\"glyph\"/><use href=\"#glyph\"/></svg>";
+      "<?xml version=\"1.0\"?>\n<svg><g id=\"glyph\"/><use href=\"#glyph\"/>"
+      "<text>url(#7)</text></svg>";
   const std::string page = report_html(sample(), {{svg, "one", "First"}, {svg, "two", "Second"}});
   EXPECT_EQ(count(page, "role=\"img\" aria-label="), 2u);
   EXPECT_EQ(count(page, "id=\"one-glyph\""), 1u);
   EXPECT_EQ(count(page, "href=\"#two-glyph\""), 1u);
+  EXPECT_EQ(count(page, "<text>url(#7)</text>"), 2u);
   EXPECT_EQ(page.find("<?xml"), std::string::npos);
 }
 
