@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "study/ledger.hpp"
+#include "study/run_table.hpp"
 #include "study/row_text.hpp"
 #include "study/run_world.hpp"
 #include "study/study_directory.hpp"

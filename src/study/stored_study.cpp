@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "study/ledger.hpp"
+#include "study/run_table.hpp"
 #include "study/row_text.hpp"
 #include "study/study_directory.hpp"
 #include "study/study_record.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "lilytank/run.hpp"
-#include "study/ledger.hpp"
+#include "study/run_table.hpp"
 #include "study/row_text.hpp"
 #include "support/study_rig.hpp"
 

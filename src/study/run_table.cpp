@@ -1,4 +1,4 @@
-#include "study/ledger.hpp"
+#include "study/run_table.hpp"
 
 #include <algorithm>
 
