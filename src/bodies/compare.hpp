@@ -74,11 +74,12 @@ Repeats repeats_of(const BodyExperiment& experiment, const std::vector<Group>& g
 /// Fits an outcome once more with an unknown acceleration that lasts a whole run, as wrong scales,
 /// clocks and releases give: laws that only such a fault could distinguish are then not
 /// distinguished.
-void shake(const std::vector<Group>& groups, LawTrial& outcome);
+void fit_run_bias(const std::vector<Group>& groups, LawTrial& outcome);
 
 /// rms difference of two outcomes' accelerations over the recorded motion, in units of the random
 /// pushes of the first: below 1 the fits do not distinguish them.
-double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b);
+double acceleration_difference(const std::vector<Group>& groups, const LawTrial& a,
+                               const LawTrial& b);
 
 /// Mean square of predictions over a quarter of a run from what the filter believed, per group
 /// (m^2).

@@ -123,7 +123,7 @@ class Trials {
     for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
       for (std::size_t k = 0; k < all->size() && k < 6; ++k) {
         check_stop();
-        shake(c_.groups, (*all)[k]);
+        fit_run_bias(c_.groups, (*all)[k]);
       }
     }
   }

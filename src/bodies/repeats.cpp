@@ -72,7 +72,7 @@ Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
   return out;
 }
 
-void shake(const std::vector<Group>& groups, LawTrial& outcome) {
+void fit_run_bias(const std::vector<Group>& groups, LawTrial& outcome) {
   outcome.shaken.clear();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     Group g = groups[i];
@@ -87,7 +87,8 @@ void shake(const std::vector<Group>& groups, LawTrial& outcome) {
   }
 }
 
-double unlike(const std::vector<Group>& groups, const LawTrial& a, const LawTrial& b) {
+double acceleration_difference(const std::vector<Group>& groups, const LawTrial& a,
+                               const LawTrial& b) {
   double apart = 0, pushes = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const BodyModel &ma = a.fits[i].model, &mb = b.fits[i].model;

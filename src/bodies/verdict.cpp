@@ -47,7 +47,7 @@ bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
   if (!d.distinguished()) return false;
   // Laws of one variable: what no law explains must be less than what they differ by.
   const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
-  if (alike && unlike(groups, better, worse) < 1) return false;
+  if (alike && acceleration_difference(groups, better, worse) < 1) return false;
   if (better.shaken.empty() || worse.shaken.empty()) return true;
   Difference still = difference(better.shaken, worse.shaken);
   still.error *= repeats.factor();
@@ -175,7 +175,7 @@ std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
                           : "; not tested, because none of their runs is held out: " + unasked);
 }
 
-void tell_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
+void set_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
   f.variable = variable.empty() ? "position" : variable;
   double low = 1e300, high = -1e300;
   for (const Group& g : c.groups) {
@@ -193,7 +193,7 @@ void tell_range(const Comparison& c, const std::string& variable, DiagnosisFindi
                                                       : c.experiment->unit;
 }
 
-void tell_unnamed(const LawTrial& best, DiagnosisFinding& f) {
+void set_unnamed(const LawTrial& best, DiagnosisFinding& f) {
   f.effect = "unnamed";
   f.text = "no law of the library predicts as well as a free " +
            std::string(best.candidate.laws.back()->equation() == "" ? "curve" : "law") + " over " +
@@ -217,7 +217,7 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
     const Law& law = *head.candidate.laws[k];
     DiagnosisFinding f;
     f.effect = law.name(), f.equation = law.equation(), f.split = law.split();
-    tell_range(c, std::string(law.variable()), f);
+    set_range(c, std::string(law.variable()), f);
     f.text = strongest_bodies(c, head);
     const LawTrial* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
     add_gain(c, head, without != nullptr ? *without : c.baseline, f);
@@ -235,7 +235,7 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
       }
     }
     f.alternatives.assign(names.begin(), names.end());
-    if (law.curve()) tell_unnamed(head, f);
+    if (law.curve()) set_unnamed(head, f);
     f.curve = map_of(c, f.variable);
     out.push_back(std::move(f));
   }

@@ -78,8 +78,8 @@ Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design
   return out;
 }
 
-void tell_parameters(const Stages& stages, const LocalAnswer& answer, const Replicates& replicates,
-                     const Vector& chosen, CalibrationResult& out) {
+void set_parameters(const Stages& stages, const LocalAnswer& answer, const Replicates& replicates,
+                    const Vector& chosen, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   const Vector deviation = replicates.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
@@ -107,8 +107,8 @@ void tell_parameters(const Stages& stages, const LocalAnswer& answer, const Repl
 }
 
 // Observed numbers beside those that are expected at the estimate, by a plane through replicates.
-void tell_numbers(const Stages& stages, const Replicates& replicates, const Vector& centre,
-                  const Vector& observed, CalibrationResult& out) {
+void set_numbers(const Stages& stages, const Replicates& replicates, const Vector& centre,
+                 const Vector& observed, CalibrationResult& out) {
   const Line line =
       line_through(replicates.made.points.rowwise() - centre.transpose(), replicates.made.numbers);
   Vector estimate(centre.size());
@@ -143,8 +143,8 @@ Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const V
   return points;
 }
 
-void tell_profiles(const Stages& stages, const Replicates& replicates, const Vector& observed,
-                   CalibrationResult& out) {
+void set_profiles(const Stages& stages, const Replicates& replicates, const Vector& observed,
+                  CalibrationResult& out) {
   FitBounds bounds = stages.bounds();
   bounds.reach = kEstimateReach;
   const LocalFit best = replicates.model.fit(observed, bounds);
@@ -268,9 +268,9 @@ void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& m
   if (setup.chosen_by_displacements()) {
     chosen = nearest_displacements(stages, replicates.middle, replicates.covariance, centre);
   }
-  tell_parameters(stages, answer, replicates, chosen.point, out);
-  tell_numbers(stages, replicates, centre, observed, out);
-  tell_profiles(stages, replicates, observed, out);
+  set_parameters(stages, answer, replicates, chosen.point, out);
+  set_numbers(stages, replicates, centre, observed, out);
+  set_profiles(stages, replicates, observed, out);
   warn(stages, answer, out);
   warn_of_choice(stages, chosen, out);
 }

@@ -32,7 +32,7 @@ void report_proofs(std::span<const Proof> proofs, const std::string& dir) {
 }
 
 // `out`: "" to print only.
-int tell_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
+int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
   std::vector<Proof> proofs;
   std::string hashes;
   for (const std::string& dir : dirs) {
@@ -121,7 +121,7 @@ int prove_verb(const Arguments& arguments) {
                               "budget", "seed", "threads"}) {
       if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
     }
-    return tell_together(options.positional(), options.text("out", ""), options.has("force"));
+    return print_together(options.positional(), options.text("out", ""), options.has("force"));
   }
   ProofOptions job = proof_options(options);
   const std::filesystem::path dir(job.diagnosis.out);

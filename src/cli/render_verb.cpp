@@ -56,7 +56,7 @@ bool asks_for(const VerbOptions& options, std::initializer_list<const char*> nam
 }
 
 /// Says so where poses were stored too seldom for the requested frame or film.
-void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
+void warn_if_seldom(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
                     double at) {
   const bool frame = asks_for(options, {"png", "svg"});
   std::string note;
@@ -72,7 +72,7 @@ void tell_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
 void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film) {
   const StoredRun run = load_run(dir);
   const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
-  tell_if_seldom(options, run, film, at);
+  warn_if_seldom(options, run, film, at);
   Progress progress(options.has("quiet"));
   film.stop = &stop_signal();
   film.progress = [&](double done) { progress.tell(done, "of the film"); };

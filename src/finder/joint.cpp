@@ -274,8 +274,8 @@ class Rounds {
     const ResponseSurface model(design, Misfit::covariance, Slopes::shrunk);
     const MapEstimate known = model.fit(data_, near, prior);
     Vector point = known.fit.point;
-    const std::size_t dropped =
-        needless(stages_, effects_, known.covariance / known.dispersion, rounds_.keep, point);
+    const std::size_t dropped = least_supported(
+        stages_, effects_, known.covariance / known.dispersion, rounds_.keep, point);
     if (dropped == effects_.size()) return false;
     read_point(stages_, point, effects_);
     const auto at = static_cast<std::ptrdiff_t>(dropped);

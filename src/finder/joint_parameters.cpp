@@ -65,8 +65,8 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
   return out;
 }
 
-std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
-                     const Matrix& covariance, double keep, Vector& point) {
+std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>& effects,
+                            const Matrix& covariance, double keep, Vector& point) {
   const std::vector<Eigen::Index> places = places_of(stages, effects);
   const auto size = [&](std::size_t e) {
     return static_cast<Eigen::Index>(effects[e].effect.paths.size());

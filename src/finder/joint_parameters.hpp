@@ -22,8 +22,8 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
 /// The effect after the first, strongest one that the data support least, by Wald's distance of its
 /// amplitudes from 0; the list's size if the data support all. `point` then becomes the estimate
 /// without it.
-std::size_t needless(const Stages& stages, const std::vector<JointEffect>& effects,
-                     const Eigen::MatrixXd& covariance, double keep, Eigen::VectorXd& point);
+std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>& effects,
+                            const Eigen::MatrixXd& covariance, double keep, Eigen::VectorXd& point);
 
 /// Sets amplitudes (relative to their sizes) and refined parameters of the effects from a point.
 void read_point(const Stages& stages, const Eigen::VectorXd& point,

@@ -1,4 +1,4 @@
-// The lee behind a module.
+// The wake behind a module.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@
 namespace lilytank {
 namespace {
 
-constexpr double kWide = 5;            // deviations beyond which the lee is nothing
-constexpr int kShieldedTogether = 64;  // modules in the lee that are looked at together
+constexpr double kWide = 5;            // deviations beyond which the wake is nothing
+constexpr int kShieldedTogether = 64;  // modules in the wake that are looked at together
 
 // The moment without what terms have added to the water so far.
 StepContext still(StepContext now) {
@@ -29,15 +29,15 @@ void shield(const Model& model, const Kinematics& k, const StepContext& now,
     const double size = slip.norm();
     if (size == 0) continue;
     const double cx = slip.x() / size, cy = slip.y() / size;
-    for (int lee = first; lee < last; ++lee) {
-      const double dx = k.x[lee] - k.x[front], dy = k.y[lee] - k.y[front];
+    for (int behind = first; behind < last; ++behind) {
+      const double dx = k.x[behind] - k.x[front], dy = k.y[behind] - k.y[front];
       const double s = dx * cx + dy * cy, y = dx * cy - dy * cx;
       if (s <= 0 || std::fabs(y) > wide || s * s + y * y >= far * far) continue;
       const double lost = p[0] * exp_portable(-s / p[1] - y * y / (2 * p[2] * p[2]));
-      const double deficit = std::fmin(lost, left[lee - first]);
-      left[lee - first] -= deficit;
-      const Vec2 own = slip_of(model, k, now, lee);
-      water.ux[lee] -= deficit * own.x(), water.uy[lee] -= deficit * own.y();
+      const double deficit = std::fmin(lost, left[behind - first]);
+      left[behind - first] -= deficit;
+      const Vec2 own = slip_of(model, k, now, behind);
+      water.ux[behind] -= deficit * own.x(), water.uy[behind] -= deficit * own.y();
     }
   }
 }

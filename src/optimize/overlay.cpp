@@ -13,27 +13,27 @@ std::string toml_of(const TomlValue& value) {
 
 }  // namespace
 
-void Optimization::Source::add_commands(const Meaning& meaning, const std::string& after_file,
+void Optimization::Source::add_commands(const DecodedPoint& point, const std::string& after_file,
                                         ScenarioText& out) const {
-  for (std::size_t i = 1; i < meaning.powers.size(); ++i) {
+  for (std::size_t i = 1; i < point.powers.size(); ++i) {
     out.table("[command]");
     if (plan.agitation == Agitation::feedback) {
       out.line("copies", std::to_string(i));
     } else {
-      out.number("at", meaning.changes[i - 1], "s");
+      out.number("at", point.changes[i - 1], "s");
     }
-    out.quoted("do", "pump_power"), out.number("power", meaning.powers[i], "%");
+    out.quoted("do", "pump_power"), out.number("power", point.powers[i], "%");
   }
-  if (meaning.after_copies == 0) return;
+  if (point.after_copies == 0) return;
   out.table("[command]");
-  out.line("copies", std::to_string(meaning.after_copies));
+  out.line("copies", std::to_string(point.after_copies));
   out.quoted("do", "ruleset"), out.quoted("file", after_file);
 }
 
 std::vector<Scenario::Attachment> Optimization::Source::overlay(const std::vector<double>& point,
                                                                 const std::string& stem,
                                                                 const std::string& comment) const {
-  const Meaning what = meaning(point);
+  const DecodedPoint what = decoded(point);
   const Layer says = layer(what);
   ScenarioText out;
   out.comment(comment);

@@ -218,7 +218,7 @@ std::int64_t Optimization::Source::checked_budget() const {
 }
 
 Scenario Optimization::Source::scenario(const std::vector<double>& point) const {
-  const Meaning what = meaning(point);
+  const DecodedPoint what = decoded(point);
   Scenario out = built(layer(what));
   if (what.after_copies == 0) return out;
   Model& model = out.model;

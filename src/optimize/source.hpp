@@ -56,7 +56,7 @@ struct Optimization::Source {
     std::size_t number = 0;  ///< of power and change
   };
   /// A point with everything rounded that is, and times of change in order.
-  struct Meaning {
+  struct DecodedPoint {
     std::vector<Assignment> values;                     ///< the scenario's
     std::vector<std::pair<std::string, double>> after;  ///< rules of the second set and their p
     int after_copies = 0;                               ///< 0: no second set
@@ -74,10 +74,11 @@ struct Optimization::Source {
   void check_corners() const;
   std::int64_t checked_budget() const;
   Scenario built(Layer point) const;
-  Meaning meaning(const std::vector<double>& point) const;
-  Layer layer(const Meaning& meaning) const;
-  Ruleset second_set(const Meaning& meaning, const Ruleset& first) const;
-  void add_commands(const Meaning& meaning, const std::string& after_file, ScenarioText& out) const;
+  DecodedPoint decoded(const std::vector<double>& point) const;
+  Layer layer(const DecodedPoint& point) const;
+  Ruleset second_set(const DecodedPoint& point, const Ruleset& first) const;
+  void add_commands(const DecodedPoint& point, const std::string& after_file,
+                    ScenarioText& out) const;
 
   std::vector<std::string> files_;  ///< scenarios and overlays
   std::vector<Layer> base_;

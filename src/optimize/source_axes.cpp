@@ -117,9 +117,9 @@ void Optimization::Source::add_agitation(const Scenario& base) {
   }
 }
 
-Optimization::Source::Meaning Optimization::Source::meaning(
+Optimization::Source::DecodedPoint Optimization::Source::decoded(
     const std::vector<double>& point) const {
-  Meaning out;
+  DecodedPoint out;
   if (file.hybrid) out.after_copies = 1;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Axis& axis = axes_[i];
@@ -147,30 +147,30 @@ Optimization::Source::Meaning Optimization::Source::meaning(
   return out;
 }
 
-Layer Optimization::Source::layer(const Meaning& meaning) const {
+Layer Optimization::Source::layer(const DecodedPoint& point) const {
   Layer out;
-  out.values = meaning.values;
-  if (meaning.powers.empty()) return out;
-  out.values.push_back(named({"flow", "pump_power"}, meaning.powers.front()));
+  out.values = point.values;
+  if (point.powers.empty()) return out;
+  out.values.push_back(named({"flow", "pump_power"}, point.powers.front()));
   out.has_commands = true;
-  for (std::size_t i = 1; i < meaning.powers.size(); ++i) {
+  for (std::size_t i = 1; i < point.powers.size(); ++i) {
     CommandTable command;
     command.place = file.agitation.place;
     if (plan.agitation == Agitation::feedback) {
       command.fields.push_back(named({"copies"}, static_cast<std::int64_t>(i)));
     } else {
-      command.fields.push_back(named({"at"}, meaning.changes[i - 1]));
+      command.fields.push_back(named({"at"}, point.changes[i - 1]));
     }
     command.fields.push_back(named({"do"}, std::string("pump_power")));
-    command.fields.push_back(named({"power"}, meaning.powers[i]));
+    command.fields.push_back(named({"power"}, point.powers[i]));
     out.commands.push_back(std::move(command));
   }
   return out;
 }
 
-Ruleset Optimization::Source::second_set(const Meaning& meaning, const Ruleset& first) const {
+Ruleset Optimization::Source::second_set(const DecodedPoint& point, const Ruleset& first) const {
   Ruleset out = first;
-  for (const auto& [name, p] : meaning.after) {
+  for (const auto& [name, p] : point.after) {
     for (Rule& rule : out.rules) {
       if (rule.name == name) rule.p = p, rule.where = file.hybrid_place;
     }

@@ -186,12 +186,12 @@ bool ContactSolver::approach(Island& island, double margin, double h) {
   contacts_.clear();
   bool needed = false;
   std::vector<Mover>& movers = island.movers();
-  for (const Near& near : island.nears()) {
-    if (near.gap.size > margin) continue;
-    const Mover &a = movers[near.a], &b = movers[near.b];
-    island.touches(near, margin, [&](double nx, double ny, const Touch& touch) {
+  for (const ContactPair& pair : island.pairs()) {
+    if (pair.gap.size > margin) continue;
+    const Mover &a = movers[pair.a], &b = movers[pair.b];
+    island.touches(pair, margin, [&](double nx, double ny, const Touch& touch) {
       ContactPoint& c = contacts_.emplace_back();
-      c.a = near.a, c.b = near.b;
+      c.a = pair.a, c.b = pair.b;
       c.nx = nx, c.ny = ny;
       c.x = touch.x, c.y = touch.y, c.gap = touch.gap;
       prepare(c, a, b);

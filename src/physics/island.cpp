@@ -19,7 +19,7 @@ bool broke_promise(const Mover& m) {
   const double dx = m.pose.x - m.start.x, dy = m.pose.y - m.start.y;
   const double dc = m.pose.r.c - m.start.r.c, ds = m.pose.r.s - m.start.r.s;
   const double longer = std::fabs(dx) + std::fabs(dy) + m.reach * (std::fabs(dc) + std::fabs(ds));
-  return longer > m.promise && length(dx, dy) + m.reach * length(dc, ds) > m.promise;
+  return longer > m.motion_bound && length(dx, dy) + m.reach * length(dc, ds) > m.motion_bound;
 }
 
 // Velocity of a point (ox, oy in the mover's frame).
@@ -93,44 +93,44 @@ Island::Island(const Model& model)
       tank_(model.tank.radius) {
   const auto n = static_cast<std::size_t>(model.bodies());
   movers_.reserve(n + 1);
-  nears_.reserve(std::min(n * (n + 1) / 2, 24 * n));
+  pairs_.reserve(std::min(n * (n + 1) / 2, 24 * n));
   clear();
 }
 
 void Island::clear() {
   movers_.clear();
   movers_.emplace_back();
-  nears_.clear();
+  pairs_.clear();
 }
 
 Mover& Island::add() {
   return movers_.emplace_back();
 }
 
-void Island::add(const Near& near) {
-  nears_.push_back(near);
+void Island::add(const ContactPair& pair) {
+  pairs_.push_back(pair);
 }
 
 void Island::sort_pairs() {
-  const auto before = [](const Near& p, const Near& q) {
+  const auto before = [](const ContactPair& p, const ContactPair& q) {
     return p.order_a != q.order_a ? p.order_a < q.order_a : p.order_b < q.order_b;
   };
-  if (!std::is_sorted(nears_.begin(), nears_.end(), before))
-    std::sort(nears_.begin(), nears_.end(), before);
+  if (!std::is_sorted(pairs_.begin(), pairs_.end(), before))
+    std::sort(pairs_.begin(), pairs_.end(), before);
 }
 
-Gap Island::separation(const Near& near) const {
-  const Mover &a = movers_[near.a], &b = movers_[near.b];
-  switch (near.kind) {
+Gap Island::separation(const ContactPair& pair) const {
+  const Mover &a = movers_[pair.a], &b = movers_[pair.b];
+  switch (pair.kind) {
     case PairKind::squares:
-      return lilytank::separation(square_of(a, near.ax, near.ay, half_, 0),
-                                  square_of(b, near.bx, near.by, half_, 0));
+      return lilytank::separation(square_of(a, pair.ax, pair.ay, half_, 0),
+                                  square_of(b, pair.bx, pair.by, half_, 0));
     case PairKind::square_disc:
-      return lilytank::separation(square_of(a, near.ax, near.ay, half_, 0), disc_of(b, radius_));
+      return lilytank::separation(square_of(a, pair.ax, pair.ay, half_, 0), disc_of(b, radius_));
     case PairKind::discs:
       return lilytank::separation(disc_of(a, radius_), disc_of(b, radius_));
     case PairKind::wall_square:
-      return {wall_separation(square_of(b, near.bx, near.by, half_, 0), tank_), 0, 0};
+      return {wall_separation(square_of(b, pair.bx, pair.by, half_, 0), tank_), 0, 0};
     default:
       return {wall_separation(disc_of(b, radius_), tank_), 0, 0};
   }
@@ -138,31 +138,31 @@ Gap Island::separation(const Near& near) const {
 
 double Island::survey() {
   double deepest = 0;
-  for (Near& near : nears_) {
-    near.gap = separation(near);
-    deepest = std::max(deepest, -near.gap.size);
+  for (ContactPair& pair : pairs_) {
+    pair.gap = separation(pair);
+    deepest = std::max(deepest, -pair.gap.size);
   }
   return deepest;
 }
 
-Pace Island::pace(double left) const {
-  Pace p{left, 0, left};
-  for (const Near& near : nears_) {
-    const Mover &a = movers_[near.a], &b = movers_[near.b];
-    const Vec2 v = velocity_at(b, near.bx, near.by) - velocity_at(a, near.ax, near.ay);
+StepLimits Island::step_limits(double left) const {
+  StepLimits p{left, 0, left};
+  for (const ContactPair& pair : pairs_) {
+    const Mover &a = movers_[pair.a], &b = movers_[pair.b];
+    const Vec2 v = velocity_at(b, pair.bx, pair.by) - velocity_at(a, pair.ax, pair.ay);
     const double wa = std::fabs(a.twist.omega), wb = std::fabs(b.twist.omega);
     const double speed = length(v.x(), v.y());
     p.fastest = std::max(p.fastest, speed + corner_ * (wa + wb));
     // A square's extent in a direction changes by no more than half its side per radian, its
     // distance from the tank's centre by half its diagonal; members of a chain move on arcs.
-    const double turning = (near.a == 0 ? corner_ : half_) * (wa + wb) +
-                           0.5 * left * (wa * wa * near.arm_a + wb * wb * near.arm_b);
+    const double turning = (pair.a == 0 ? corner_ : half_) * (wa + wb) +
+                           0.5 * left * (wa * wa * pair.arm_a + wb * wb * pair.arm_b);
     // Along the normal of the gap, fixed in the tank, nothing closes faster than this.
-    const double along = near.a == 0 ? -speed : near.gap.nx * v.x() + near.gap.ny * v.y();
+    const double along = pair.a == 0 ? -speed : pair.gap.nx * v.x() + pair.gap.ny * v.y();
     const double closing = turning - along;
-    if (closing <= 0 || near.gap.size > closing * left) continue;
-    p.free_time = std::min(p.free_time, std::max(near.gap.size, 0.0) / closing);
-    const double pace = near.a == 0 ? kWallShare * closing : relative_pace(a, b);
+    if (closing <= 0 || pair.gap.size > closing * left) continue;
+    p.free_time = std::min(p.free_time, std::max(pair.gap.size, 0.0) / closing);
+    const double pace = pair.a == 0 ? kWallShare * closing : relative_pace(a, b);
     if (pace * p.longest > kStride) p.longest = kStride / pace;
     limit_turn(a, p.longest);
     limit_turn(b, p.longest);
@@ -199,19 +199,19 @@ double Island::push_apart(int rounds) {
   double deepest = 0;
   for (int round = 0; round < rounds; ++round) {
     deepest = 0;
-    work += static_cast<std::int64_t>(nears_.size());
-    for (const Near& near : nears_) {
-      if (near.gap.size > kPushRange) continue;
-      const double depth = -separation(near).size;
+    work += static_cast<std::int64_t>(pairs_.size());
+    for (const ContactPair& pair : pairs_) {
+      if (pair.gap.size > kPushRange) continue;
+      const double depth = -separation(pair).size;
       if (depth <= kPushTo) continue;
       deepest = std::max(deepest, depth);
       // The deeper point first; the other is looked at afresh in the next round.
       double nx = 0, ny = 0;
       Touch worst;
-      touches(near, 0, [&](double x, double y, const Touch& t) {
+      touches(pair, 0, [&](double x, double y, const Touch& t) {
         if (t.gap < worst.gap) nx = x, ny = y, worst = t;
       });
-      if (-worst.gap > kPushTo) push(movers_[near.a], movers_[near.b], nx, ny, worst);
+      if (-worst.gap > kPushTo) push(movers_[pair.a], movers_[pair.b], nx, ny, worst);
     }
     if (deepest <= kSlop) return deepest;
   }
@@ -239,10 +239,10 @@ int Island::put_back(double limit) {
   // Ends: a mover is put back once, and good poses overlap no more than they may.
   for (bool again = true; again;) {
     again = false;
-    for (const Near& near : nears_) {
-      Mover &a = movers_[near.a], &b = movers_[near.b];
-      if ((a.undone || near.a == 0) && b.undone) continue;
-      if (-separation(near).size <= limit) continue;
+    for (const ContactPair& pair : pairs_) {
+      Mover &a = movers_[pair.a], &b = movers_[pair.b];
+      if ((a.undone || pair.a == 0) && b.undone) continue;
+      if (-separation(pair).size <= limit) continue;
       undo(a, count), undo(b, count);
       again = true;
     }

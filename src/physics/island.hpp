@@ -23,7 +23,7 @@ struct Mover {
   double mass = 0, inertia = 0;          ///< kg, kg m^2
   double inv_mass = 0, inv_inertia = 0;  ///< 0 for the wall; a ball does not turn
   double reach = 0;                      ///< m, from the centre to the farthest point
-  double promise = 0;                    ///< m, no point may end farther than this from its start
+  double motion_bound = 0;               ///< m, no point may end farther than this from its start
   Pose good;                             ///< at the last good substep
   Pose start;                            ///< at the start of the step
   Twist course;                          ///< at the start of the step
@@ -36,7 +36,7 @@ struct Mover {
 enum class PairKind : std::uint8_t { squares, square_disc, discs, wall_square, wall_disc };
 
 /// Two bodies of different movers that may touch; `a` is the wall (0) for wall kinds.
-struct Near {
+struct ContactPair {
   int a = 0, b = 0;  ///< movers
   PairKind kind = PairKind::squares;
   std::uint8_t inner_a = 0, inner_b = 0;  ///< Assemblies::inner
@@ -47,7 +47,7 @@ struct Near {
 };
 
 /// How fast the pairs of an island move.
-struct Pace {
+struct StepLimits {
   double free_time = 0;  ///< s in which nothing can touch if twists stay
   double fastest = 0;    ///< m/s, no two bodies close faster
   double longest = 0;    ///< s, longest substep that keeps contact points accurate
@@ -63,19 +63,19 @@ class Island {
   void clear();
   /// Adds an assembly, to be filled in.
   Mover& add();
-  void add(const Near& near);
+  void add(const ContactPair& pair);
   /// Puts pairs in order of their bodies, so that results do not depend on how they were found.
   void sort_pairs();
 
   std::vector<Mover>& movers() { return movers_; }
   const std::vector<Mover>& movers() const { return movers_; }
-  const std::vector<Near>& nears() const { return nears_; }
-  void forget_pairs() { nears_.clear(); }
+  const std::vector<ContactPair>& pairs() const { return pairs_; }
+  void forget_pairs() { pairs_.clear(); }
 
   /// Measures the separations of all pairs; returns the deepest overlap (m, 0 if there is none).
   double survey();
   /// For the separations of the last survey; `left` (s) is the time still to go in the step.
-  Pace pace(double left) const;
+  StepLimits step_limits(double left) const;
   /// Moves everything by its twist for h seconds.
   void move(double h);
   /// Pushes overlapping bodies apart, without giving them speed, in at most `rounds` sweeps over
@@ -87,7 +87,7 @@ class Island {
 
   /// True if a mover got farther than it promised.
   bool breaks_promise() const;
-  /// Puts back to their last good pose those that broke their promise or overlap by more than
+  /// Puts back to their last good pose those that broke their motion_bound or overlap by more than
   /// `limit` (m), and what then overlaps with those. Returns how many.
   int put_back(double limit);
   /// Poses as they are now, `time` (s) after the start, count as good.
@@ -96,16 +96,16 @@ class Island {
   /// Points of contact of a pair within `margin` (m): calls use(nx, ny, touch), the normal from a
   /// to b.
   template <class Use>
-  void touches(const Near& near, double margin, Use&& use) const;
+  void touches(const ContactPair& pair, double margin, Use&& use) const;
 
  private:
-  Gap separation(const Near& near) const;
+  Gap separation(const ContactPair& pair) const;
   void push(Mover& a, Mover& b, double nx, double ny, const Touch& touch);
   void undo(Mover& mover, int& count);
 
   double half_, corner_, radius_, tank_;
   std::vector<Mover> movers_;
-  std::vector<Near> nears_;
+  std::vector<ContactPair> pairs_;
 };
 
 constexpr double kSlop = 8e-5;    ///< m, overlap that is left alone
@@ -120,14 +120,14 @@ inline Disc disc_of(const Mover& m, double radius) {
 }
 
 template <class Use>
-void Island::touches(const Near& near, double margin, Use&& use) const {
-  const Mover &a = movers_[near.a], &b = movers_[near.b];
+void Island::touches(const ContactPair& pair, double margin, Use&& use) const {
+  const Mover &a = movers_[pair.a], &b = movers_[pair.b];
   const auto use_all = [&](const Manifold& m) {
     for (int k = 0; k < m.count; ++k) use(m.nx, m.ny, m.touch[k]);
   };
-  const auto square_b = [&] { return square_of(b, near.bx, near.by, half_, near.inner_b); };
-  const auto square_a = [&] { return square_of(a, near.ax, near.ay, half_, near.inner_a); };
-  switch (near.kind) {
+  const auto square_b = [&] { return square_of(b, pair.bx, pair.by, half_, pair.inner_b); };
+  const auto square_a = [&] { return square_of(a, pair.ax, pair.ay, half_, pair.inner_a); };
+  switch (pair.kind) {
     case PairKind::squares:
       return use_all(collide(square_a(), square_b(), margin));
     case PairKind::square_disc:

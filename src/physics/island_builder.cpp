@@ -54,7 +54,7 @@ void IslandBuilder::clear() {
   island_.clear();
 }
 
-void IslandBuilder::enter(int slot, double promise) {
+void IslandBuilder::enter(int slot, double motion_bound) {
   Mover& m = island_.add();
   m.slot = slot;
   m.pose = {state_->x[slot], state_->y[slot], {state_->c[slot], state_->s[slot]}};
@@ -62,7 +62,7 @@ void IslandBuilder::enter(int slot, double promise) {
   m.mass = assemblies_->mass[slot], m.inertia = assemblies_->inertia[slot];
   m.inv_mass = 1 / m.mass, m.inv_inertia = m.inertia > 0 ? 1 / m.inertia : 0;
   m.reach = assemblies_->reach[slot];
-  m.promise = promise;
+  m.motion_bound = motion_bound;
   m.good = m.start = m.pose;
   m.course = m.twist;
   slots_.push_back(slot);
@@ -77,24 +77,24 @@ double IslandBuilder::place(int body, double& x, double& y) const {
 
 void IslandBuilder::link(int i, int j) {
   if (i > j) std::swap(i, j);
-  Near near;
-  near.a = local_[slot_of(i)], near.b = local_[slot_of(j)];
-  near.kind = is_module(j)   ? PairKind::squares
+  ContactPair pair;
+  pair.a = local_[slot_of(i)], pair.b = local_[slot_of(j)];
+  pair.kind = is_module(j)   ? PairKind::squares
               : is_module(i) ? PairKind::square_disc
                              : PairKind::discs;
-  near.order_a = i, near.order_b = j;
-  near.inner_a = assemblies_->inner[i], near.inner_b = assemblies_->inner[j];
-  near.arm_a = place(i, near.ax, near.ay), near.arm_b = place(j, near.bx, near.by);
-  island_.add(near);
+  pair.order_a = i, pair.order_b = j;
+  pair.inner_a = assemblies_->inner[i], pair.inner_b = assemblies_->inner[j];
+  pair.arm_a = place(i, pair.ax, pair.ay), pair.arm_b = place(j, pair.bx, pair.by);
+  island_.add(pair);
 }
 
 void IslandBuilder::link_wall(int i) {
-  Near near;
-  near.b = local_[slot_of(i)];
-  near.kind = is_module(i) ? PairKind::wall_square : PairKind::wall_disc;
-  near.order_a = -1, near.order_b = i;
-  near.arm_b = place(i, near.bx, near.by);
-  island_.add(near);
+  ContactPair pair;
+  pair.b = local_[slot_of(i)];
+  pair.kind = is_module(i) ? PairKind::wall_square : PairKind::wall_disc;
+  pair.order_a = -1, pair.order_b = i;
+  pair.arm_b = place(i, pair.bx, pair.by);
+  island_.add(pair);
 }
 
 Vec2 IslandBuilder::centre_of(int body) const {

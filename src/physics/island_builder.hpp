@@ -27,8 +27,8 @@ class IslandBuilder {
 
   /// Forgets the island.
   void clear();
-  /// Adds an assembly; `promise` (m) as in Mover.
-  void enter(int slot, double promise);
+  /// Adds an assembly; `motion_bound` (m) as in Mover.
+  void enter(int slot, double motion_bound);
   bool has(int slot) const { return local_[slot] != 0; }
   /// Position of an assembly in slots() plus 1; 0 if it is not in the island.
   int index_of(int slot) const { return local_[slot]; }

@@ -33,11 +33,12 @@ void IslandStepper::run(Island& island, double h, std::int64_t most_work, Tallie
   if (deepest > kSlop) deepest = keep_good(island, deepest, deepest, tallies);
   island.accept(0);
   for (double left = h; left > 0 && island.work <= most_work;) {
-    const Pace pace = island.pace(left);
-    const double part = pace.longest < left ? left / (std::floor(left / pace.longest) + 1) : left;
-    const bool free = pace.free_time >= part;
-    const double step = free ? std::min(pace.free_time, left) : part;
-    const double margin = kReach * pace.fastest * step + kReachSpare;
+    const StepLimits limits = island.step_limits(left);
+    const double part =
+        limits.longest < left ? left / (std::floor(left / limits.longest) + 1) : left;
+    const bool free = limits.free_time >= part;
+    const double step = free ? std::min(limits.free_time, left) : part;
+    const double margin = kReach * limits.fastest * step + kReachSpare;
     const bool met = !free && solver_.approach(island, margin, step);
     island.move(step);
     if (met) solver_.rebound(island, step);

@@ -70,8 +70,8 @@ void Motion::Impl::gather_course(int root) {
 void Motion::Impl::gather_around(int i, double h) {
   const Assemblies& a = *assemblies;
   const int slot = builder.slot_of(i);
-  const double promise = bound[slot] + extra, size = builder.size_of(i);
-  const double room = size + promise + kLinkSpare;
+  const double motion_bound = bound[slot] + extra, size = builder.size_of(i);
+  const double room = size + motion_bound + kLinkSpare;
   if (!within(a.x[i], a.y[i], model->tank.radius - room)) builder.link_wall(i);
   const double needed = room + extra + 3 * way + largest;
   if (needed > neighbours.distance()) search(needed);
@@ -80,7 +80,7 @@ void Motion::Impl::gather_around(int i, double h) {
     if (other == slot) return;
     look_at(other, h);
     if (slots[other].gathered) return;
-    const double apart = builder.gap(i, j).size - promise - bound[other] - extra;
+    const double apart = builder.gap(i, j).size - motion_bound - bound[other] - extra;
     if (apart > 0 && clearance(i, j, h) > kLinkSpare) return;
     if (!builder.has(other)) builder.enter(other, bound[other] + extra);
     builder.link(i, j);

@@ -24,7 +24,7 @@ inline bool within(double x, double y, double radius) {
 enum class Way : std::uint8_t {
   free,    // by its twist; meets nothing
   course,  // in an island of those that would meet on their courses; strayed by a known amount
-  wide,    // in an island of all that could be reached, within its promise
+  wide,    // in an island of all that could be reached, within its motion_bound
 };
 
 // A step is cut into slices, short enough that one search for neighbours serves a slice; one slice

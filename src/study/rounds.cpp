@@ -13,8 +13,8 @@ bool narrow_enough(const StoppingRule& rule, const std::vector<const RunRow*>& f
 
 }  // namespace
 
-Wanted wanted_replicates(const StudyPlan& plan, int setting,
-                         const std::vector<const RunRow*>& rows) {
+RequiredRuns required_replicates(const StudyPlan& plan, int setting,
+                                 const std::vector<const RunRow*>& rows) {
   if (!plan.stop) return {plan.replicates, true};
   const StoppingRule& rule = *plan.stop;
   const double duration = plan.settings[static_cast<std::size_t>(setting)].duration;

@@ -6,15 +6,15 @@
 
 namespace lilytank {
 
-struct Wanted {
-  int replicates = 0;    ///< that many are wanted, at least
+struct RequiredRuns {
+  int replicates = 0;    ///< that many are required, at least
   bool decided = false;  ///< and no more
 };
 
 /// `rows`: a setting's runs by replicate, null where missing. Asks the stopping rule at `min`
 /// replicates and after every further round for as long as all of those are there; a function of
 /// these rows alone, whoever made them and when.
-Wanted wanted_replicates(const StudyPlan& plan, int setting,
-                         const std::vector<const RunRow*>& rows);
+RequiredRuns required_replicates(const StudyPlan& plan, int setting,
+                                 const std::vector<const RunRow*>& rows);
 
 }  // namespace lilytank

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "study/run_table.hpp"
 #include "study/row_text.hpp"
+#include "study/run_table.hpp"
 #include "study/run_world.hpp"
 #include "study/study_directory.hpp"
 
@@ -71,7 +71,7 @@ class Job {
         options_(&options),
         plan_(&study.plan()),
         identity_(plan_->identity()),
-        ledger_(*plan_),
+        run_table_(*plan_),
         writer_(options.out),
         meter_(*plan_, options) {}
 
@@ -86,11 +86,11 @@ class Job {
       if (plan_->stop && options_->shard.count > 1) read();  // what others did meanwhile
     }
     StudyResult result;
-    result.complete = ledger_.complete();
+    result.complete = run_table_.complete();
     result.stopped = stopped() && !missing_here().empty();
     result.waiting = !result.stopped && !decided();
     result.runs = meter_.runs();
-    result.failed = ledger_.failed();
+    result.failed = run_table_.failed();
     return result;
   }
 
@@ -101,18 +101,18 @@ class Job {
 
   bool decided() const {
     for (std::size_t s = 0; s < plan_->settings.size(); ++s) {
-      if (!ledger_.wanted(static_cast<int>(s)).decided) return false;
+      if (!run_table_.required(static_cast<int>(s)).decided) return false;
     }
     return true;
   }
 
   void read() {
     std::string foreign;
-    for (RunRow& row : read_rows(options_->out, *plan_, foreign)) ledger_.add(std::move(row));
+    for (RunRow& row : read_rows(options_->out, *plan_, foreign)) run_table_.add(std::move(row));
   }
 
   std::vector<RunPlace> missing_here() const {
-    std::vector<RunPlace> runs = ledger_.missing();
+    std::vector<RunPlace> runs = run_table_.missing();
     std::erase_if(runs, [&](const RunPlace& run) {
       return !options_->shard.holds(plan_->id_of(run.setting, run.replicate));
     });
@@ -129,7 +129,7 @@ class Job {
       writer_.write(row_line(world->row, identity_));
       meter_.finished(*world);
       const std::lock_guard hold(ledger_lock_);
-      ledger_.add(std::move(world->row));
+      run_table_.add(std::move(world->row));
     });
   }
 
@@ -137,7 +137,7 @@ class Job {
   const StudyOptions* options_;
   const StudyPlan* plan_;
   std::uint64_t identity_;
-  Ledger ledger_;
+  RunTable run_table_;
   std::mutex ledger_lock_;
   DirectoryLock lock_;
   RowWriter writer_;

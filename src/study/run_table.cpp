@@ -4,26 +4,26 @@
 
 namespace lilytank {
 
-Ledger::Ledger(const StudyPlan& plan) : plan_(&plan), rows_(plan.settings.size()) {}
+RunTable::RunTable(const StudyPlan& plan) : plan_(&plan), rows_(plan.settings.size()) {}
 
-void Ledger::add(RunRow row) {
+void RunTable::add(RunRow row) {
   auto& rows = rows_[static_cast<std::size_t>(row.setting)];
   const auto at = static_cast<std::size_t>(row.replicate);
   if (rows.size() <= at) rows.resize(at + 1);
   if (!rows[at]) rows[at] = std::make_unique<RunRow>(std::move(row));
 }
 
-Wanted Ledger::wanted(int setting) const {
+RequiredRuns RunTable::required(int setting) const {
   if (!plan_->stop) return {plan_->replicates, true};
   std::vector<const RunRow*> rows;
   for (const auto& row : rows_[static_cast<std::size_t>(setting)]) rows.push_back(row.get());
-  return wanted_replicates(*plan_, setting, rows);
+  return required_replicates(*plan_, setting, rows);
 }
 
-std::vector<RunPlace> Ledger::missing() const {
+std::vector<RunPlace> RunTable::missing() const {
   std::vector<RunPlace> places;
   for (std::size_t s = 0; s < rows_.size(); ++s) {
-    const auto n = static_cast<std::size_t>(wanted(static_cast<int>(s)).replicates);
+    const auto n = static_cast<std::size_t>(required(static_cast<int>(s)).replicates);
     for (std::size_t r = 0; r < n; ++r) {
       const bool there = r < rows_[s].size() && rows_[s][r];
       if (!there) places.push_back({static_cast<int>(s), static_cast<int>(r)});
@@ -34,17 +34,17 @@ std::vector<RunPlace> Ledger::missing() const {
   return places;
 }
 
-bool Ledger::complete() const {
+bool RunTable::complete() const {
   for (std::size_t s = 0; s < rows_.size(); ++s) {
-    if (!wanted(static_cast<int>(s)).decided) return false;
+    if (!required(static_cast<int>(s)).decided) return false;
   }
   return missing().empty();
 }
 
-std::vector<const RunRow*> Ledger::wanted_rows() const {
+std::vector<const RunRow*> RunTable::required_rows() const {
   std::vector<const RunRow*> out;
   for (std::size_t s = 0; s < rows_.size(); ++s) {
-    const auto n = static_cast<std::size_t>(wanted(static_cast<int>(s)).replicates);
+    const auto n = static_cast<std::size_t>(required(static_cast<int>(s)).replicates);
     for (std::size_t r = 0; r < std::min(n, rows_[s].size()); ++r) {
       if (rows_[s][r]) out.push_back(rows_[s][r].get());
     }
@@ -52,8 +52,8 @@ std::vector<const RunRow*> Ledger::wanted_rows() const {
   return out;
 }
 
-int Ledger::failed() const {
-  const auto rows = wanted_rows();
+int RunTable::failed() const {
+  const auto rows = required_rows();
   return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RunRow* row) {
     return row->status == RunStatus::diverged;
   }));

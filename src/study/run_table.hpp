@@ -1,4 +1,4 @@
-// Which runs of a study there are, and which are still wanted.
+// The finished runs of a study, and those still to be made.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,20 +12,21 @@ struct RunPlace {
   int setting = 0, replicate = 0;
 };
 
-class Ledger {
+/// Rows of finished runs by setting and replicate.
+class RunTable {
  public:
-  explicit Ledger(const StudyPlan& plan);
+  explicit RunTable(const StudyPlan& plan);
 
-  /// Takes a row in, unless it is there already.
+  /// Adds a row; a second one of the same run is ignored.
   void add(RunRow row);
-  /// What is wanted of a setting, from the rows of now.
-  Wanted wanted(int setting) const;
-  /// Wanted runs that are not there, replicate by replicate, so that all settings grow together.
+  /// Replicates that a setting requires, given the present rows.
+  RequiredRuns required(int setting) const;
+  /// Required runs without a row, replicate by replicate, so that all settings grow together.
   std::vector<RunPlace> missing() const;
-  /// Every setting is decided and nothing is missing.
+  /// Whether every setting is decided and every required run has a row.
   bool complete() const;
-  /// The rows below what is wanted of their setting, by setting and replicate.
-  std::vector<const RunRow*> wanted_rows() const;
+  /// Rows of required runs, by setting and replicate.
+  std::vector<const RunRow*> required_rows() const;
   /// Diverged runs among them.
   int failed() const;
 

@@ -60,12 +60,12 @@ bool over(EarlyEnd early, const World& world, const AssemblyRecord& record) {
   const auto reached = static_cast<int>(record.completion_times().size());
   if (reached < record.possible_copies()) return false;
   if (awaits_another_target(world)) return false;
-  return early == EarlyEnd::completed || settled(world, record);
+  return early == EarlyEnd::completed || is_final(world, record);
 }
 
 }  // namespace
 
-bool settled(const World& world, const AssemblyRecord& record) {
+bool is_final(const World& world, const AssemblyRecord& record) {
   if (record.copies() < record.possible_copies()) return false;
   const State& state = world.state();
   for (int module = 0; module < world.model().module.count; ++module) {

@@ -38,6 +38,6 @@ std::optional<WorldRun> run_world(const Study& study, int setting, int replicate
 
 /// Whether all possible copies stand and no rule with p > 0 of any of the model's rulesets can
 /// undo, relabel or add to one of their modules' bonds.
-bool settled(const World& world, const AssemblyRecord& record);
+bool is_final(const World& world, const AssemblyRecord& record);
 
 }  // namespace lilytank

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "study/run_table.hpp"
 #include "study/row_text.hpp"
+#include "study/run_table.hpp"
 #include "study/study_directory.hpp"
 #include "study/study_record.hpp"
 #include "study/study_rows.hpp"
@@ -57,23 +57,23 @@ StoredStudy load_study(const std::string& dir) {
 StoredStudy load_study(const std::string& dir, const StudyPlan& plan) {
   StoredStudy out;
   out.plan = plan;
-  Ledger ledger(out.plan);
+  RunTable run_table(out.plan);
   std::string foreign;
-  for (RunRow& row : read_rows(dir, out.plan, foreign)) ledger.add(std::move(row));
+  for (RunRow& row : read_rows(dir, out.plan, foreign)) run_table.add(std::move(row));
   if (!foreign.empty()) throw InputError("'" + foreign + "' holds rows of another study");
   out.table = {out.plan.name, out.plan.axes, {}, out.plan.horizon(), {}};
   for (std::size_t s = 0; s < out.plan.settings.size(); ++s) {
-    const Wanted wanted = ledger.wanted(static_cast<int>(s));
+    const RequiredRuns required = run_table.required(static_cast<int>(s));
     out.table.labels.push_back(out.plan.settings[s].label);
-    out.counts.push_back({0, 0, wanted.replicates, wanted.decided});
+    out.counts.push_back({0, 0, required.replicates, required.decided});
   }
-  for (const RunRow* row : ledger.wanted_rows()) {
+  for (const RunRow* row : run_table.required_rows()) {
     StoredStudy::Count& count = out.counts[static_cast<std::size_t>(row->setting)];
     ++count.done;
     if (row->status == RunStatus::diverged) ++count.failed;
     out.table.rows.push_back(*row);
   }
-  out.complete = ledger.complete();
+  out.complete = run_table.complete();
   return out;
 }
 

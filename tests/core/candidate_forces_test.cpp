@@ -163,12 +163,12 @@ TEST(CandidateForces, StreamsByHand) {
   EXPECT_NEAR(left.fy, model.module.mass * 0.05, 1e-15);
   // A module 2 cm behind another misses a share of the stream, one beside it hardly any.
   MovingBodies row = pair_of(0.05);
-  Stirred lee = stirred(model, row, force("wake_shielding", {0.5, 0.05, 0.02}), {});
-  EXPECT_NEAR(lee.x[1], -0.5 * std::exp(-1) * 0.2, 1e-9);
-  EXPECT_EQ(lee.x[0], 0);
+  Stirred wake = stirred(model, row, force("wake_shielding", {0.5, 0.05, 0.02}), {});
+  EXPECT_NEAR(wake.x[1], -0.5 * std::exp(-1) * 0.2, 1e-9);
+  EXPECT_EQ(wake.x[0], 0);
   row.x = {0, 0}, row.y = {0, 0.1};
-  lee = stirred(model, row, force("wake_shielding", {0.5, 0.05, 0.02}), {});
-  EXPECT_EQ(lee.x[1], 0);
+  wake = stirred(model, row, force("wake_shielding", {0.5, 0.05, 0.02}), {});
+  EXPECT_EQ(wake.x[1], 0);
 }
 
 // However many stand before it, a module misses no more than the whole stream.
@@ -179,12 +179,12 @@ TEST(CandidateForces, ARowOfModulesTurnsNoStreamAbout) {
     const auto k = static_cast<std::size_t>(i);
     row.x[k] = 0.037 * i, row.y[k] = 0, row.c[k] = 1, row.s[k] = 0, row.omega[k] = 0;
   }
-  const Stirred lee = stirred(model, row, force("wake_shielding", {1, 0.08, 0.02}), {});
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_GE(lee.x[i], -0.2 - 1e-12) << i;
-  EXPECT_NEAR(lee.x[5], -0.2, 1e-12);
+  const Stirred wake = stirred(model, row, force("wake_shielding", {1, 0.08, 0.02}), {});
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_GE(wake.x[i], -0.2 - 1e-12) << i;
+  EXPECT_NEAR(wake.x[5], -0.2, 1e-12);
 }
 
-// A layer and a lee take a share of the water that there is, whatever the pumps do.
+// A layer and a wake take a share of the water that there is, whatever the pumps do.
 TEST(CandidateForces, WhatSlowsTheWaterSlowsAsMuchAsPumpsMove) {
   Model model = uniform(0.2);
   MovingBodies b = lone();

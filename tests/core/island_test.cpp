@@ -35,7 +35,7 @@ void add_square(Island& island, const Pose& pose, double mass, double omega, con
   m.pose = m.good = m.start = pose;
   m.mass = mass, m.inertia = mass * 35e-3 * 35e-3 / 6;
   m.inv_mass = 1 / m.mass, m.inv_inertia = 1 / m.inertia;
-  m.reach = 35e-3 * std::sqrt(0.5), m.promise = 0.1;
+  m.reach = 35e-3 * std::sqrt(0.5), m.motion_bound = 0.1;
   m.twist = {drift.vx - omega * pose.y, drift.vy + omega * pose.x, omega};
 }
 
@@ -49,12 +49,12 @@ TEST(Island, APairThatMovesAsOneMayBePushed) {
     const auto u = [&](std::uint32_t which) { return lilytank::testing::uniform_at(77, i, which); };
     const double apart = 35e-3 - kPushTo - 1e-14 * std::pow(1e9, u(0)), omega = 4 * u(1) - 2;
     const Twist drift{u(2) - 0.5, u(3) - 0.5, 0};
-    Near near;
-    near.a = 1, near.b = 2, near.order_a = 0, near.order_b = 1;
-    near.bx = 0.12 * u(4) - 0.06, near.by = 0.12 * u(5) - 0.06;
+    ContactPair pair;
+    pair.a = 1, pair.b = 2, pair.order_a = 0, pair.order_b = 1;
+    pair.bx = 0.12 * u(4) - 0.06, pair.by = 0.12 * u(5) - 0.06;
     add_square(island, {0, 0, {1, 0}}, 0.07, omega, drift);
-    add_square(island, {apart - near.bx, 0.02 * u(6) - near.by, {1, 0}}, 0.245, omega, drift);
-    island.add(near);
+    add_square(island, {apart - pair.bx, 0.02 * u(6) - pair.by, {1, 0}}, 0.245, omega, drift);
+    island.add(pair);
     island.survey();
     const Momenta before = momenta(island);
     island.push_apart(3);

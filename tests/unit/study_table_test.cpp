@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "lilytank/run.hpp"
-#include "study/run_table.hpp"
 #include "study/row_text.hpp"
+#include "study/run_table.hpp"
 #include "support/study_rig.hpp"
 
 namespace lilytank {
@@ -208,26 +208,26 @@ TEST_F(StudyTableTest, TheStoppingRuleLooksAtItsRoundsOnly) {
           "min = 3\nmax = 9\nround = 2\n")
           .plan();
   const auto wanted = [&](const std::vector<int>& copies, int missing = -1) {
-    Ledger ledger(plan);
+    RunTable run_table(plan);
     std::vector<RunRow> rows = rows_of(plan, copies);
     std::reverse(rows.begin(), rows.end());  // the order does not matter
     for (RunRow& row : rows) {
-      if (row.replicate != missing) ledger.add(row);
+      if (row.replicate != missing) run_table.add(row);
     }
-    const Wanted w = ledger.wanted(0);
+    const RequiredRuns w = run_table.required(0);
     return std::pair(w.replicates, w.decided);
   };
-  EXPECT_EQ(wanted({}), std::pair(3, false));
-  EXPECT_EQ(wanted({1, 1}), std::pair(3, false));
-  EXPECT_EQ(wanted({1, 1, 1}), std::pair(5, false));  // others may have other numbers: 1.06
-  EXPECT_EQ(wanted({1, 1, 1, 1, 1}), std::pair(5, true));
-  EXPECT_EQ(wanted({0, 3, 1}), std::pair(5, false));  // too wide at 3: half width 3.8
-  EXPECT_EQ(wanted({0, 3, 1, 1}), std::pair(5, false));
+  EXPECT_EQ(required({}), std::pair(3, false));
+  EXPECT_EQ(required({1, 1}), std::pair(3, false));
+  EXPECT_EQ(required({1, 1, 1}), std::pair(5, false));  // others may have other numbers: 1.06
+  EXPECT_EQ(required({1, 1, 1, 1, 1}), std::pair(5, true));
+  EXPECT_EQ(required({0, 3, 1}), std::pair(5, false));  // too wide at 3: half width 3.8
+  EXPECT_EQ(required({0, 3, 1, 1}), std::pair(5, false));
   // With five, 1.36; with seven, 0.85.
-  EXPECT_EQ(wanted({0, 3, 1, 1, 1, 1, 1}), std::pair(7, true));
-  EXPECT_EQ(wanted({0, 3, 1, 1, 1, 1, 1, 0, 3}), std::pair(7, true));  // later rows do not count
-  EXPECT_EQ(wanted({0, 3, 1, 1, 1, 1, 1, 0, 3}, 2), std::pair(3, false));
-  EXPECT_EQ(wanted({0, 3, 0, 3, 0, 3, 0}), std::pair(9, true));  // the most there may be
+  EXPECT_EQ(required({0, 3, 1, 1, 1, 1, 1}), std::pair(7, true));
+  EXPECT_EQ(required({0, 3, 1, 1, 1, 1, 1, 0, 3}), std::pair(7, true));  // later rows do not count
+  EXPECT_EQ(required({0, 3, 1, 1, 1, 1, 1, 0, 3}, 2), std::pair(3, false));
+  EXPECT_EQ(required({0, 3, 0, 3, 0, 3, 0}), std::pair(9, true));  // the most there may be
 }
 
 TEST_F(StudyTableTest, RunsBeyondTheStoppingRuleAreLeftOut) {
