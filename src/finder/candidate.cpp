@@ -18,8 +18,8 @@ EffectCandidate candidate_of(const Whitening& whitening, const Fingerprint& fing
                              int shape) {
   EffectCandidate out;
   out.effect = effect, out.shape = shape, out.source = fingerprint;
-  // A residual has deviation one; fingerprints about found amplitudes are known with a slope as
-  // well, and their base is a mean.
+  // Residuals have unit variance; a fingerprint about estimated amplitudes has the errors of its
+  // slope and of its mean as well.
   const auto n = static_cast<double>(std::max(1, fingerprint.experiments));
   const auto kept = [&](const Matrix& of, double e) {
     Matrix clear = of.unaryExpr([=](double v) { return std::fabs(v) < kNoisy * e ? 0.0 : v; });

@@ -93,8 +93,9 @@ void Diagnoser::prepare(double after) {
     effects += budget_.experiments * static_cast<double>(e.paths.size());
   }
   stages_.expect(2 * budget_.centre + budget_.nulls + effects + after);
-  // Points about the answer before, until the answer stays among them. They begin where the
-  // experiment's model is: a search would lead to where a baseline imitates what it lacks.
+  // Designs are centred at the last estimate until the next estimate lies among their points. They
+  // start at the experiment's model: a global search would find a baseline that imitates an omitted
+  // effect.
   const Vector range = bounds.high - bounds.low;
   Centre now{stages_.to_scale(setup_.start), kFirstSpread / kWiderThanError * range, false};
   for (int round = 1; round <= kMostCentres && !now.settled; ++round) {
@@ -166,8 +167,8 @@ std::string Diagnoser::identity() const {
   return "23 " + hex(setup_.identity) + " " + shortest(options_.minutes);
 }
 
-// The parameters of the baseline that whole experiments say, and their errors, by points about the
-// answer before that are scattered as widely as its errors ask for.
+// The baseline's parameters and their errors from whole experiments, simulated about the last
+// estimate in proportion to its errors.
 Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const FlowMaps& maps,
                                        const FitBounds& bounds) {
   const Vector range = bounds.high - bounds.low;
@@ -182,7 +183,7 @@ Diagnoser::Centre Diagnoser::centre_of(const Centre& before, int round, const Fl
   const std::vector<double> numbers = setup_.numbers(setup_.training);
   FitBounds near = bounds;
   near.reach = kAnswerReach;
-  // What the baseline does not explain must not push its parameters about.
+  // Statistics that the baseline does not explain must not move its parameters.
   const MapEstimate known =
       model.fit(Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size())),
                 near, {stages_.to_scale(setup_.start), kPrior * range});

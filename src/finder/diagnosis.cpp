@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kMostMissing = 0.1;  // share of unseen frames beyond which cameras are at fault
 
-// In how many body frames of a recording a body should have been seen. Of Lilies all frames count,
-// holes that cut tracks as well as those within, for as many bodies as one frame of a hundred or
-// more shows: one that a tracker makes up now and then is none. Balls may come and go.
+// Expected number of detections in a recording: for Lilies, frames times the number of bodies that
+// at least 1 % of the frames show (fewer is a spurious track), gaps included; balls may come and
+// go.
 double expected_sightings(const Recording& r, std::vector<int> seen) {
   double all = 0;
   if (r.body != BodyKind::lily) {
@@ -29,7 +29,7 @@ double expected_sightings(const Recording& r, std::vector<int> seen) {
   return static_cast<double>(*at) * r.frames;
 }
 
-// Of Lilies or of balls, whichever were seen less.
+// Share of missed detections: the larger one of Lilies and balls.
 double unseen_share(const Experiment& experiment) {
   double worst = 0;
   for (const bool lilies : {true, false}) {
@@ -45,7 +45,7 @@ double unseen_share(const Experiment& experiment) {
   return worst;
 }
 
-// Faults of the camera and the tracker: named as such, and no force is looked for behind them.
+// Faults of the camera and the tracker; recordings with faults are not searched for forces.
 bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
   constexpr int kListed = 1;  // of each kind in each file; `lilytank recording check` lists all
   out.checks = finding_texts(experiment.findings, kListed);
@@ -74,7 +74,7 @@ bool recordings_at_fault(const Experiment& experiment, Diagnosis& out) {
   return !out.findings.empty();
 }
 
-// Of recordings that no model is calibrated to.
+// Identity of recordings without a calibration.
 std::string identity_of(const Experiment& experiment) {
   Fnv hash;
   hash.add(std::to_string(experiment.base.identity));

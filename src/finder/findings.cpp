@@ -1,4 +1,4 @@
-// What a diagnosis reports: findings, maps, ranking, smallest sizes.
+// Results of a diagnosis: findings, maps, ranking, smallest detectable sizes.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,7 +16,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kSame = 4;  // gains that differ by less do not distinguish effects
 
-// A curve's variable before its value.
+// Words for a curve's variable, followed by its value.
 std::string place_words(const std::string& variable) {
   static const std::map<std::string, std::string> kWords = {
       {"radius", "a distance from the centre of"},
@@ -80,7 +80,7 @@ void Diagnoser::report_detectable(const ModelSelection& selection, Diagnosis& ou
   }
 }
 
-// The map in which a finding shows most.
+// The map with the largest z for a variable.
 const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
   const FoundCurve* best = nullptr;
   for (std::size_t s = 0; s < out.maps.size(); ++s) {
@@ -114,7 +114,7 @@ void Diagnoser::report_where(const FoundCurve& curve, DiagnosisFinding& f) const
   f.text = text;
 }
 
-// Whether an effect of its family is a finding itself.
+// Whether the findings include an effect of the same family.
 bool Diagnoser::is_reported(const SelectedModel& e, const Effect& one) const {
   return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
     return fit.effect >= 0 && effect(fit).family == one.family;
@@ -162,7 +162,7 @@ void Diagnoser::report_findings(const ModelSelection& selection, const Vector& r
   }
 }
 
-// Findings that leave more than a complete experiment has, and no name for the rest.
+// Warns where the findings leave a significant remainder without a name.
 void Diagnoser::warn_of_rest(const SelectedModel& e, Diagnosis& out) const {
   std::string text = "the remaining discrepancy exceeds that of null experiments";
   if (e.left_shape.z > out.shape_threshold) {
@@ -173,7 +173,7 @@ void Diagnoser::warn_of_rest(const SelectedModel& e, Diagnosis& out) const {
   out.warnings.push_back(text + ": another effect may be omitted, or a law has another form");
 }
 
-// Names that leave most of the mismatch are not reported as findings.
+// Withdraws findings that leave most of the mismatch unexplained.
 void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
   std::string names;
   for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
@@ -184,7 +184,7 @@ void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
   out.verdict = Verdict::undecided, out.findings.clear();
 }
 
-// Where the camera is at fault, what else was found may be its shadow: forces are not reported.
+// Reports no forces where the camera is faulty: they may be artefacts of the fault.
 void Diagnoser::blame_camera(const SelectedModel& e, Diagnosis& out) const {
   std::vector<DiagnosisFinding> faults;
   for (std::size_t i = 0; i < e.found.size(); ++i) {

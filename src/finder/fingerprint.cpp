@@ -23,7 +23,7 @@ double Fingerprint::noise_at(const Vector& amplitudes) const {
 
 Vector Fingerprint::moved(const Vector& amplitudes) const {
   if (local()) return moved_base;
-  // Beyond the sizes it was learned at, calibration soon cannot follow any more.
+  // Beyond the sizes at which it was measured, the shift of the parameters saturates.
   return moved_first * amplitudes * std::min(1.0, kLearnedSize / amplitudes.cwiseAbs().maxCoeff());
 }
 

@@ -1,4 +1,4 @@
-// An effect as direct estimates from recordings have it: where its experiments are simulated.
+// An effect at the direct estimates of its parameters, at which its experiments are simulated.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -53,7 +53,7 @@ Effect Diagnoser::found_effect(const EffectFit& f, const ScoreDetails& details) 
   return out;
 }
 
-// Experiments with pumps of nearly one frequency serve each other.
+// Nearly equal pulsation frequencies share their experiments.
 std::string Diagnoser::stage_name(const EffectFit& f, const ScoreDetails& details) const {
   if (f.effect < 0) return "shape " + std::to_string(f.shape);
   const std::string out = "effect " + std::to_string(f.effect);

@@ -23,16 +23,17 @@ using Vector = Eigen::VectorXd;
 constexpr int kMostRounds = 5;
 constexpr double kSettled = 1;       // deviations of the design
 constexpr double kJointReach = 2.5;  // likewise, that an answer may be off
-// Designs, in an answer's errors, of which slopes would else be noise, and in parameters' ranges.
+// Widths of designs in errors of the estimate (narrower ones have noisy slopes), and their bound as
+// a share of the parameters' ranges.
 constexpr double kJointWiderThanError = 1.5, kJointWideEnough = 0.67, kMostJointSpread = 0.1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kChecks = 60;       // experiments at the answer
 constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
-// Summary, named scores, and those of the curves that are fitted, the scores by their deviations;
-// those of effects without the correlations that they should have, so that few simulations need not
-// estimate these.
+// Statistics of the joint fit: summary, named scores, and scores of the fitted curves,
+// standardised. Scores of effects are decorrelated by their expected correlations, which few
+// simulations could not estimate.
 class Numbers {
  public:
   Numbers(const ReferenceEnsemble& ensemble, const std::vector<JointEffect>& effects)
@@ -73,7 +74,7 @@ class Joint {
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
   Design simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
-    // Kept by what is simulated: another start of the same recordings is another set.
+    // The cache key covers the start of the fit, too.
     Fnv place;
     for (const FitParameter& p : fit_.parameters) place.add(p.path);
     place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
@@ -115,7 +116,7 @@ Vector vector_of(const std::vector<double>& of) {
   return Eigen::Map<const Vector>(of.data(), static_cast<Eigen::Index>(of.size()));
 }
 
-// More simulations below those that there are.
+// Appends the rows of `more`.
 void append(const Design& more, Design& all) {
   if (all.points.size() == 0) {
     all = more;
@@ -128,7 +129,7 @@ void append(const Design& more, Design& all) {
   all.numbers.bottomRows(more.points.rows()) = more.numbers;
 }
 
-// Simulations of all rounds that are about the centre.
+// Simulations of all rounds within the design about the centre.
 Design about(const Design& all, const Vector& centre, const Matrix& width) {
   if (all.points.size() == 0) return all;
   std::vector<Eigen::Index> near;
@@ -142,9 +143,9 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
   return {all.points(near, Eigen::all), all.numbers(near, Eigen::all)};
 }
 
-// The answer by experiments simulated where it is, estimated as the data were. Those of a design
-// scatter more: slopes' errors and laws that are not straight move estimates of what is far from
-// its centre, and the data are not far.
+// Errors of the estimate from experiments simulated at it and estimated as the data were.
+// Experiments of the design scatter more, as errors of slopes and nonlinearity grow with the
+// distance from its centre.
 ParameterEstimate checked(const InverseRegression& last, const Vector& at, const Matrix& numbers,
                           const Prior& prior) {
   Matrix estimates(numbers.rows(), at.size());
@@ -152,8 +153,7 @@ ParameterEstimate checked(const InverseRegression& last, const Vector& at, const
     estimates.row(i) = last.by_others.of(numbers.row(i).transpose()).point.transpose();
   }
   Line line = line_through(Matrix::Zero(estimates.rows(), at.size()), estimates);
-  // Of few experiments the inverse of a covariance is too large [Hartlap, Simon and Schneider
-  // 2007].
+  // The inverse covariance of few experiments is biased [Hartlap, Simon and Schneider 2007].
   const auto n = static_cast<double>(estimates.rows()), p = static_cast<double>(at.size());
   line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
   line.freedom = std::max(1.0, n - 1 - p);
@@ -172,8 +172,8 @@ void set_interval(const ParameterEstimate& answer, JointFit& fit) {
   }
 }
 
-// The next design: about the answer, as far as this one reaches, and as wide as the answer's errors
-// ask for. True if it is where this one is.
+// Moves the design to the estimate, within its own bounds, with a width in proportion to the
+// errors. True if it was there already.
 bool settled(const ParameterEstimate& answer, const FitBounds& bounds, Vector& centre,
              Matrix& width) {
   const Vector reach = kJointReach * width.diagonal();
@@ -189,7 +189,7 @@ bool settled(const ParameterEstimate& answer, const FitBounds& bounds, Vector& c
   return false;
 }
 
-// Rounds of simulations, each about the answer of the one before.
+// Rounds of simulations, each about the estimate of the last one.
 class Rounds {
  public:
   Rounds(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
@@ -235,8 +235,8 @@ class Rounds {
     all_ = {};
   }
 
-  // Of the baseline what the experiment says, of amplitudes what the selection did; of ranges,
-  // times and places nothing but where the design is. Never surer than the design's points.
+  // Prior of the joint fit: the calibration for the baseline, the selection for amplitudes, the
+  // first design for ranges, times and places; never narrower than the design.
   Prior known_before() const {
     Prior out{centre_, (kPrior * (bounds_.high - bounds_.low)).cwiseMin(known_)};
     out.deviation = out.deviation.cwiseMax(width_.diagonal());
@@ -255,10 +255,10 @@ class Rounds {
     return checked(last, at, made.numbers, known_before());
   }
 
-  // Of all rounds, those that are about the centre.
+  // Simulations of all rounds about the centre.
   Design simulated(int k) {
     const std::uint64_t seed = derived_seed(rounds_.seed, static_cast<std::uint64_t>(k));
-    // Where rounds before have been as well, fewer will do.
+    // Earlier rounds at the same place reduce the number of new simulations.
     const bool known_ground = 2 * about(all_, centre_, width_).points.rows() >= rounds_.count;
     const int count = known_ground ? static_cast<int>(kLater * rounds_.count) : rounds_.count;
     append(joint_->simulate("joint " + rounds_.tag + " " + std::to_string(k),
@@ -267,7 +267,7 @@ class Rounds {
     return about(all_, centre_, width_);
   }
 
-  // Whether the data no longer support an effect; the fit then begins again without it.
+  // Whether the data no longer support an effect; the fit then restarts without it.
   bool drops_one(const Design& design, const Prior& prior) {
     FitBounds near = bounds_;
     near.reach = kJointReach;

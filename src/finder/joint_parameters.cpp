@@ -13,14 +13,13 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Deviations of the first design: of what is refined, on its log scale, and of places.
+// Deviations of the first design: of refined parameters on a log scale, and of places.
 constexpr double kRefined = 0.25, kPlaced = 0.06;
-// Deviation of an effect's amplitudes about what the selection said, in their root mean square,
-// that holds before simulations of the joint fit say more: knots that hardly any module visits are
-// constrained by nothing else.
+// Prior deviation of an effect's amplitudes about those of the selection, in their root mean
+// square. Knots that modules rarely visit have no other constraint.
 constexpr double kNamed = 1;
 
-// Where the amplitudes of each effect begin among the parameters.
+// Index of each effect's first amplitude among the parameters.
 std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<JointEffect>& effects) {
   std::vector<Eigen::Index> out;
   auto at = static_cast<Eigen::Index>(stages.setup().parameters.size());
@@ -78,7 +77,7 @@ std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>
     }
     return out;
   };
-  // An effect's own covariance, applied backwards to how far it is from nothing.
+  // The inverse of an effect's covariance times its amplitudes.
   const auto weighed = [&](std::size_t e) -> Vector {
     return solve_symmetric(covariance.block(places[e], places[e], size(e), size(e)), off(e));
   };

@@ -1,4 +1,4 @@
-// What was found, fitted together with the baseline and shown on held-out recordings.
+// The joint fit of findings and baseline, and its test on held-out recordings.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr double kMovedError = 0.3;  // share by which such a displacement may be wrong
 
-// The members of a list with these numbers, which ascend.
+// The elements of a list at ascending indices.
 template <class T>
 void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
   std::vector<T> out;
@@ -25,7 +25,7 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& list) {
   list = std::move(out);
 }
 
-// The model with what was found, for the experiment's tank.
+// Overlay with the fitted model for the experiment's tank.
 std::string overlay_of(const CalibrationSetup& setup, const std::vector<JointEffect>& found,
                        const Diagnosis& d) {
   std::vector<std::string> fitted;
@@ -61,7 +61,7 @@ std::vector<double> Diagnoser::report_baseline(const Judged& judged, Diagnosis& 
     p.baseline = p.with_effects = alone[i];
     p.deviation = deviation_(static_cast<Eigen::Index>(i));
   }
-  // Where the baseline does not explain the recordings, nobody knows how far off it is.
+  // Where the baseline does not explain the recordings, its bias is unknown.
   if (out.verdict != Verdict::complete) return alone;
   const FitBounds bounds = stages_.bounds();
   const ParameterEstimate posterior = ensemble_->posterior(
@@ -88,7 +88,7 @@ void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording
     return;
   }
   std::vector<JointEffect> found;
-  // Where the effects left the baseline, less how far they had moved it.
+  // The calibrated baseline less the effects' shift of it.
   Vector moved = Vector::Zero(baseline.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
@@ -159,7 +159,7 @@ void Diagnoser::report_parameters(const JointFit& fit, const std::vector<JointEf
   out.overlay = overlay_of(setup_, found, out);
 }
 
-// `baseline`: what calibrating it to these very recordings says.
+// `baseline`: its calibration to these recordings.
 void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, const Vector& baseline,
                      const std::vector<Recording>& recordings, Diagnosis& out) {
   std::vector<RecordingShape> shapes;
@@ -180,8 +180,8 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, con
     kept.push_back(paths[i]), values.push_back(fit.value[i]);
   }
   const Model after = with_parameters(fit.model, kept, values);
-  // Against the better of two baselines: where an effect is strong, a calibration that does not
-  // know it can be worse than none.
+  // Compared with the better of two baselines: under a strong omitted effect a calibration can be
+  // worse than the start.
   const auto gain_over = [&](const Model& without) {
     return step_gain(without, after, ensemble_->plan().predictor, recordings);
   };

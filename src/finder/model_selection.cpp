@@ -12,10 +12,11 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Of an effect's sizes: below a tenth of what was learned, a claim would be a guess.
+// Smallest amplitude tested, relative to the size of the fingerprint's experiments; smaller ones
+// would be an extrapolation by more than ten.
 constexpr double kLeastTried = 0.1, kTriedStep = 1.03;
-// Shares of a distance that a model may not leave: where something remains, and where that is as
-// many times what nulls have.
+// Largest unexplained share of the mismatch: where a remainder is significant, and where it exceeds
+// kFarBeyond times that of nulls.
 constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFarBeyond = 2;
 
 void strongest_first(std::vector<EffectFit>& fits) {
@@ -23,14 +24,14 @@ void strongest_first(std::vector<EffectFit>& fits) {
                    [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
 }
 
-// Every candidate anew, by a whitening that has changed.
+// Recomputes every candidate after a change of the whitening.
 void whiten_by(Whitening whitening, SelectionState& state) {
   state.whitening = std::move(whitening);
   for (EffectCandidate& c : state.candidates) c = renewed(c, state.whitening, c.source);
 }
 
-// Deviations of a residual in which nulls and the fingerprint's own noise have a length as well:
-// that of nulls, by a covariance that did not know them.
+// Length of a residual relative to that of nulls and of the fingerprint's noise; nulls are whitened
+// by a covariance estimated without them.
 double length(const SelectionState& s, const EffectCandidate& of, const Vector& residual,
               double noise) {
   const double square = (s.whitening.whitener * residual.head(s.whitening.named)).squaredNorm();
@@ -129,8 +130,8 @@ double ModelSelection::baseline_misfit(const Vector& residual) const {
   return state_.whitening.misfit(residual);
 }
 
-// An effect is sought by its fingerprint, whose own noise hides some of it. Below the sizes at
-// which it was learned it vanishes as it grew.
+// The noise of a fingerprint reduces the detectable share of its effect. Below the sizes at which
+// it was measured it scales with the same power.
 double ModelSelection::smallest_detectable(int effect) const {
   const EffectCandidate& of = state_.candidates[place_of(state_.candidates, effect, -1)];
   const auto least = [&](const Vector& one) {
@@ -153,7 +154,7 @@ double ModelSelection::smallest_detectable(int effect) const {
 
 double ModelSelection::expected_z(int effect, const Vector& amplitudes) const {
   const EffectCandidate& of = state_.candidates[place_of(state_.candidates, effect, -1)];
-  // Second orders hold as far as they were learned, beyond that in proportion.
+  // Second-order terms hold within the measured sizes; beyond, they grow linearly.
   const double beyond = std::max(1.0, amplitudes.cwiseAbs().maxCoeff() / kLearnedSize);
   const Vector within = amplitudes / beyond;
   return beyond * length(state_, of, of.source.at(within), of.source.noise_at(within));

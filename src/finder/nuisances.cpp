@@ -34,8 +34,8 @@ struct Chebyshev {
   }
 };
 
-// Products of those of x and of y up to the degree, of places in the tank's radii, and what they
-// change by.
+// Products of the polynomials of x and of y (in radii of the tank) up to a total degree, and their
+// gradients.
 struct Polynomials {
   std::array<double, kTerms> value{}, by_x{}, by_y{};
   Polynomials(double x, double y) {
@@ -77,7 +77,7 @@ void push_nuisances(const Features& features, const Kinematics& k, std::size_t i
   const Wrench &along_x = features.by_x(i), &along_y = features.by_y(i);
   const Wrench& turned = features.by_turning(i);
   for (std::size_t t = 0; t < kTerms; ++t) {
-    // The water turns with half the curl of what is added.
+    // The rotation of the water is half the curl of its velocity.
     const double u = kStream * p.value[t];
     const double by_u = -0.5 * kStream * p.by_y[t] / R, by_v = 0.5 * kStream * p.by_x[t] / R;
     push((u * along_x.fx + by_u * turned.fx) / mass, (u * along_x.fy + by_u * turned.fy) / mass,
@@ -117,7 +117,7 @@ Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t s
   const Matrix fitted = least_squares(basis, off) * (model.flow.K_v / kStream);
   Matrix covariance = Matrix::Identity(static_cast<Eigen::Index>(nuisance_count()),
                                        static_cast<Eigen::Index>(nuisance_count()));
-  // Both axes of a term stand beside each other.
+  // Rows 2 t and 2 t + 1 are the two axes of term t.
   Matrix both(2 * terms, kDraws);
   for (Eigen::Index t = 0; t < terms; ++t) {
     both.row(2 * t) = fitted.row(t).head(kDraws);

@@ -28,7 +28,7 @@ struct NullGains {
   std::vector<double> misfits;                 // squared distance of the named statistics
 };
 
-// Rows of nulls that are not in a fold.
+// Null residuals without those of one fold.
 Matrix rows_outside(const Matrix& nulls, int fold) {
   const Eigen::Index n = nulls.rows();
   Matrix out(n - (n - fold + kNullFolds - 1) / kNullFolds, nulls.cols());
@@ -73,7 +73,7 @@ void calibrate_candidate(const EffectCandidate& of, const std::vector<Gains>& ga
   Gains mean;
   for (const Gains& g : gains) mean.named += g.named / n, mean.all += g.all / n;
   const Eigen::Index m = of.named.first.cols();
-  // Of amplitudes that cannot be negative half of the nulls gain nothing.
+  // An amplitude that cannot be negative is 0 in half of the nulls.
   const double freedom = static_cast<double>(m) * (of.named.two_sided ? 1 : 0.5);
   const double scale = std::max(kLeastScale, mean.named / freedom);
   const double scale_all = std::max(kLeastScale, mean.all / freedom);

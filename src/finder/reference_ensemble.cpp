@@ -24,17 +24,17 @@ using Vector = Eigen::VectorXd;
 constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
 constexpr int kEnsembleFolds = 8;
 constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
-// Of the design, about what was found: parameters are known better than what nulls are spread over.
+// Width of designs about a finding relative to that of nulls: its parameters are known better.
 constexpr double kNarrow = 0.6;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
 constexpr double kBend = 1;         // one over the square of a second order that is expected
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 constexpr double kFarOff = 100;     // deviations
-// Of a fingerprint about found amplitudes: one over the square of an error of the slopes that is
-// expected, and the degrees of freedom that a slope takes, being held so.
+// Ridge on the slopes of a fingerprint about estimated amplitudes (inverse of their expected
+// squared error), and the degrees of freedom that such a slope takes.
 constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
-// Of how an effect grows: of squares that chance has, by which it is clear, and of the amplitudes'
-// logarithms.
+// Power law of an effect's growth: significance over chance that it requires, least spread of the
+// logarithms of the amplitudes, and largest power.
 constexpr double kClearly = 0.5, kLeastScoreSpread = 0.03, kMostGrowth = 2.5;
 
 FitBounds within() {
@@ -43,8 +43,8 @@ FitBounds within() {
   return out;
 }
 
-// Scores less their mean at the parameters that the summary asks for, of every experiment by local
-// models that did not know it: as it will be with data.
+// Scores less their mean at the parameters estimated from the summary, cross-fitted: each
+// experiment by surfaces fitted without it, as for data.
 Matrix held_out_residuals(const Design& summaries, const Design& numbers, const Prior& prior) {
   Matrix out(numbers.numbers.rows(), numbers.numbers.cols());
   for (int fold = 0; fold < kEnsembleFolds; ++fold) {
@@ -63,8 +63,8 @@ Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// Amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs where it may have
-// both, and of several at once so that none is always there.
+// Random amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs if it is
+// two-sided; several components at once, none always present.
 Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
   Matrix out(count, m);
@@ -78,7 +78,7 @@ Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
   return out;
 }
 
-// Amplitudes about found ones, in pairs opposite each other.
+// Amplitudes about estimated ones, in antithetic pairs.
 Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
   Matrix out(count, amplitudes.size());
   for (int i = 0; i < count; ++i) {
@@ -91,7 +91,7 @@ Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t 
   return out.cwiseMax(two_sided ? -1e9 : 0);
 }
 
-// Power of the amplitudes with which the length of residuals grows, where it is clear.
+// Power of the amplitude with which the residuals grow; 1 where it is not significant.
 double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
   const auto numbers = static_cast<double>(residuals.cols());
   MeanSum x, y, xx, xy;
@@ -106,8 +106,8 @@ double growth_of(const Matrix& amplitudes, const Matrix& residuals) {
   return std::clamp((xy.mean() - x.mean() * y.mean()) / spread, 1.0, kMostGrowth);
 }
 
-// By the variance of what calibration is off, beside that of the parameters themselves: all of
-// theirs where it does not constrain them.
+// Share of the parameters' variance that calibration resolves: one less the ratio of the variance
+// of its errors to that of the parameters.
 Vector identifiable_share_by(const Matrix& points, const Matrix& off) {
   const auto variance = [](const Matrix& of) {
     return Vector((of.rowwise() - of.colwise().mean()).colwise().squaredNorm().transpose());
@@ -143,12 +143,12 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   null_residuals_ = held_out_residuals(summaries_, numbers, prior());
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
-  // Numbers that hardly ever vary would make a wonder of whatever varies them.
+  // A floor: statistics that almost never vary would make any change significant.
   for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
     if (deviation_(k) < kNeverVaries * std::max(size, 1e-3)) deviation_(k) = kNoWeight;
   }
-  // A knot that bodies hardly ever visit is known no better than its neighbours.
+  // A rarely visited knot has at least the deviation of its neighbours.
   for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
     auto knots = deviation_.segment(named_ + static_cast<Eigen::Index>(s) * kKnots, kKnots);
     std::vector<double> known;
@@ -229,8 +229,8 @@ Vector ReferenceEnsemble::residual(const Vectors& vectors) const {
   return residual_at(vectors.scores, calibrated(vectors.summary));
 }
 
-// What is a hundred deviations off is no further off for being a million: numbers that nulls hardly
-// ever vary must not outweigh all others.
+// Residuals saturate at 100 deviations, so that statistics with almost no variance among nulls do
+// not outweigh all others.
 Vector ReferenceEnsemble::residual_at(const Vector& scores, const Vector& point) const {
   const Vector off = scores - scores_->mean(point);
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
@@ -287,8 +287,8 @@ Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const std::stri
       answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
   Matrix x(made.amplitudes.rows(), 2 * m);
   x << made.amplitudes, made.amplitudes.array().square().matrix();
-  // Second orders are known worse: drawn towards nothing as far as noise goes, in units of which
-  // residuals are.
+  // A ridge of the residuals' unit noise variance on the second-order terms, which are less
+  // certain.
   Matrix normal = x.transpose() * x;
   for (Eigen::Index c = 0; c < m; ++c) normal(m + c, m + c) += kBend;
   const Matrix seen = solve_symmetric(normal, Matrix(x.transpose() * made.residuals));
@@ -321,7 +321,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
                                                  LearnedFingerprints& learned, int experiments) {
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
-  // What a calibration no longer identifies beside the effect stays where it is expected.
+  // Parameters that a calibration does not identify beside the effect keep their prior mean.
   const Vector away =
       from.identifiable_share.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
   const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
@@ -329,7 +329,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
     return known->fingerprint;
   }
-  // By what is simulated, not by the order of the calls.
+  // The key covers what is simulated, not the order of the calls.
   Fnv place;
   place.add(std::span(amplitudes.data(), static_cast<std::size_t>(m)));
   place.add(std::span(point.data(), static_cast<std::size_t>(point.size())));
@@ -338,7 +338,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
   const Responses made = answers(effect, stage, point, kNarrow * spread_,
                                  about(amplitudes, experiments, effect.two_sided, seed), seed);
-  // An affine answer: its slope is the secant's of what was known, corrected as far as noise goes.
+  // An affine response: the known secant slope, corrected in proportion to its noise.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
       from.first + from.second * (amplitudes - from.about).asDiagonal().toDenseMatrix();
@@ -362,7 +362,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   return out;
 }
 
-// The nearest one whose experiments reach these amplitudes and parameters; null if there is none.
+// The nearest fingerprint that covers these amplitudes and parameters; null if there is none.
 const LearnedFingerprint* ReferenceEnsemble::nearest_of(
     const std::vector<LearnedFingerprint>& learned, const Vector& amplitudes, const Vector& point,
     int experiments) const {

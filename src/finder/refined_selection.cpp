@@ -1,4 +1,4 @@
-// What is selected, judged by the scatter of experiments with the likeliest candidate.
+// Selection with the scatter of experiments that contain the best candidate.
 #include <algorithm>
 
 #include "finder/refinement.hpp"

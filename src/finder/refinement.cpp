@@ -1,5 +1,5 @@
-// From residuals to a selected model: curves beside the names, and fingerprints at the strength
-// that was found.
+// From residuals to a selected model: curves compete with named effects, and fingerprints are
+// measured again at the estimated strength.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ bool is_clear(const Effect& effect, const JointAmplitudes& own) {
   return own.gain > kClearGain && (effect.two_sided || own.estimate.minCoeff() > 0);
 }
 
-// A distance between places, ranges by their logarithms.
+// Distance between parameter values; ranges on a log scale.
 double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldParameter>& b) {
   if (a.size() == 1) return std::fabs(std::log(a[0].value / b[0].value));
   return std::hypot(a[0].value - b[0].value, a[1].value - b[1].value);
@@ -30,7 +30,7 @@ double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldPara
 
 }  // namespace
 
-// Named effects first; a shape competes with them where they leave something.
+// Named effects first; a shape is tried where they leave a significant remainder.
 SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& sensitivity,
                                    const Vector& residual) {
   SelectedModel e = selection.select(residual);
@@ -45,7 +45,7 @@ SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& 
   if (e.left_shape.z > std::max(selection.shape_threshold(), 0.15 * largest)) {
     if (tested.empty() || tested[0] != e.left_shape.shape) tested.push_back(e.left_shape.shape);
   }
-  // What leaves much may be a law of the same variable.
+  // A large remainder may be another law of the same variable.
   if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
     const std::string& variable = effect(e.found[0]).variable;
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
@@ -63,8 +63,8 @@ SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& 
   return tested.empty() ? e : selection.select(residual);
 }
 
-// One effect of a size like those that were simulated explains all there is, leaves nothing, and
-// nothing else comes near.
+// Whether one effect of a measured size explains the whole mismatch, without a remainder or a
+// competitor.
 bool Diagnoser::plain(const ModelSelection& selection, const SelectedModel& e,
                       const Vector& residual) const {
   const EffectFit& f = e.found.front();
@@ -89,7 +89,7 @@ Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, ScoreSensitivity& sensit
   find_homes();
 }
 
-// What is scanned has one home, the nearest one that is known: its slopes begin as that one's.
+// A scanned effect starts with the slopes of its nearest known fingerprint.
 void Diagnoser::Refinement::find_homes() {
   std::map<int, double> least;
   const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
@@ -172,7 +172,7 @@ void Diagnoser::Refinement::refine_fingerprint(EffectFit f, int experiments) {
   own.alone = state_.selection.fit_alone(residual_, f.effect, f.shape);
 }
 
-// Two places may each point to the other: a step back is half as long.
+// Halves a step that reverses the last one: two places may point to each other.
 Vector Diagnoser::Refinement::halfway(const EffectFit& f, const Fingerprint& from) {
   const auto own = state_.refined.find(id_of(f));
   if (own == state_.refined.end()) return f.amplitudes;
@@ -216,7 +216,7 @@ JointAmplitudes Diagnoser::Refinement::scanned_or(JointAmplitudes linear,
   return scanned && scanned->amplitudes ? *scanned->amplitudes : std::move(linear);
 }
 
-// Far beyond the sizes that fingerprints were learned at, these lead astray; the filter does not.
+// Far beyond the measured sizes the fingerprints are unreliable; the filter's ranking is used.
 std::vector<EffectFit> Diagnoser::Refinement::clearest() {
   std::map<Id, Effect> of;
   const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
@@ -257,7 +257,7 @@ bool Diagnoser::Refinement::off_centre(const EffectFit& f, double far) const {
 }
 
 std::optional<EffectFit> Diagnoser::Refinement::next_after(const SelectedModel& m) {
-  // Those that were judged so already take no other's place.
+  // Candidates already measured so are not counted again.
   std::vector<EffectFit> next =
       state_.selection.leading(residual_, kRivals + static_cast<int>(state_.refined.size()));
   next.erase(std::remove_if(next.begin() + 1, next.end(),

@@ -1,4 +1,4 @@
-// Further experiments with what was found: other ranges, more of them, several effects at once.
+// Further experiments with the findings: other ranges, more replicates, several effects at once.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -176,7 +176,7 @@ SelectedModel Diagnoser::Refinement::with_interactions(SelectedModel m) {
     if (camera || !simulated_sets.insert(name).second) break;
     const Fingerprint at_once = simulated(found, name);
     state_.selection.add_interaction(found, at_once.base, at_once.experiments);
-    // Without their scatter if it does not make them likelier.
+    // The scatter is used only if it increases the likelihood.
     ModelSelection inflated = state_.selection;
     inflated.inflate_by_scatter(at_once.scatter);
     SelectedModel by_scatter = selected_by(inflated);

@@ -20,7 +20,7 @@ std::string percent(double fraction) {
   return digits(100 * fraction) + " %";
 }
 
-/// The effects as a reader names them, alternatives included.
+/// Names of the effects, alternatives included.
 std::string names_of(const DiagnosisFinding& f) {
   std::string out = f.effect == "unnamed" ? "an unnamed law over " + f.variable : f.effect;
   for (const std::string& name : f.alternatives) out += " or " + name;

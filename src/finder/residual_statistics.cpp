@@ -16,8 +16,7 @@ struct Mean {
   double value() const { return count > 0 ? sum / count : 0; }
 };
 
-// Innovations that are far off count as this many deviations: a lost identity is one frame, not a
-// whole verdict.
+// Innovations saturate at this many deviations, so that one identity swap does not dominate.
 constexpr double kFarScore = 8;
 double clipped(double z) {
   return std::clamp(z, -kFarScore, kFarScore);
@@ -150,7 +149,7 @@ class Variance final : public ResidualStatistic {
   std::vector<std::pair<float, float>> by_time_;
 };
 
-// Whether modules near each other are surprised alike.
+// Correlation of the innovations of neighbouring modules.
 class Sharing final : public ResidualStatistic {
  public:
   explicit Sharing(const ScorePlan&) {}
@@ -185,8 +184,7 @@ class Sharing final : public ResidualStatistic {
   std::array<Mean, 6> shared_;
 };
 
-// What single modules differ in: how much they answer to drag, how much they scatter, how they
-// turn.
+// Differences between modules: response to drag, scatter, rotation.
 class ModuleDifferences final : public ResidualStatistic {
  public:
   explicit ModuleDifferences(const ScorePlan& plan)
@@ -242,7 +240,7 @@ class ModuleDifferences final : public ResidualStatistic {
   std::vector<Each> each_;
 };
 
-// Where squares touch, for how long, and whether their pictures overlap in parts of the tank.
+// Contacts: place, duration, and overlap of recorded squares by region.
 class Touches final : public ResidualStatistic {
  public:
   explicit Touches(const ScorePlan& plan)
@@ -298,7 +296,7 @@ class Touches final : public ResidualStatistic {
     values.push_back(std::log((meetings_ + 1) / std::max(pairs_, 1.0)));
     values.push_back(std::log((near_ + 1) / std::max(pairs_, 1.0)));
     values.push_back(short_.value());
-    // Differences only: how deep squares sink into each other belongs to the contact's details.
+    // Differences only: the mean overlap depends on details of the contact model.
     const double spread = place_square_.value() - place_.value() * place_.value();
     const double slope = both_.value() - gap_.value() * place_.value();
     values.push_back(1e3 * slope / std::max(spread, 1e-6));
@@ -318,7 +316,7 @@ class Touches final : public ResidualStatistic {
   std::size_t key(const Seen& a, const Seen& b) const {
     return std::min(a.module, b.module) * modules_ + std::max(a.module, b.module);
   }
-  // Meetings end once a pair is farther apart than kPartedGap.
+  // An encounter ends once the gap exceeds kPartedGap.
   void close(const PredictedFrame& frame, const std::vector<Seen>& seen) {
     for (std::size_t a = 0; a < seen.size(); ++a) {
       for (std::size_t b = a + 1; b < seen.size(); ++b) {

@@ -11,7 +11,7 @@ using Vector = Eigen::VectorXd;
 constexpr int kSteps = 12;
 constexpr double kStart = 0.3;   // sizes
 constexpr double kMostSize = 6;  // sizes beyond which an answer is no guide
-// How far from its own amplitudes an answer about found ones holds.
+// Validity range of a local response, relative to its amplitudes and absolute.
 constexpr double kNearShare = 0.5, kNearLeast = 0.4;
 
 Vector reach(const ResponseModel& of) {

@@ -42,10 +42,9 @@ Model with_stream(const Model& model, const StreamPlace& place) {
                      {place.speed_x * effect.sizes[0], place.speed_y * effect.sizes[1]});
 }
 
-// The places of the grid with the speeds of a linear estimate, those that it favours most first. A
-// smooth error of the flow can do nearly all that a wide stream does: cleared of that, its speed
-// and even its place may be scored wrongly; with the flow taken as it is drawn an error of the flow
-// may be scored as one.
+// Places of the grid with linear estimates of their speeds, by descending gain. A smooth error of
+// the flow is almost collinear with a wide stream: orthogonalised against it, speed and place are
+// biased; without that, an error of the flow is scored as a stream.
 std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recording>& recordings,
                                 bool flow_as_drawn) {
   ScorePlan scan = plan;
@@ -67,7 +66,7 @@ double apart(const StreamPlace& a, const StreamPlace& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// The first ones of which none is near another.
+// The first places that are not close to an earlier one.
 std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
   std::vector<StreamPlace> out;
   for (const StreamPlace& place : ranking) {
@@ -80,7 +79,7 @@ std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
   return out;
 }
 
-// The first ones near a place.
+// The first places near `centre`.
 std::vector<StreamPlace> around(const StreamPlace& centre,
                                 const std::vector<StreamPlace>& ranking) {
   std::vector<StreamPlace> out;

@@ -71,15 +71,15 @@ const Matrix& ScoreSensitivity::response(const Effect& effect) {
              from_informations(all, scores_, static_cast<Eigen::Index>(effect.paths.size()));
 }
 
-// What is clear of scores once the correlations of their noise are taken out: with these in it,
-// noise that is left out of one score would be found in another.
+// Significant part of decorrelated scores: with correlated noise, noise removed from one score
+// would appear in another.
 Vector ScoreSensitivity::clear(const Vector& scores, double error) const {
   return root_ * (plain_ * scores).unaryExpr([&](double v) {
     return std::fabs(v) < kClearOfNoise * error ? 0.0 : v;
   });
 }
 
-// By which factor scores are what is expected of them.
+// Least-squares factor between scores and their expectation.
 double ScoreSensitivity::factor(const Vector& scores, const Vector& expected) const {
   const Vector expected_response = plain_ * expected;
   return (plain_ * scores).dot(expected_response) / expected_response.squaredNorm();

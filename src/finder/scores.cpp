@@ -16,7 +16,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kContactPush = 0.03;  // m/s: a prediction that was pushed by a contact
-// Information of amplitudes, in sizes, that they are 0: of what is beside, of several together.
+// Prior information that amplitudes (in sizes) are 0: of nuisance effects, of joint fits.
 constexpr double kHardlyKnown = 1e-4, kJointKnown = 0.1;
 constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
 constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
@@ -60,7 +60,7 @@ std::size_t components_of(const std::vector<Effect>& effects) {
   return count;
 }
 
-// Of so many amplitudes nothing is known before, then of nuisances.
+// Prior information: none for the first amplitudes, then that of the nuisances.
 Eigen::MatrixXd known_beside(std::size_t unknown, const Eigen::MatrixXd& nuisances) {
   const auto first = static_cast<Eigen::Index>(unknown);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(first + nuisances.rows(), first + nuisances.rows());
@@ -99,7 +99,7 @@ class Scorer {
     return out;
   }
 
-  // Of each effect of the plan, its components together and nothing else.
+  // For each effect of the plan, its components jointly, without other effects.
   std::vector<JointAmplitudes> jointly() const {
     const auto each = sensitivities_.amplitudes(known_);
     const Eigen::MatrixXd normal = sensitivities_.informations(known_);
@@ -145,7 +145,7 @@ class Scorer {
  private:
   void add(const PredictedFrame& frame) {
     const auto n = static_cast<std::size_t>(frame.now.size());
-    // Every recording has a model of its own, perhaps where the last one's was.
+    // Recordings have models of their own, whose addresses may repeat.
     if (frame.model != model_ || frame.recording != recording_) {
       model_ = frame.model, recording_ = frame.recording;
       features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);
@@ -214,9 +214,9 @@ class Scorer {
     }
   }
 
-  // Modules that touch another or the wall, or may before the next frame, as fast as what is
-  // nearest closes up: what contacts do to them depends on more than forces. Known from the past,
-  // so leaving them out favours no kind of meeting.
+  // Modules in contact with another or the wall, or that may be before the next frame at the
+  // present closing speed: contact forces are not part of the model here. The criterion uses past
+  // frames only, so excluding them does not bias encounters.
   void find_touching(const PredictedFrame& frame) {
     const Kinematics& k = frame.now;
     touching_.assign(static_cast<std::size_t>(k.size()), 0);
@@ -236,7 +236,7 @@ class Scorer {
     }
   }
 
-  // By the outermost corner.
+  // Judged by the outermost corner.
   bool at_wall(const Kinematics& k, std::size_t i, double interval) const {
     const double half = 0.5 * model_->module.side;
     const double u = std::copysign(half, k.c[i] * k.x[i] + k.s[i] * k.y[i]);
@@ -279,7 +279,7 @@ class Scorer {
   std::size_t modules_;
   std::vector<std::unique_ptr<ResidualStatistic>> parts_;
   std::size_t scored_, total_;  // features that are amplitudes
-  // Components of effects beside them, and what is known of these and of nuisances.
+  // Components of nuisance effects, and prior information of these and of nuisances.
   std::size_t beside_;
   Eigen::MatrixXd known_;
   std::size_t features_in_all_;

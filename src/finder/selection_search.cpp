@@ -15,15 +15,15 @@ using Vector = Eigen::VectorXd;
 constexpr std::size_t kMostEffects = 3;
 constexpr std::size_t kFittedTogether = 8;  // candidates that are fitted together with those before
 constexpr int kMostPasses = 4;
-// Share of what was found that a remainder may be: fingerprints are known to some per cent only,
-// those about found amplitudes better; of a curve six straight pieces are off by more.
+// Relative errors of fingerprints: measured about 0, about estimated amplitudes, and of curves (six
+// linear pieces). A remainder below this share of the findings is not significant.
 constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
-// Share of a curve's gain that does not count: it may bend to what names leave, the less the better
-// both are known.
+// Share of a curve's gain that is not counted: a curve can fit the errors of named effects'
+// fingerprints.
 constexpr double kBent = 0.15, kBentAbout = 0.5;  // the second: by one experiment
 
-// Effects at once: indices of candidates, their fits beside each other, and the whitened remainder.
+// A set of effects: indices of candidates, their joint fits, and the whitened remainder.
 struct CandidateSet {
   std::vector<std::size_t> of;
   std::vector<EffectFit> fits;
@@ -37,7 +37,7 @@ struct Extension {
   double worth = 0;
 };
 
-// Below this z a remainder may be what fingerprints are wrong by.
+// z below which a remainder may be an error of the fingerprints.
 double floor_beside(const std::vector<EffectFit>& found) {
   double floor = 0;
   for (const EffectFit& f : found) {
@@ -46,14 +46,14 @@ double floor_beside(const std::vector<EffectFit>& found) {
   return floor;
 }
 
-// The part of a gain that counts, less the price of the amplitudes.
+// Gain less its uncounted share and the penalty for its amplitudes.
 double worth_of(double gain, const EffectFit& of) {
   const double bent = of.about > 0 ? kBentAbout / of.about : kBent;
   const double share = of.shape < 0 ? 1 : 1 - bent;
   return share * gain - kAmplitudePrice * static_cast<double>(of.amplitudes.size());
 }
 
-// The squared remainder of a set, and what its members cost.
+// Penalised deviance of a set.
 double cost(const CandidateSet& set) {
   double out = set.left.squaredNorm();
   for (const EffectFit& f : set.fits) out += f.gain - worth_of(f.gain, f);
@@ -109,7 +109,7 @@ EffectFit SelectionSearch::strongest_shape(const Vector& all) const {
   return out;
 }
 
-// One term has one strength: another variant of what was found is no other finding.
+// Whether another variant of the same force term is in the findings already.
 bool SelectionSearch::same_term(const EffectFit& fit, const std::vector<EffectFit>& found) const {
   return std::any_of(found.begin(), found.end(), [&](const EffectFit& other) {
     if (fit.effect < 0 || other.effect < 0) return fit.effect < 0 && other.effect < 0;
@@ -118,8 +118,8 @@ bool SelectionSearch::same_term(const EffectFit& fit, const std::vector<EffectFi
   });
 }
 
-// Whether a curve that was found can do what this effect does: a constant torque beside a torque
-// over headings would only share out the curve's mean.
+// Whether a curve among the findings contains this effect, as a torque over headings contains a
+// constant torque.
 bool SelectionSearch::within_curve(const EffectCandidate& of,
                                    const std::vector<EffectFit>& found) const {
   for (const EffectFit& f : found) {
@@ -134,7 +134,7 @@ bool SelectionSearch::within_curve(const EffectCandidate& of,
   return false;
 }
 
-// From where each member's amplitudes are. Sets every member's z and gain beside the others.
+// Fits all amplitudes jointly from their present values; sets every member's z and gain.
 void SelectionSearch::fit_together(CandidateSet& set) const {
   std::vector<const ResponseModel*> responses;
   std::vector<double> start;
@@ -162,7 +162,7 @@ void SelectionSearch::fit_together(CandidateSet& set) const {
   }
 }
 
-// What members do to each other, as far as it was simulated; whitened.
+// Whitened interactions of the members, where they were simulated.
 Vector SelectionSearch::interactions(const CandidateSet& set) const {
   Vector out = Vector::Zero(s_.whitening.centre.size());
   for (const Interaction& m : s_.interactions) {
@@ -174,7 +174,7 @@ Vector SelectionSearch::interactions(const CandidateSet& set) const {
   return s_.whitening.whitened(out);
 }
 
-// Candidates that are significant in what a set leaves, by how much of it they explain.
+// Candidates that are significant in the remainder, by descending gain.
 std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
                                                    EffectFit& strongest) const {
   const EffectFit shape = strongest_shape(set.left);
@@ -185,7 +185,7 @@ std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
     const EffectFit one = fit_of(s_.candidates[k], set.left);
     if (one.z > strongest.z) strongest = one;
     if (same_term(one, set.fits) || within_curve(s_.candidates[k], set.fits)) continue;
-    // A curve may be significant by its own knots as well.
+    // A curve may be significant by its own knots, too.
     const bool own = one.shape >= 0 && one.shape == shape.shape &&
                      shape.z > std::max(s_.thresholds.shape, floor);
     if (one.z <= std::max(s_.thresholds.effect, floor) && !own) continue;
@@ -198,8 +198,7 @@ std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
   return out;
 }
 
-// The set with the candidate that leaves least once everything is fitted together; the set as it
-// is if there is none.
+// The set with the candidate of the least deviance after a joint fit; unchanged if there is none.
 CandidateSet SelectionSearch::extended(const CandidateSet& set) const {
   EffectFit strongest;
   std::vector<Extension> next = extensions(set, strongest);
@@ -214,7 +213,7 @@ CandidateSet SelectionSearch::extended(const CandidateSet& set) const {
   return best;
 }
 
-// Pairs of effects that together leave least, though neither may stand out alone.
+// Pairs of effects with the least joint deviance, also where neither is significant alone.
 std::vector<CandidateSet> SelectionSearch::pairs() const {
   std::vector<CandidateSet> out;
   for (const auto& [a, b] : leading_pairs(s_.candidates, all_, kFittedTogether)) {
@@ -227,7 +226,7 @@ std::vector<CandidateSet> SelectionSearch::pairs() const {
   return out;
 }
 
-// Every member is beyond what the others' fingerprints may be wrong by.
+// Whether every member exceeds the errors of the others' fingerprints.
 bool SelectionSearch::each_significant(const CandidateSet& set) const {
   for (std::size_t m = 0; m < set.of.size(); ++m) {
     std::vector<EffectFit> others = set.fits;
@@ -247,7 +246,7 @@ CandidateSet SelectionSearch::without(const CandidateSet& set, std::size_t membe
   return out;
 }
 
-// Every member is chosen again beside the others, until none changes.
+// Selects every member again given the others, until none changes.
 CandidateSet SelectionSearch::exchanged(CandidateSet set) const {
   for (int pass = 0; pass < kMostPasses; ++pass) {
     bool changed = false;
@@ -261,8 +260,8 @@ CandidateSet SelectionSearch::exchanged(CandidateSet set) const {
   return set;
 }
 
-// The best set with one effect more, the members before not bound to stay; the set as it is if
-// every other leaves no less than its own fingerprints may be wrong by.
+// The best set with one more effect, in which earlier members may be exchanged; unchanged if no
+// gain exceeds the errors of the fingerprints.
 CandidateSet SelectionSearch::larger(const CandidateSet& set) const {
   CandidateSet best = extended(set);
   if (set.of.size() == 1) {
@@ -280,7 +279,7 @@ CandidateSet SelectionSearch::larger(const CandidateSet& set) const {
   return cost(best) < cost(set) - least * least || set.of.empty() ? best : set;
 }
 
-// Variance that the errors of the members' fingerprints add to every statistic, which has one.
+// Variance of the members' fingerprints in a statistic of unit variance.
 double SelectionSearch::noise_of(const CandidateSet& set) const {
   double out = 0;
   for (std::size_t m = 0; m < set.of.size(); ++m) {

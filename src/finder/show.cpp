@@ -33,7 +33,7 @@ struct Moments {
   }
 };
 
-// Whether most simulations say the same: a ring that hardly any module visits.
+// Whether most simulations have the same value, as for a ring that modules rarely visit.
 bool hardly_varies(const std::vector<std::vector<double>>& simulated, std::size_t k) {
   std::vector<double> values;
   for (const auto& row : simulated) values.push_back(row[k]);
@@ -41,7 +41,7 @@ bool hardly_varies(const std::vector<std::vector<double>>& simulated, std::size_
   return values[values.size() / 4] == values[(3 * values.size()) / 4];
 }
 
-// Mean squared deviation of observed numbers from simulated ones, of every group.
+// Mean squared z of observed statistics against simulated ones, by group.
 std::map<std::string, double> misfit_by_group(const std::vector<SummaryEntry>& entries,
                                               const std::vector<double>& observed,
                                               const std::vector<std::vector<double>>& simulated,
@@ -90,8 +90,8 @@ Innovations innovations(const Model& model, const Recording& recording,
   return out;
 }
 
-// The model with its pumps in the phase that predicts a recording best: it is each recording's own,
-// as when a camera was started. Squares of innovations have two harmonics in it.
+// The model with the pumps' phase that predicts a recording best: every recording starts at a
+// random phase. The squared innovations have two harmonics in the phase.
 Model in_phase(const Model& model, const Recording& recording, const PredictorOptions& predictor) {
   const auto pumps =
       std::find_if(model.forces.begin(), model.forces.end(), [](const ActiveForce& f) {
@@ -169,7 +169,7 @@ std::vector<GroupFit> group_fits(const CalibrationSetup& setup, const ScorePlan&
   const std::vector<double> observed = numbers(recordings);
   const auto was = misfit_by_group(entries, observed, b, a);
   const auto is = misfit_by_group(entries, observed, a, a);
-  // What chance gives: each experiment against the others.
+  // Values by chance: each experiment against the others.
   std::map<std::string, Moments> chance;
   for (std::size_t i = 0; i < a.size(); ++i) {
     std::vector<std::vector<double>> others = a;
@@ -256,7 +256,7 @@ StepGain step_gain(const Model& before, const Model& after, const PredictorOptio
   }
   Moments of;
   for (const auto& [block, gain] : blocks) of.add(gain);
-  // A block or two do not say how much they scatter.
+  // The scatter of fewer than three blocks is unknown.
   const double width_of = of.count < 3 ? std::numeric_limits<double>::infinity()
                                        : normal_half_width() * std::sqrt(of.variance() * of.count);
   return {of.sum, of.sum - width_of, of.sum + width_of};

@@ -1,4 +1,4 @@
-// Lines in the spectra of innovations: pumps that pulsate, wakes that swing.
+// Lines in the spectra of innovations: pulsating pumps, vortex shedding.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double kClearLine = 8;      // deviations, of a line that is no chance
 constexpr std::size_t kBank = 16;
 
 // Adds |sum of series e^(-i w t)|^2 to the power at each of a bank of frequencies (rad a frame), by
-// phasors that turn side by side.
+// phasors in parallel.
 void add_powers(const std::vector<double>& series, const std::array<double, kBank>& radians,
                 std::array<double, kBank>& power) {
   std::array<double, kBank> c{}, s{}, pc{}, ps{}, re{}, im{};
@@ -90,7 +90,7 @@ class Spectrum final : public ResidualStatistic {
   static constexpr int kSwings = 48;
   double frequency(int k) const { return 0.0625 * (k + 1); }  // Hz, to 3
 
-  // Series of one module across its slip, a piece at a time.
+  // Innovations of one module across its slip, by segment.
   void swing(const Seen& one) {
     std::vector<double>& piece = pieces_[one.module];
     const double slip = std::hypot(one.slip_x, one.slip_y);
@@ -109,7 +109,7 @@ class Spectrum final : public ResidualStatistic {
     piece.clear(), whole_ += 1;
   }
 
-  // What every line across the slip has more than those about it, as a share.
+  // Relative excess of every line over its neighbours.
   std::vector<double> beyond() const {
     std::vector<double> out;
     for (int k = 0; k < kSwings; ++k) {
@@ -123,8 +123,8 @@ class Spectrum final : public ResidualStatistic {
     return out;
   }
 
-  // The clearest of them, between its neighbours by what these have more as well. Powers of many
-  // pieces scatter by one over the root of their number.
+  // The most significant line, interpolated with its neighbours. The power averaged over n segments
+  // has a relative error of 1 / sqrt(n).
   double swinging() const {
     const std::vector<double> more = beyond();
     const auto most = std::max_element(more.begin(), more.end());
@@ -139,7 +139,7 @@ class Spectrum final : public ResidualStatistic {
   }
 
   using Bank = std::array<double, kBank>;
-  // Of all recordings' gains, at frequencies a step apart from `first` on, Hz.
+  // Powers of the recordings' gains at frequencies from `first` on, `step` (Hz) apart.
   Bank powers(double first, double step) const {
     Bank radians{}, power{};
     for (std::size_t k = 0; k < kBank; ++k) {
@@ -149,8 +149,7 @@ class Spectrum final : public ResidualStatistic {
     return power;
   }
 
-  // A line's frequency between those `step` about it, Hz: pumps must stay in phase over a whole
-  // recording.
+  // A line's frequency (Hz), refined within +- `step`: the phase must hold over a whole recording.
   double refined(double line, double step) const {
     const double fine = 2 * step / (kBank - 1);
     const Bank power = powers(line - step, fine);
@@ -161,7 +160,7 @@ class Spectrum final : public ResidualStatistic {
     return line - step + (static_cast<double>(best) + std::clamp(off, -1.0, 1.0)) * fine;
   }
 
-  // The strongest line of the flow's gain over the mean.
+  // The strongest line of the flow's gain, relative to the mean power.
   double line(ScoreDetails* details) const {
     std::size_t longest = 1;
     for (const auto& series : series_) longest = std::max(longest, series.size());

@@ -18,7 +18,7 @@ constexpr Eigen::Index kLeastScatter = 4;
 constexpr double kExcessAside = 0.1;  // of an excess, that is not along what few experiments show
 constexpr double kByChance = 2;  // deviations of a variance that few experiments show of nothing
 
-// Shrunk correlations of columns, times deviations.
+// Covariance from shrunk correlations of the columns and given deviations.
 Matrix shrunk_covariance(const Matrix& off, const Vector& deviation) {
   const Vector own = (off.colwise().squaredNorm() / static_cast<double>(off.rows()))
                          .cwiseSqrt()
@@ -32,8 +32,8 @@ Matrix inverse_root(const Matrix& covariance) {
   return lower_inverse(lower_root(covariance));
 }
 
-// Correlations of few experiments are shrunk towards the expected ones: towards none once these are
-// divided out.
+// Covariance of few experiments, its correlations shrunk towards the expected ones: the expected
+// ones are removed first, and the rest is shrunk towards 0.
 Matrix covariance_of(const Matrix& rows, const Matrix& expected_root) {
   const Matrix off = rows.rowwise() - rows.colwise().mean();
   const Matrix plain = off * lower_inverse(expected_root).transpose();
@@ -44,13 +44,13 @@ Matrix covariance_of(const Matrix& rows, const Matrix& expected_root) {
   return expected_root * shrunk_covariance(plain, deviation) * expected_root.transpose();
 }
 
-// A covariance with the scatter of few experiments as far as it is more than these show of nothing.
+// A covariance inflated by the excess scatter of few experiments.
 Matrix inflated(const Matrix& own, const Matrix& off) {
   const auto n = static_cast<double>(off.rows());
   const double chance = 1 + kByChance * std::sqrt(2 / n);
   const Vector square = off.colwise().squaredNorm().transpose() / n;
   const Vector excess = (square - chance * own.diagonal()).cwiseMax(0).cwiseSqrt();
-  // Most of it is along the few directions of parameters, which the experiments themselves show.
+  // Most of the excess is along the directions that the experiments themselves span.
   const Vector share = excess.cwiseQuotient(square.cwiseSqrt().cwiseMax(1e-9));
   const Matrix along = off * share.asDiagonal();
   const Vector aside = std::sqrt(kExcessAside) * excess;
@@ -105,7 +105,7 @@ Whitening whitening_by_nulls(const Matrix& nulls, const Matrix& expected_correla
     const Matrix block =
         nulls.middleCols(at, kKnots).rowwise() - out.centre.segment(at, kKnots).transpose();
     out.knot_covariance.emplace_back(block.transpose() * block / (n - 1));
-    // The deviation of knots that are hardly ever visited is overestimated, not underestimated.
+    // The deviation of rarely visited knots is overestimated rather than underestimated.
     Matrix& knots = out.knot_covariance.back();
     knots.diagonal() = knots.diagonal().cwiseMax(1.0);
     out.knot_whitener.push_back(inverse_root(knots));
