@@ -213,7 +213,7 @@ bool is_body_experiment(const std::string& file) {
   const auto body = root["experiment"]["body"].value<std::string>();
   if (body == "point") return true;
   if (!root.contains("baseline")) return false;
-  // What would be said of [baseline] as a part of a tank's experiment is beside the point.
+  // A message about [baseline] in an experiment of a tank would mislead.
   if (!body || *body == "lily" || *body == "ball") {
     throw InputError(place_of(root["baseline"].node()->source(), file),
                      "[baseline] is of point bodies: say body = \"point\" in [experiment]");

@@ -62,8 +62,8 @@ double sum(const std::vector<double>& v) {
   return out;
 }
 
-// Share of the noise that the samples' bends suggest: where samples are far apart, bends are the
-// motion's.
+// Share of the noise estimated from second differences: with few samples per motion these are
+// motion.
 constexpr double kLittleNoise = 0.02;
 
 // Why a fit failed.
@@ -87,7 +87,7 @@ BodyModel baseline_model(const BodyExperiment& e, Group& g) {
     std::vector<double> start = law.starts(g.typical).front();
     Term t = term_of(law, g.typical, start, g.runs, m.push);
     if (!one.fit) {
-      // A number in the file is the law's amplitude; its other numbers are those it starts from.
+      // A number in the file is the law's amplitude; its other parameters keep their starts.
       t.value = start, t.value[0] = one.value;
       t.fitted.assign(t.value.size(), false);
     }
@@ -96,8 +96,8 @@ BodyModel baseline_model(const BodyExperiment& e, Group& g) {
   return m;
 }
 
-// Models from where a law's fit starts. Pushes and noise may have taken the law's place in `base`:
-// one start has small pushes, and one little noise where noise is fitted.
+// Starts of a law's fit. In `base`, pushes and noise may have absorbed the law: one start has small
+// pushes, and one little noise where noise is fitted.
 std::vector<BodyModel> starts_of(const Group& g, const BodyModel& base, const Law& law) {
   std::vector<BodyModel> out;
   for (const std::vector<double>& start : law.starts(g.typical)) {
@@ -120,7 +120,7 @@ std::vector<BodyModel> starts_of(const Group& g, const BodyModel& base, const La
   return out;
 }
 
-// Of several starts the one that fits best; nothing where none gives finite predictions.
+// The best fit over several starts; nothing where none gives finite predictions.
 std::optional<Fitted> best_fit(const Group& g, const BodyModel& base, const Law& law) {
   constexpr int kFirst = 4;  // steps after which only the best start goes on
   std::optional<Fitted> best;
@@ -134,8 +134,8 @@ std::optional<Fitted> best_fit(const Group& g, const BodyModel& base, const Law&
   return f.usable() && std::isfinite(f.held_out_sum()) ? std::optional(std::move(f)) : std::nullopt;
 }
 
-// The baseline from several sizes of pushes and noise: one that is stuck makes any law look good.
-// Nothing where no start gives finite predictions.
+// The baseline from several sizes of pushes and noise: in a local optimum, any law would look
+// better. Nothing where no start gives finite predictions.
 std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
   std::optional<Fitted> best;
   for (const auto& [pushes, memory, noise] : {std::tuple{1.0, 1.0, 1.0},
@@ -152,7 +152,7 @@ std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
     if (one.usable() && (!best || one.likelihood > best->likelihood)) best = std::move(one);
   }
   if (!best) return std::nullopt;
-  // Laws' fits go on from here: what is left to climb would count as theirs.
+  // Laws' fits start here: an unconverged baseline would add to their gain.
   for (int again = 0; again < 6; ++again) {
     const double before = best->likelihood;
     best = fit_group(g, best->model);
@@ -228,12 +228,12 @@ LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baselin
 
 namespace {
 
-// The experiment as the fitted baseline makes it up, at most so many samples of it.
+// The experiment simulated by the fitted baseline, with a bounded number of samples.
 BodyExperiment made_up(const BodyExperiment& e, const std::vector<Group>& groups,
                        const LawTrial& baseline, std::uint64_t seed, std::size_t most) {
   BodyExperiment out = e;
-  // A filter cannot follow a bounce that comes a little sooner than it thinks. Where the recorded
-  // bodies never touch, those that are made up pass each other.
+  // The filter cannot follow a bounce earlier than predicted. Where the recorded bodies never
+  // touch, simulated ones do not collide.
   const bool touch = std::any_of(groups.begin(), groups.end(),
                                  [](const Group& g) { return g.typical.nearest <= 0; });
   if (!touch) std::erase_if(out.baseline, [](const BaselineLaw& l) { return l.law == "contact"; });
@@ -270,7 +270,7 @@ std::vector<double> null_gains(const BodyExperiment& e, const std::vector<Group>
         made_up(e, groups, baseline, derived_seed(seed, static_cast<std::uint64_t>(r)), kMost);
     std::vector<Group> own = groups_of(drawn);
     const LawTrial base = fit_baseline(drawn, own);
-    // Without any fit nothing is gained.
+    // Without a fit the gain is 0.
     if (!base.failure.empty()) return std::vector<double>{0};
     double best = -1e300;
     for (const Candidate& c : single_laws(drawn, own)) {

@@ -18,7 +18,8 @@ void sort_best_first(std::vector<LawTrial>& all) {
                    [](const LawTrial& a, const LawTrial& b) { return a.gain > b.gain; });
 }
 
-// Two laws of force together; curves stand alone, and laws that turn velocities say the same thing.
+// Whether two laws are combined: curves are not, nor two laws that rotate velocities, which are
+// equivalent.
 bool together(const Law& a, const Law& b) {
   const bool turns = a.variable() == "turn" && b.variable() == "turn";
   const bool pushes = a.variable() == "pair" && b.variable() == "pair";
@@ -118,7 +119,7 @@ class Trials {
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     sort_best_first(c_.pairs);
-    // A bias can be known only from several runs.
+    // A bias is identifiable from several runs only.
     if (experiment_.runs.size() < 4) return;
     for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
       for (std::size_t k = 0; k < all->size() && k < 6; ++k) {

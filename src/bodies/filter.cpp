@@ -129,7 +129,8 @@ struct StateEstimate {
   Matrix P;
 };
 
-// From the first samples: where they are, and the velocity between them, both hardly trusted.
+// Initial estimate from the first samples: their positions and mean velocity, with a wide
+// covariance.
 StateEstimate first_estimate(const BodyModel& model, const Typical& typical, const BodyRun& run,
                              int n) {
   const int states = (model.bias > 0 ? 4 : 3) * n;
@@ -145,7 +146,7 @@ StateEstimate first_estimate(const BodyModel& model, const Typical& typical, con
     const double x = run.position[a * row + c],
                  u = run.position[std::min(b, run.samples() - 1) * row + c];
     out.z[i] = std::isnan(x) ? 0 : x;
-    // A body that is seen in one row alone has no velocity yet.
+    // A body with a single sample has no velocity.
     const bool moves = b < run.samples() && !std::isnan(u - x);
     out.z[n + i] = moves ? (u - x) / (run.time[b] - run.time[a]) : 0;
     const double dt = run.time[to] - run.time[0];
@@ -290,7 +291,7 @@ BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun&
       const Gathered g = gathered(model.push, 1 / model.memory, T);
       Eigen::Matrix3d C;
       C << g.xx, g.xv, g.xa, g.xv, g.vv, g.va, g.xa, g.va, g.aa;
-      // Scaled to ones on its diagonal: the powers of T would hide that it is positive.
+      // Scaled to a unit diagonal: powers of T would spoil the test for positive definiteness.
       const Eigen::Vector3d size = C.diagonal().cwiseMax(1e-300).cwiseSqrt();
       const Eigen::Matrix3d R =
           size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal();

@@ -26,7 +26,7 @@ double term(double nu, double S) {
   return -0.5 * (nu * nu / S + std::log(2 * std::numbers::pi * S));
 }
 
-// Gradient and information of the log-likelihood of everything but one fold.
+// Gradient and information of the log-likelihood without one fold.
 class Hill {
  public:
   /// `held`: noise and pushes stay as they are.
@@ -42,8 +42,8 @@ class Hill {
     }
   }
 
-  // Weak priors: noise and pushes about their size, amplitudes about nothing; knots of a curve
-  // that no sample touches must be somewhere.
+  // Weak priors: noise and pushes about their size, amplitudes about 0; they determine knots
+  // without samples.
   double deviation(std::size_t i) const {
     return i < own_numbers(*model_) ? kLoose : curved_[i] ? kCurve : kWide;
   }
@@ -148,7 +148,7 @@ struct Top {
   Eigen::MatrixXd information;
 };
 
-// No step of more than two in a logarithm; amplitudes act linearly and may jump.
+// Bounds a step by 2 in a logarithm; amplitudes act linearly and need no bound.
 Eigen::VectorXd step_of(const Eigen::MatrixXd& I, const Eigen::VectorXd& g, double damping,
                         const std::vector<bool>& logarithm) {
   Eigen::MatrixXd A = I;
@@ -193,7 +193,7 @@ Top climb(Hill& hill, std::vector<double> q, int most) {
   return top;
 }
 
-// Whether the user says what is left out.
+// Whether the user marks held-out runs.
 bool marks_runs(const BodyExperiment& e) {
   return std::any_of(e.runs.begin(), e.runs.end(), [](const BodyRun& r) { return r.held_out; });
 }
@@ -225,8 +225,8 @@ Fitted fit_group(const Group& group, const BodyModel& from, bool held, int round
 }
 
 void leave_folds_out(const Group& g, Fitted& fitted) {
-  // What noise and pushes are is not at stake: they stay, or every fold would be trusted by how
-  // well the few others happen to agree.
+  // Noise and pushes are fixed: refitted without a fold, they would weight it by the agreement of
+  // the few others.
   fitted.held_out.assign(static_cast<std::size_t>(g.blocks), 0);
   for (int fold = 0; fold < g.folds; ++fold) {
     Hill hill(g, fitted.model, fold, true);
@@ -238,7 +238,7 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
       }
     }
   }
-  // Where whole runs are marked as held out, others have no part in what is compared.
+  // Where runs are marked as held out, only these are scored.
   std::set<int> scored;
   for (std::size_t k = 0; k < g.fold.size(); ++k) {
     if (g.fold[k] >= 0) scored.insert(g.block[k]);
@@ -251,7 +251,7 @@ void leave_folds_out(const Group& g, Fitted& fitted) {
 
 namespace {
 
-// The median; 1 of nothing.
+// The median; 1 of an empty list.
 double middle(std::vector<double>& v) {
   std::sort(v.begin(), v.end());
   return v.empty() ? 1.0 : v[v.size() / 2];

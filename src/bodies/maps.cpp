@@ -74,7 +74,7 @@ FoundCurve map_of(const Comparison& c, const std::string& variable) {
     double at = 0, mean = 0, spread = 0;
     for (std::size_t i = from; i < to; ++i) at += p[i].at / n, mean += p[i].value / n;
     for (std::size_t i = from; i < to; ++i) spread += std::pow(p[i].value - mean, 2) / (n - 1);
-    // Pushes of neighbours in time are alike: an eighth of the points counts.
+    // Pushes are correlated in time: an eighth of the points is independent.
     out.at.push_back(at), out.value.push_back(mean);
     out.deviation.push_back(std::sqrt(8 * spread / n));
     square += std::pow(mean / std::max(out.deviation.back(), 1e-300), 2);

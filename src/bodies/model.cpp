@@ -73,7 +73,7 @@ void accelerate(const BodyModel& model, const Scene& s, double* out) {
 
 namespace {
 
-// Velocities over a few samples, so that noise does not make them; NaN where there are none.
+// Speed over a few samples, against noise; NaN where there are too few.
 double speed_at(const BodyRun& run, std::size_t k, std::size_t body, int dimensions,
                 double* velocity) {
   const std::size_t to = std::min(k + 3, run.samples() - 1),

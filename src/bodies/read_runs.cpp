@@ -46,7 +46,7 @@ struct Row {
   std::size_t cells = 0;  ///< index into Rows::values, of its positions and then its drivers
 };
 
-/// The rows of a run, and what they say at every time.
+/// The rows of a run, and their values at every time.
 struct Rows {
   std::string name;
   std::vector<std::string> bodies;
@@ -180,7 +180,7 @@ class TableReader {
       std::copy(here, end, before);
       return;
     }
-    // A row that a tracker wrote twice says nothing new. Bodies together share the drivers of the
+    // A row that a tracker wrote twice is ignored. Bodies together share the drivers of the
     // first of them, so those of others are not compared.
     const auto drivers_here = r.drivers.end() - static_cast<std::ptrdiff_t>(drivers_.size());
     const bool shared = t_->together && !wide();
@@ -212,7 +212,7 @@ class TableReader {
     return r.bodies.size() - 1;
   }
 
-  // Two rows of one body, run and time that say different things: one of them would be lost.
+  // Refuses two different rows of one body, run and time.
   [[noreturn]] void refuse_second(int first, int second) const {
     std::string missing;
     if (body_ < 0 && !wide()) missing = "recording.body";

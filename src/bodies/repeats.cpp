@@ -1,4 +1,4 @@
-// What one run says and another does not: signs of faults of the measurement.
+// Differences between runs: signs of faults of the measurement.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,7 @@ Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Group& g = groups[i];
     if (g.runs.size() < 2) continue;
-    // Everything but the coefficients stays: noise of a single run would be another question.
+    // Only the coefficients are refitted; noise is shared by all runs.
     BodyModel joint = outcome.fits[i].model;
     for (std::size_t k = 0; k + 1 < joint.terms.size(); ++k) {
       joint.terms[k].fitted.assign(joint.terms[k].fitted.size(), false);

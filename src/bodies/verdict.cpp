@@ -18,7 +18,7 @@ double Comparison::threshold() const {
   if (nulls.empty()) return 5;
   const auto n = static_cast<double>(nulls.size());
   const auto over = static_cast<std::size_t>(std::floor(false_alarms * (n + 1)));
-  // Too few nulls for the share: their largest, and what a likelihood ratio costs beyond it.
+  // Fewer nulls than the rate requires: the largest gain plus the log of the missing factor.
   if (over == 0) return std::max(0.0, nulls.back()) + std::log(1 / (false_alarms * (n + 1)));
   return std::max(0.0, nulls[nulls.size() - over]);
 }

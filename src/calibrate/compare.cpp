@@ -1,5 +1,5 @@
-// How like the recordings simulated ones are, before and after: Eq. 9 against the noise floor, and
-// maps of the mean velocity.
+// Agreement of simulated and recorded motion before and after calibration: Eq. 9 with its noise
+// floor, and maps of the mean velocity.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,7 +15,7 @@ constexpr std::uint64_t kCompareSeed = 3000, kSplitSeed = 3001;
 constexpr int kMapCells = 25;
 using Curve = std::vector<double>;
 
-// Half of 0 .. n-1, rounded down, at random; what is left over comes after it.
+// A random permutation of 0 .. n-1, of which the first n / 2 (rounded down) are one half.
 std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t seed, int draw) {
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0u);
@@ -69,7 +69,7 @@ class Comparison {
   }
 
  private:
-  // Every simulated experiment against the others, as the recordings are.
+  // Compares every simulated experiment with the others, as the recordings are compared with all.
   void compare_equals(const std::vector<Curve>& same) {
     const std::size_t n = same.size();
     if (n == 0) {
@@ -88,8 +88,7 @@ class Comparison {
     out_.equals_p = static_cast<double>(as_far + 1) / static_cast<double>(n + 1);
   }
 
-  // Simulated halves; `fit` becomes the mean of Eq. 9 against them, `mean` the curve of all that
-  // was simulated.
+  // Simulates halves; sets `fit` to the mean of Eq. 9 against them and `mean` to the mean curve.
   std::vector<Curve> against(const std::vector<double>& values, const std::string& when,
                              Curve& mean, double& fit) {
     const int n = setup_.options.comparisons;
@@ -108,7 +107,7 @@ class Comparison {
     std::vector<Curve> simulated;
     mean.assign(out_.real.size(), 0), fit = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      // A diverged world is as unlike the recordings as can be.
+      // A diverged world has the largest misfit.
       if (rows[i].empty()) {
         fit = INFINITY;
         return {};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFolds = 8;
 
-// Anywhere but within reach: deviations of the design that an estimate may be off its centre.
+// No bounds but a distance from the centre, in deviations of the design.
 const FitBounds kFree{{}, {}, 5};
 
 }  // namespace
@@ -47,8 +47,7 @@ BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, doubl
   using Matrix = Eigen::MatrixXd;
   const Eigen::VectorXd centre = design.points.colwise().mean().transpose();
   const Matrix off = design.points.rowwise() - centre.transpose();
-  // By the design's own deviations, in which a slope that is not known at all is as wrong one way
-  // as another.
+  // In deviations of the design, so that an unknown slope has the same error in every direction.
   Matrix spread = off.transpose() * off / static_cast<double>(off.rows() - 1);
   spread.diagonal().array() += 1e-14;
   const Matrix unit = lower_root(spread), to_unit = lower_inverse(unit);

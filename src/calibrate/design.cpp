@@ -26,7 +26,7 @@ Matrix scattered(const Vector& centre, const Matrix& spread, int count, const Fi
     for (Eigen::Index k = 0; k < p; ++k) {
       z(k) = normal_pair({seed, Stream::calibrate, i / 2, static_cast<std::uint32_t>(k), 2})[0];
     }
-    // Far points would bend a quadratic, and tell little of the middle.
+    // Distant points would bias the quadratic at the centre.
     const double far = z.norm() / (kFar * std::sqrt(static_cast<double>(p)));
     if (far > 1) z /= far;
     Vector at = centre + (i % 2 == 0 ? 1 : -1) * (spread * z);

@@ -41,7 +41,8 @@ const CameraParameter* camera_parameter(const std::string& path) {
 constexpr std::uint64_t kCameraRun = 1u << 20;
 
 State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
-  // Poses of a recording have noise: they may overlap by a millimetre, which the first step mends.
+  // Poses of a recording have noise: they may overlap by a millimetre, which the first step
+  // resolves.
   State state = state_of_poses(model, start.pose, seed);
   for (std::size_t i = 0; i < start.twist.size(); ++i) {
     const Twist& twist = start.twist[i];

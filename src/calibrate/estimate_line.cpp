@@ -42,7 +42,7 @@ Line line_through(const Matrix& off, const Matrix& values) {
   return out;
 }
 
-// The normal law of parameters given their answer.
+// The posterior given the estimate.
 ParameterEstimate estimate_of(const Line& line, const Vector& centre, const Vector& answer,
                               const Prior& prior) {
   ParameterEstimate out;

@@ -17,7 +17,7 @@ ActiveForce force(const char* name, std::initializer_list<double> values) {
   return out;
 }
 
-// Balls that move as the extraction takes them to move.
+// A model of balls with the flow estimator's equation of motion.
 Model ball_model(const FlowEstimate& estimate, const BallPhysics& ball) {
   Model m = standard_model();
   m.steps_per_tick = kStepsPerTick, m.dt = kTick / kStepsPerTick;
@@ -54,7 +54,7 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
   if (!estimate.noise) throw InputError("the flow's error is drawn for a smooth estimate only");
   std::vector<RecordingShape> shapes;
   for (const Recording& one : balls) {
-    // The begin is all that is imitated of a start.
+    // Simulated balls start as the recording begins.
     if (one.body == BodyKind::ball) shapes.push_back(shape_of(one, 1e6));
   }
   EmulatorOptions emulation;

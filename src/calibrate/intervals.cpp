@@ -1,4 +1,4 @@
-// Intervals by parametric bootstrap, profiles, correlations, what the data cannot tell apart.
+// Intervals by parametric bootstrap, profiles, correlations, non-identifiable combinations.
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@ constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two paramet
 constexpr double kTellsNothing = 0.5;    // share of the bounds that an interval takes up
 constexpr double kMisfits = 0.01;        // probability below which the model does not explain data
 
-// Experiments of known parameters, estimated as the data are.
+// Simulated experiments of known parameters, estimated as the data are.
 struct Replicates {
   Design made;
   Matrix errors;  ///< of their estimates, a row each
@@ -40,8 +40,8 @@ struct Replicates {
   ResponseSurface model;  ///< of all simulations that count
 };
 
-// By models that did not know them. All simulations about the answer count, and the line through
-// their estimates makes good that slopes are noise in part.
+// Cross-fitted, over all simulations about the estimate. The regression of their estimates on the
+// truth corrects the bias by noise in the slopes.
 Replicates by_others(const LocalAnswer& answer, Design made, const Vector& observed) {
   const Eigen::Index n = made.points.rows(), before = answer.design.points.rows();
   Design all{Matrix(before + n, made.points.cols()), Matrix(before + n, observed.size())};
@@ -56,7 +56,7 @@ Replicates by_others(const LocalAnswer& answer, Design made, const Vector& obser
 }
 
 // The paper's objective has flat directions, along which no regression can be inverted: its
-// estimates stay within the bounds, and all replicates are at the answer.
+// estimates stay within the bounds, and all replicates are simulated at the estimate.
 Replicates by_the_answer(const Stages& stages, const LocalAnswer& answer, Design made) {
   FitBounds bounds = stages.bounds();
   bounds.reach = kEstimateReach;
@@ -106,7 +106,7 @@ void set_parameters(const Stages& stages, const LocalAnswer& answer, const Repli
   out.misfit_p = (static_cast<double>(larger) + 1) / (n + 1);
 }
 
-// Observed numbers beside those that are expected at the estimate, by a plane through replicates.
+// Observed statistics and their expectation at the estimate, by a linear fit to the replicates.
 void set_numbers(const Stages& stages, const Replicates& replicates, const Vector& centre,
                  const Vector& observed, CalibrationResult& out) {
   const Line line =
@@ -125,7 +125,7 @@ void set_numbers(const Stages& stages, const Replicates& replicates, const Vecto
   }
 }
 
-// Points of the replicates: about the answer, so that it is seen how estimates follow them. The
+// Points of the replicates: scattered about the estimate, so that the regression has a slope. The
 // paper's objective has flat directions, along which no regression can be inverted.
 Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const Vector& centre,
                         std::uint64_t seed) {
@@ -164,8 +164,8 @@ void set_profiles(const Stages& stages, const Replicates& replicates, const Vect
   }
 }
 
-// Of the first `n` parameters, those that go together with the `first`, directly or through
-// others.
+// Of the first `n` parameters, those that are strongly correlated with `first`, directly or in a
+// chain.
 std::vector<std::size_t> entangled_with(std::size_t first, std::size_t n,
                                         const CalibrationResult& out) {
   std::vector<std::size_t> group{first};
@@ -180,7 +180,7 @@ std::vector<std::size_t> entangled_with(std::size_t first, std::size_t n,
   return group;
 }
 
-// One line for all that only their combinations are known of.
+// One warning for each set of parameters of which only a combination is identifiable.
 void warn_of_entangled(std::size_t n, CalibrationResult& out) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::vector<std::size_t> group = entangled_with(i, n, out);
@@ -234,7 +234,7 @@ void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& ou
   }
 }
 
-// Of an estimate that displacements chose.
+// Warnings about an estimate selected by the MSD.
 void warn_of_choice(const Stages& stages, const NearestPoint& chosen, CalibrationResult& out) {
   if (!chosen.settled) {
     out.warnings.push_back("the choice by displacements had not settled after " +

@@ -1,4 +1,4 @@
-// Designs of simulations that move to the answer and shrink about it.
+// Designs of simulations that move to the estimate and shrink about it.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ constexpr double kNear = 1.6;      // farthest points that count, over the root 
 constexpr double kRoundReach = 2;  // deviations of the design that a round may go
 constexpr std::uint64_t kRoundSeed = 1000;
 
-// All simulations so far; those of worlds that diverged are left out.
+// All simulations so far, without diverged worlds.
 class Simulated {
  public:
   void add(const Matrix& points, std::vector<std::vector<double>> rows) {
@@ -47,7 +47,7 @@ class Simulated {
       throw InputError("more than half of the simulations about the search's answer diverged");
     }
   }
-  // Those about a centre, of this round or an earlier one.
+  // Simulations near a centre, of any round.
   Design near(const Vector& centre, const Matrix& spread) const {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -78,7 +78,7 @@ struct Phase {
   int most_rounds;
 };
 
-// From the search's answer to that of the last local model.
+// The sequence of response surfaces from the search's estimate to the last one.
 class Way {
  public:
   Way(Stages& stages, const FlowMaps& maps, const Vector& observed, const std::vector<double>& from)
@@ -111,9 +111,9 @@ class Way {
     }
   }
 
-  /// Whole experiments scatter less than the pieces that led here. From here on points are never
-  /// narrower: a covariance from slopes that are known too little is too small, and narrower points
-  /// would know them even less. They are wider where the errors ask for it.
+  /// Whole experiments scatter less than pieces. From here on designs do not shrink further: noisy
+  /// slopes give too small a covariance, and a narrower design even noisier slopes. They widen with
+  /// the errors.
   void narrow() {
     own_ *= std::clamp(std::sqrt(stages_.piece_cost()), kNarrowest, 1.0);
     spread_ = least_ = own_, stretched_ = false, fixed_ = true;
@@ -123,7 +123,7 @@ class Way {
   LocalAnswer answer() { return std::move(*answer_); }
 
  private:
-  // Asks one local model, and puts the next round's points where it points to.
+  // Fits one response surface and centres the next design at its estimate.
   LocalRound look(Design design, bool close, const std::string& name) {
     ResponseSurface model(design, kind_);
     FitBounds near = bounds_;
@@ -148,20 +148,20 @@ class Way {
                       fit.at_bound, stages_.from_scale(fit.point)});
     answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
                                 static_cast<int>(taken_.size()), settled, own_});
-    // A centre that is good enough stays, so that all simulations about it count.
+    // A settled centre stays, so that all simulations about it are used.
     if (settled) return taken_.back();
     Vector step = fit.point - centre_;
     step *= std::min(1.0, kWidest / step.cwiseAbs().cwiseQuotient(most_).maxCoeff());
     centre_ = fit.point, own_ = next;
-    // Parameters that hardly differ in what they do make a long and narrow valley: points that are
-    // scattered along the way taken so far lead through it in a few rounds.
+    // Nearly collinear parameters form a long, narrow valley; a design stretched along the last
+    // step crosses it in a few rounds.
     stretched_ = fit.at_bound || moved.norm() > kFarOff;
     spread_ = own_;
     if (stretched_) spread_ = lower_root(own_ * own_.transpose() + step * step.transpose());
     return taken_.back();
   }
 
-  // As far along the way to a point as the round may go.
+  // The step towards a point, cut at the bound of a round.
   LocalFit within_reach(const Vector& point, double misfit) const {
     const Vector step = solve_lower(spread_, point - centre_);
     const double far = step.cwiseAbs().maxCoeff() / kRoundReach;
@@ -169,7 +169,7 @@ class Way {
     return {at.cwiseMax(bounds_.low).cwiseMin(bounds_.high), misfit, far > 1};
   }
 
-  // Where the numbers are not explained yet, errors are larger than their covariance says.
+  // Where the fit is poor, errors exceed their covariance.
   Matrix rough_spread(const ResponseSurface& model, const LocalFit& fit) const {
     const auto freedom = static_cast<double>(observed_.size() - centre_.size());
     const double unexplained =
@@ -177,7 +177,7 @@ class Way {
     return spread_of(unexplained * model.parameter_covariance(fit.point), kRoughSpread, most_);
   }
 
-  // As wide as the errors ask for: whole experiments are never nearer to each other than at first.
+  // In proportion to the errors, never narrower than the first design of whole experiments.
   Matrix next_spread(const Matrix& errors) const {
     const Matrix asked = spread_of(errors, kLastSpread, kWidestLast * most_);
     return lower_root(least_ * least_.transpose() + asked * asked.transpose());
@@ -203,7 +203,8 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
                          const Vector& observed, CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   Way way(stages, maps, observed, from);
-  // Pieces are cheap and their scatter is wide: they lead to where whole experiments begin.
+  // Pieces are cheap and scatter widely: they find the centre of the first design of whole
+  // experiments.
   way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
           setup.options.most_rounds});
   way.narrow();

@@ -1,4 +1,4 @@
-// Of all parameters that the data cannot tell apart, those that move modules most alike.
+// Of all parameters that the data do not distinguish, those with the most similar MSD.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,7 +23,7 @@ constexpr int kMostRounds = 6;
 constexpr int kPerParameter = 12;
 constexpr int kEvaluations = 4000;  // of a response surface
 
-// The way there, in parameters that the report lists; nuisances stay as they are.
+// The search for them over the reported parameters; nuisances are fixed.
 class Nearest {
  public:
   Nearest(Stages& stages, const Vector& middle, const Matrix& covariance)
@@ -39,7 +39,7 @@ class Nearest {
                         kMostSpread * (bounds_.high - bounds_.low));
   }
 
-  // From a centre about which simulations were made before.
+  // `centre`: of earlier simulations.
   NearestPoint from(const Vector& centre) {
     NearestPoint out;
     Vector reported = centre.head(reported_);
@@ -73,8 +73,8 @@ class Nearest {
     return out;
   }
 
-  // Twice the negative log likelihood of parameters: normal by what all numbers say, and of the sum
-  // of the MSD's differences' sizes, whose mean among equal experiments is `usual` [Laplace].
+  // Deviance of parameters: normal for the posterior from all statistics, Laplace for the sum of
+  // the MSD's absolute differences, whose mean among equal experiments is `usual`.
   double deviance(const ResponseSurface& model, double usual, const Vector& point) const {
     const double by_numbers = (to_unit_ * (point - middle_.head(reported_))).squaredNorm();
     return by_numbers + 2 * model.misfit(observed_, point) / usual;

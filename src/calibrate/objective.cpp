@@ -1,4 +1,4 @@
-// What the search minimises.
+// The objective of the search.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint64_t kSearchSeed = 1, kScaleSeed = 2;  // runs of the calibration's seed
 constexpr int kScalePieces = 24;
-/// Degrees of freedom of Student's t, whose logarithm the distance is: numbers that are far off
-/// everywhere but near the answer must not drown the others.
+/// Degrees of freedom of the Student's t log-likelihood: heavy tails bound the weight of statistics
+/// that are far off except near the optimum.
 constexpr double kFreedom = 3;
 
 }  // namespace
@@ -42,7 +42,7 @@ struct CalibrationSearch::Parts {
     return all;
   }
 
-  // How much the numbers of one piece scatter, from pieces simulated at the start.
+  // Standard deviations of the statistics of a piece, from pieces simulated at the start.
   void find_deviation() {
     std::vector<std::vector<double>> rows(kScalePieces);
     for_each_world(kScalePieces, setup.options.threads, [&](int i) {

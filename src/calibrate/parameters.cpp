@@ -1,4 +1,4 @@
-// What is looked for, and between which bounds.
+// The calibrated parameters and their bounds.
 #include <algorithm>
 
 #include "lilytank/calibration.hpp"

@@ -63,7 +63,7 @@ std::optional<Synthetic> synthesise(const Scenario& scenario, const RecoveryOpti
   if (!made) return std::nullopt;
   out.experiment.recordings = std::move(*made);
   if (options.balls == 0) return out;
-  // The balls know the water as it is: K_v of the flow and of the Lilies are one.
+  // Balls measure K_v times the flow, so K_v is the same for flow and Lilies.
   Model model = scenario.model;
   model.flow.K_v = 1;
   for (ActiveForce& force : model.forces) {

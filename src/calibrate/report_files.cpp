@@ -11,7 +11,7 @@
 namespace lilytank {
 namespace {
 
-// Six digits: more than any interval is narrow. Empty where there is no number.
+// Six digits, finer than any interval; empty for NaN.
 std::string number(double value) {
   if (!std::isfinite(value)) return "";
   return significant(value, 6);
@@ -118,7 +118,7 @@ std::string history_csv(const CalibrationResult& c) {
   return out;
 }
 
-// How the response surfaces came to the answer.
+// The sequence of response surfaces.
 std::string rounds_csv(const CalibrationResult& c) {
   std::string out = "round,simulations,moved,misfit,at_reach";
   for (const CalibratedParameter& p : c.parameters) out += "," + p.parameter.path;

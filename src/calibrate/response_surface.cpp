@@ -45,9 +45,9 @@ ResponseSurface::ResponseSurface(const Design& design, Misfit misfit, Slopes slo
   shrink(errors.cwiseSqrt());
 }
 
-// Coefficients that may be noise are drawn towards nothing, by the more the less they exceed their
-// errors [Breiman's garrote, Technometrics 37, 1995]. A hundred numbers that depend on a parameter
-// by noise alone would seem to tell it, and hold the answer at the centre.
+// Shrinks coefficients by their ratio to their errors [Breiman's garrote, Technometrics 37, 1995]:
+// a hundred statistics that depend on a parameter by noise alone would seem to constrain it, and
+// bias the estimate to the centre.
 void ResponseSurface::shrink(const Vector& errors) {
   for (Eigen::Index k = 0; k < coefficients_.rows(); ++k) {
     const double deviation = std::sqrt(covariance_(k, k));
@@ -144,7 +144,7 @@ MapEstimate ResponseSurface::fit(const Vector& numbers, const FitBounds& bounds,
     out.fit = solve(numbers, -1, 0, bounds, weighed);
     out.dispersion = std::max(1.0, out.fit.misfit / freedom);
   }
-  // The prior's trust is no knowledge: errors do not shrink by it.
+  // The dispersion must not narrow the prior's part of the covariance.
   out.covariance = out.dispersion *
                    parameter_covariance(out.fit.point, prior.deviation / std::sqrt(out.dispersion));
   return out;
@@ -155,8 +155,8 @@ LocalFit ResponseSurface::fit_with(const Vector& numbers, int parameter, double 
   return solve(numbers, parameter, value, bounds, {});
 }
 
-// One least-squares problem: Levenberg and Marquardt within a box, with weights that turn squares
-// into sizes where those are asked for.
+// One least-squares problem: Levenberg-Marquardt within a box, reweighted for absolute differences
+// where the misfit is Misfit::absolute.
 struct ResponseSurface::Problem {
   const ResponseSurface& model;
   const Vector& numbers;
@@ -169,7 +169,7 @@ struct ResponseSurface::Problem {
     return weight.size() == 0 ? data : data + weight.dot((point - expected).cwiseAbs2());
   }
 
-  // A step from `point` under damping, parameters at a bound that they push against left out.
+  // A step from `point` under damping, without parameters that are held by a bound.
   Vector step(const Vector& point, double damping) const {
     const Vector r = model.whitener_ * (numbers - model.mean(point));
     const Matrix a = model.whitener_ * model.slope(point);

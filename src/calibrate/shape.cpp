@@ -1,4 +1,4 @@
-// What of a recording is imitated.
+// Properties of a recording that simulated ones reproduce.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ double missing_share(const Recording& recording) {
   return all > 0 ? missed / all : 0;
 }
 
-// Appends a body's place and motion at a frame if its track knows them there.
+// Appends a body's place and motion at a frame if its track has them there.
 void add_body(const SmoothTrack& track, int frame, BodiesAt& at) {
   const int k = frame - track.first;
   if (k < 0 || k >= track.frames()) return;
@@ -59,7 +59,7 @@ RecordingShape shape_of(const Recording& recording, double interval) {
     for (const SmoothTrack& track : smoothed.tracks) add_body(track, frame, at);
     if (static_cast<int>(at.pose.size()) == shape.bodies) shape.starts.push_back(std::move(at));
   }
-  // A recording is imitated from its begin or from a random start, not from somewhere in it.
+  // Simulated recordings start as the recording begins, or at random.
   if (!shape.starts.empty() && shape.starts.front().frame > recording.rate) shape.starts.clear();
   return shape;
 }

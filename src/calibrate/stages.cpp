@@ -80,7 +80,7 @@ std::vector<std::vector<double>> Stages::rows(const std::string& stage, int coun
   return out;
 }
 
-// More rounds than expected leave a little to do at the end.
+// The progress stays below 1 where rounds exceed the expected number.
 void Stages::tell(double spent, const std::string& stage) const {
   if (!setup_.options.progress) return;
   setup_.options.progress(std::min(0.98, spent / expected_), stage);
