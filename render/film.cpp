@@ -121,13 +121,17 @@ std::map<int, std::string> stills_in(const std::string& dir) {
 
 }  // namespace
 
+void check_film(const StoredRun& run, const FilmOptions& options, const std::string& file) {
+  std::error_code ignored;
+  if (options.force || !fs::is_regular_file(file, ignored)) return;
+  if (!holds(file, mark_of(run, options, schedule(run, options)))) refuse_to_replace(file);
+}
+
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file) {
+  check_film(run, options, file);
   const bool gif = is_gif(file);
   const Schedule when = schedule(run, options);
   const std::string mark = mark_of(run, options, when);
-  std::error_code ignored;
-  const bool taken = fs::is_regular_file(file, ignored) && !holds(file, mark);
-  if (taken && !options.force) refuse_to_replace(file);
   // H.264 with half-resolution colour needs even sizes.
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size / 2 * 2);
   TemporaryFile unfinished(file);

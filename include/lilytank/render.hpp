@@ -58,9 +58,11 @@ struct FilmOptions {
 void require_film_program();
 /// A film, .mp4 or .gif by the file's ending: frames are piped to ffmpeg, nothing else is written;
 /// the file appears whole or not at all. An .mp4 names in its comment the film that it holds, so a
-/// repeated call may replace it. Throws Stopped; InputError if ffmpeg is missing or fails; unless
-/// `options.force`, also if the file exists and is not this film, before the first frame is drawn.
+/// repeated call may replace it. Throws Stopped; InputError if ffmpeg is missing or fails, and as
+/// check_film() before the first frame is drawn.
 void draw_film(const StoredRun& run, const FilmOptions& options, const std::string& file);
+/// Throws InputError if the file exists and is not this film, unless `options.force`.
+void check_film(const StoredRun& run, const FilmOptions& options, const std::string& file);
 /// Whether a file is an .mp4 that draw_film() wrote. Throws InputError if it cannot be read.
 bool is_film(const std::string& file);
 /// When the film's frames are (s of simulated time). Throws InputError as draw_film.

@@ -85,18 +85,22 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
     if (!film.force && holds_other(file, pictures.back().second)) refuse_to_replace(file);
     made.push_back(file);
   }
-  const auto films = [&](const std::string& file) {
+  std::vector<std::string> films;
+  for (const char* name : {"mp4", "gif"}) {
+    if (options.has(name)) films.push_back(options.text(name));
+  }
+  if (made.empty() && films.empty() && !options.has("stills")) {
+    films.push_back((std::filesystem::path(dir) / "video.mp4").string());
+  }
+  for (const std::string& file : films) check_film(run, film, file);
+  for (const std::string& file : films) {
     draw_film(run, film, file);
     made.push_back(file);
-  };
-  for (const char* name : {"mp4", "gif"}) {
-    if (options.has(name)) films(options.text(name));
   }
   if (options.has("stills")) {
     draw_stills(run, film, options.text("stills"));
     made.push_back(options.text("stills"));
   }
-  if (made.empty()) films((std::filesystem::path(dir) / "video.mp4").string());
   write_results(pictures, film.force);
   progress.clear();
   for (const std::string& file : made) std::cout << file << "\n";

@@ -94,7 +94,8 @@ overwriting_pictures() {
     --stills "$out/stills"
   if command -v ffmpeg > /dev/null; then
     replaced film.mp4 render "$home/dense" --quiet --size 120 --speed 50 --mp4 "$out/film.mp4"
-    in_the_way film.gif render "$home/dense" --quiet --size 120 --speed 50 --gif "$out/film.gif"
+    in_the_way film.gif render "$home/dense" --quiet --size 120 --speed 50 --mp4 "$out/film.mp4" \
+      --gif "$out/film.gif"
     "$lily" run "$in/tank.toml" --quiet --out "$out/run" > /dev/null 2>&1
     in_the_way run/yield.png run "$in/tank.toml" --quiet --video --out "$out/run"
   fi

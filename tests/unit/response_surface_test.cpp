@@ -121,14 +121,14 @@ TEST(ResponseSurface, whatIsNotExplainedLeavesParametersWhereTheyWereExpected) {
   expected << 0.5, -0.2, at << 0.7, -0.35;
   const Prior prior{expected, Vector::Constant(2, 0.3)};
   const MapEstimate explained = model.fit(truth(at), {}, prior);
-  EXPECT_EQ(explained.doubt, 1);
+  EXPECT_EQ(explained.dispersion, 1);
   EXPECT_LT((explained.fit.point - at).norm(), 0.02);
   Vector odd = truth(expected);
   odd(1) += 2;  // a hundred of its deviations
   FitBounds near;
   near.reach = 10;
   const MapEstimate unexplained = model.fit(odd, near, prior);
-  EXPECT_GT(unexplained.doubt, 100);
+  EXPECT_GT(unexplained.dispersion, 100);
   EXPECT_LT((unexplained.fit.point - expected).norm(),
             0.6 * (model.fit(odd, near).point - expected).norm());
   EXPECT_GT(unexplained.covariance(0, 0), 30 * explained.covariance(0, 0));
