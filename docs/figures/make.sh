@@ -17,6 +17,10 @@ picture() {
 "$program" render $out/run --at 1150 --png $out/run/frame.png > /dev/null
 picture $out/run/frame.png tour/run 800
 
+"$program" run scenarios/demo.toml --out $out/demo --quiet > /dev/null
+"$program" render $out/demo --at 400 --png $out/demo/frame.png > /dev/null
+picture $out/demo/frame.png figures/tank 1280
+
 "$program" study scenarios/studies/tour.toml --set run.duration='2 h' --out $out/study > /dev/null
 picture $out/study/yield.png tour/yield 800
 

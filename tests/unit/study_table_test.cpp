@@ -207,7 +207,7 @@ TEST_F(StudyTableTest, TheStoppingRuleLooksAtItsRoundsOnly) {
           "[study]\nscenario = \"pair.toml\"\n[stop]\nmetric = \"copies\"\nhalf_width = 1\n"
           "min = 3\nmax = 9\nround = 2\n")
           .plan();
-  const auto wanted = [&](const std::vector<int>& copies, int missing = -1) {
+  const auto required = [&](const std::vector<int>& copies, int missing = -1) {
     RunTable run_table(plan);
     std::vector<RunRow> rows = rows_of(plan, copies);
     std::reverse(rows.begin(), rows.end());  // the order does not matter
