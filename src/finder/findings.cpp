@@ -106,11 +106,10 @@ void Diagnoser::report_where(const FoundCurve& curve, DiagnosisFinding& f) const
   f.from = curve.at[first] - (first == 0 ? 0 : half);
   f.to = curve.at[last] + (last + 1 == curve.at.size() ? 0 : half);
   char text[200];
-  std::snprintf(text, sizeof text,
-                "strongest %s, at %s %.3g %s, where the baseline is off by %.2g +- %.2g %s",
-                curve.direction.c_str(), place_words(curve.variable).c_str(), curve.at[peak],
-                curve.unit.c_str(), curve.value[peak], curve.deviation[peak],
-                curve.value_unit.c_str());
+  std::snprintf(
+      text, sizeof text, "largest z at %s %.3g %s: the baseline is off by %.2g +- %.2g %s, %s",
+      place_words(curve.variable).c_str(), curve.at[peak], curve.unit.c_str(), curve.value[peak],
+      curve.deviation[peak], curve.value_unit.c_str(), curve.direction.c_str());
   f.text = text;
 }
 
