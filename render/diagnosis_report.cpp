@@ -19,7 +19,7 @@ std::string unit_of(const FoundCurve& c) {
 
 // A value that is this much less certain than most of its curve has almost no data: bodies
 // were hardly ever there.
-constexpr double kUntold = 20;
+constexpr double kLeastCertain = 20;
 
 std::string with_z(double z) {
   char text[24];
@@ -40,10 +40,10 @@ Plot curve_plot(const FoundCurve& c, const DiagnosisSubject& of, bool small) {
   }
   if (small) plot.width = 460, plot.height = 330;
   const double half_width = normal_half_width() * scale_of(c);
-  const double scale = scale_of(c), untold = kUntold * median(c.deviation);
+  const double scale = scale_of(c), most = kLeastCertain * median(c.deviation);
   Curve nothing{"null, 95 %", c.at, {}, {}, {}}, found{"estimate", c.at, {}, {}, {}};
   for (std::size_t k = 0; k < c.at.size(); ++k) {
-    const double gap = c.deviation[k] > untold ? NAN : 1, band = half_width * c.deviation[k];
+    const double gap = c.deviation[k] > most ? NAN : 1, band = half_width * c.deviation[k];
     nothing.y.push_back(0 * gap), found.y.push_back(c.value[k] * scale * gap);
     nothing.low.push_back(-band * gap), nothing.high.push_back(band * gap);
   }

@@ -21,8 +21,8 @@ class DirectoryLock;
 struct DiagnosisOptions {
   int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
   double minutes = 10;  ///< time budget on two cores: scales the simulations
-  double false_alarms =
-      0.02;  ///< false-positive rate: share of null experiments reported as missing
+  /// False-positive rate: share of null experiments reported as missing.
+  double false_alarms = 0.02;
   std::uint64_t seed = 1;
   std::string out;     ///< directory; empty: nothing is stored
   bool force = false;  ///< replace another diagnosis's files

@@ -26,8 +26,8 @@ class FlowMaps {
  public:
   /// A flow without error.
   explicit FlowMaps(std::shared_ptr<const FlowField> field) : field_(std::move(field)) {}
-  /// An estimated flow with draws of its error, whose mean is subtracted, and at least two draws
-  /// from the posterior.
+  /// An estimated flow with draws of its error and at least two draws from the posterior. The mean
+  /// error is subtracted.
   FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
            std::vector<FlowDifference> open);
 

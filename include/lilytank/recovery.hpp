@@ -54,7 +54,7 @@ struct RecoveryOptions {
 
 /// Draws true parameters, uniform over the middle half of each range (by factors where the range is
 /// searched so), simulates recordings with per-point gusts and calibrates from the scenario's
-/// values. Experiments whose worlds diverge are drawn again. Throws Stopped.
+/// values. Experiments that diverge are drawn again. Throws Stopped.
 std::vector<RecoveryRow> recover(const Scenario& scenario, const RecoveryOptions& options);
 
 /// Coverage, bias, width and mean interval score by objective and parameter.

@@ -84,8 +84,8 @@ class Search {
   virtual const std::vector<IterationRecord>& history() const = 0;
   /// Whether a final selection is over: the last record is then its own, and no iteration's.
   virtual bool selected() const = 0;
-  /// Trials evaluated so far, and how many there will be in all. A search whose budget does not
-  /// divide into whole iterations may end a little below it.
+  /// Trials evaluated so far, and in all. A budget that does not divide into whole iterations may
+  /// not be spent completely.
   virtual std::int64_t evaluations() const = 0;
   virtual std::int64_t budget() const = 0;
   /// The box, as given.

@@ -18,8 +18,8 @@ void sort_best_first(std::vector<LawTrial>& all) {
                    [](const LawTrial& a, const LawTrial& b) { return a.gain > b.gain; });
 }
 
-// Whether two laws are combined: curves are not, nor two laws that rotate velocities, which are
-// equivalent.
+// Whether two laws are combined: curves are not, nor two laws that rotate velocities or two of
+// pairs of bodies, which are nearly equivalent.
 bool together(const Law& a, const Law& b) {
   const bool turns = a.variable() == "turn" && b.variable() == "turn";
   const bool pushes = a.variable() == "pair" && b.variable() == "pair";

@@ -31,8 +31,8 @@ struct Fitted {
   std::vector<double> deviation;  ///< their standard errors (of the packed numbers)
   double likelihood = 0;          ///< log, of all fitted samples
   int lost = 0;                   ///< coordinates whose prediction was not finite
-  std::vector<double>
-      held_out;  ///< log-likelihood of held-out samples, by block; empty: not computed
+  /// Log-likelihood of held-out samples, by block; empty: not computed.
+  std::vector<double> held_out;
   double held_out_sum() const;
   /// Whether the model's predictions of these samples are finite, so that they have a likelihood.
   bool usable() const;

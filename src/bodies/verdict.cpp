@@ -11,7 +11,7 @@
 
 namespace lilytank::bodies {
 namespace {
-constexpr std::size_t kPairsTold = 5;
+constexpr std::size_t kPairsReported = 5;
 }  // namespace
 
 double Comparison::threshold() const {
@@ -303,7 +303,8 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
     d.ranking.push_back({o.candidate.name(), "", std::sqrt(2 * std::max(0.0, o.gain))});
   };
   std::for_each(c.singles.begin(), c.singles.end(), add);
-  const auto pairs = static_cast<std::ptrdiff_t>(std::min<std::size_t>(c.pairs.size(), kPairsTold));
+  const auto pairs =
+      static_cast<std::ptrdiff_t>(std::min<std::size_t>(c.pairs.size(), kPairsReported));
   std::for_each(c.pairs.begin(), c.pairs.begin() + pairs, add);
   std::stable_sort(d.ranking.begin(), d.ranking.end(),
                    [](const RankedEffect& a, const RankedEffect& b) { return a.z > b.z; });

@@ -74,7 +74,7 @@ class Nearest {
   }
 
   // Deviance of parameters: normal for the posterior from all statistics, Laplace for the sum of
-  // the MSD's absolute differences, whose mean among equal experiments is `usual`.
+  // the MSD's absolute differences; `usual` is its mean among equal experiments.
   double deviance(const ResponseSurface& model, double usual, const Vector& point) const {
     const double by_numbers = (to_unit_ * (point - middle_.head(reported_))).squaredNorm();
     return by_numbers + 2 * model.misfit(observed_, point) / usual;

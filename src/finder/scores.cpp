@@ -145,7 +145,7 @@ class Scorer {
  private:
   void add(const PredictedFrame& frame) {
     const auto n = static_cast<std::size_t>(frame.now.size());
-    // Recordings have models of their own, whose addresses may repeat.
+    // Recordings have models of their own; their addresses may repeat.
     if (frame.model != model_ || frame.recording != recording_) {
       model_ = frame.model, recording_ = frame.recording;
       features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);

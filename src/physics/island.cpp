@@ -14,8 +14,8 @@ constexpr double kWallShare = 0.3;     // the round wall is smooth: sliding alon
 constexpr double kPushRange = 2e-3;    // m, pairs farther apart are not pushed together
 constexpr double kLongestPush = 2e-3;  // m, per contact and sweep
 
-// Did any point of a mover get farther from its start than promised?
-bool broke_promise(const Mover& m) {
+// Whether a point of a mover is farther from its start than its motion bound.
+bool is_beyond_bound(const Mover& m) {
   const double dx = m.pose.x - m.start.x, dy = m.pose.y - m.start.y;
   const double dc = m.pose.r.c - m.start.r.c, ds = m.pose.r.s - m.start.r.s;
   const double longer = std::fabs(dx) + std::fabs(dy) + m.reach * (std::fabs(dc) + std::fabs(ds));
@@ -218,9 +218,9 @@ double Island::push_apart(int rounds) {
   return deepest;
 }
 
-bool Island::breaks_promise() const {
+bool Island::any_beyond_bound() const {
   return std::any_of(movers_.begin() + 1, movers_.end(),
-                     [](const Mover& m) { return broke_promise(m); });
+                     [](const Mover& m) { return is_beyond_bound(m); });
 }
 
 void Island::undo(Mover& mover, int& count) {
@@ -234,7 +234,7 @@ int Island::put_back(double limit) {
   int count = 0;
   for (Mover& m : movers_) m.undone = false;
   for (Mover& m : movers_) {
-    if (m.slot >= 0 && broke_promise(m)) undo(m, count);
+    if (m.slot >= 0 && is_beyond_bound(m)) undo(m, count);
   }
   // Ends: a mover is put back once, and good poses overlap no more than they may.
   for (bool again = true; again;) {

@@ -85,10 +85,10 @@ class Island {
   /// Visits of contacts and pairs by the solvers since it was last set to 0; clear() leaves it.
   std::int64_t work = 0;
 
-  /// True if a mover got farther than it promised.
-  bool breaks_promise() const;
-  /// Puts back to their last good pose those that broke their motion_bound or overlap by more than
-  /// `limit` (m), and what then overlaps with those. Returns how many.
+  /// Whether any mover is beyond its motion bound.
+  bool any_beyond_bound() const;
+  /// Puts back to their last good pose those that are beyond their motion bound or overlap by more
+  /// than `limit` (m), and what then overlaps with those. Returns how many.
   int put_back(double limit);
   /// Poses as they are now, `time` (s) after the start, count as good.
   void accept(double time);

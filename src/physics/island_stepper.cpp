@@ -19,7 +19,7 @@ double keep_good(Island& island, double deepest, double before, Tallies& tallies
     deepest = island.survey();
   }
   const double limit = std::max(kUndoLimit, before);
-  if (deepest > limit || island.breaks_promise()) {
+  if (deepest > limit || island.any_beyond_bound()) {
     tallies.moves_undone += island.put_back(limit);
     deepest = island.survey();
   }

@@ -24,7 +24,7 @@ inline bool within(double x, double y, double radius) {
 enum class Way : std::uint8_t {
   free,    // by its twist; meets nothing
   course,  // in an island of those that would meet on their courses; strayed by a known amount
-  wide,    // in an island of all that could be reached, within its motion_bound
+  wide,    // in an island of all that could be reached, within its motion bound
 };
 
 // A step is cut into slices, short enough that one search for neighbours serves a slice; one slice
@@ -34,7 +34,7 @@ enum class Way : std::uint8_t {
 // 2. each island is moved apart from the others, in substeps of its own length, and notes how far
 //    pushes made its members stray from their courses;
 // 3. if one strayed so far that it could have met something outside, its island is taken back and
-//    gathered anew with all that any push could reach; what is in it keeps within a promised
+//    gathered anew with all that any push could reach; what is in it keeps within a bounded
 //    distance.
 // Results are written to the state when all is done, so every island starts from the same moment.
 struct Motion::Impl {

@@ -226,7 +226,7 @@ Proof read_proof(const std::string& dir) {
   return proof;
 }
 
-// A kill between the two files leaves a world whose model is not there, which is evaluated again.
+// After a kill between the two files a world has no model, and is evaluated again.
 void keep_worlds(const std::string& dir, const Proof& so_far) {
   if (dir.empty()) return;
   const KeptFiles files(dir, so_far.hash);

@@ -1,4 +1,4 @@
-// Estimates of known parameters, turned round: what they say of data.
+// Inverse regression of estimates on known parameters.
 #include "calibrate/estimate_line.hpp"
 
 #include <gtest/gtest.h>

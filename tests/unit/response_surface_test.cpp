@@ -1,5 +1,4 @@
-// Response surfaces: a quadratic is found exactly, and what is told of parameters is what theory
-// says.
+// Response surfaces: a quadratic is found exactly, and intervals are those of theory.
 #include "lilytank/response_surface.hpp"
 
 #include <gtest/gtest.h>
