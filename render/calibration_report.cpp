@@ -174,8 +174,11 @@ std::vector<std::string> draw_calibration(const CalibrationResult& c, const Repo
   }
   const PlotPage profiles = profile_page(c), pairs = pair_page(c);
   if (!profiles.plots.empty()) {
-    draw("profiles", "Profile of the misfit over each parameter, with its 95 % interval.", profiles,
-         draw_plots);
+    draw("profiles",
+         "Profile of the misfit over each parameter, with its 95 % interval. The interval comes "
+         "from simulated experiments and includes the errors of the flow and of the response "
+         "surface, so it can be wider than the part of the profile below the threshold.",
+         profiles, draw_plots);
   }
   if (!pairs.plots.empty()) {
     draw("estimates", "Estimates from simulated experiments, two parameters a plot.", pairs,

@@ -21,9 +21,9 @@ std::string unit_of(const FoundCurve& c) {
 // were hardly ever there.
 constexpr double kLeastCertain = 20;
 
-std::string with_z(double z) {
-  char text[24];
-  std::snprintf(text, sizeof text, ", z %.1f", z);
+std::string with_z(const char* what, double z) {
+  char text[40];
+  std::snprintf(text, sizeof text, ", z of the %s %.1f", what, z);
   return text;
 }
 
@@ -65,7 +65,7 @@ PlotPage maps_page(const Diagnosis& d) {
     if (page.plots.size() >= 12) break;
     page.plots.push_back(curve_plot(c, *d.subject, true));
     // A body's map tells how far it scatters, which is not what a finding's z is about.
-    if (d.subject->curves_tested) page.plots.back().title += with_z(c.z);
+    if (d.subject->curves_tested) page.plots.back().title += with_z("curve", c.z);
   }
   return page;
 }
@@ -76,7 +76,7 @@ PlotPage laws_page(const Diagnosis& d) {
   for (const DiagnosisFinding& f : d.findings) {
     if (f.curve.at.empty()) continue;
     Plot plot = curve_plot(f.curve, *d.subject, false);
-    plot.title = f.effect + ": " + plot.title + with_z(f.z);
+    plot.title = f.effect + ": " + plot.title + with_z("law", f.z);
     plot.title += d.subject->curves_of;
     page.plots.push_back(std::move(plot));
   }
@@ -128,7 +128,8 @@ std::vector<std::string> draw_diagnosis(const Diagnosis& d, const ReportDocument
   }
   if (!d.maps.empty()) {
     figures.push_back({"maps",
-                       "Maps of the one-step innovations, strongest first. Values that the data "
+                       "Maps of the one-step innovations, strongest first. A curve assumes no "
+                       "formula, so its z is usually below that of a law that fits. Values that the data "
                        "hardly constrain are not drawn.",
                        maps_page(d)});
   }

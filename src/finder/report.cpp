@@ -1,4 +1,5 @@
 // The report of a diagnosis as a document.
+#include <algorithm>
 #include <cmath>
 
 #include "lilytank/diagnosis.hpp"
@@ -79,6 +80,15 @@ std::string next_step(const Diagnosis& d) {
   return d.overlay.empty() ? "" : "simulate with the overlay missing.toml";
 }
 
+/// What the strongest residual of a null experiment stays below.
+double null_threshold(const Diagnosis& d) {
+  return std::max(d.effect_threshold, d.shape_threshold);
+}
+
+bool residual_remains(const Diagnosis& d) {
+  return d.subject->curves_tested && d.strongest_left > null_threshold(d);
+}
+
 ReportCard card_of(const Diagnosis& d) {
   ReportCard card;
   card.tone = tone_of(d.verdict), card.verdict = verdict_of(d);
@@ -95,6 +105,11 @@ ReportCard card_of(const Diagnosis& d) {
   if (d.verdict == Verdict::missing && !std::isnan(removed)) {
     const std::string where(d.subject->fit(d.nothing_held_out).where);
     card.facts.emplace_back("mismatch removed", percent(removed) + where);
+    if (residual_remains(d)) {
+      card.facts.emplace_back("remains", "a residual of z " + digits(d.strongest_left) +
+                                             " that no further effect explains; null experiments " +
+                                             "reach " + digits(null_threshold(d)));
+    }
   }
   if (const std::string next = next_step(d); !next.empty()) card.facts.emplace_back("next", next);
   return card;
@@ -129,7 +144,8 @@ ReportSection fit_section(const Diagnosis& d) {
   section.table.head = {std::string(of.groups), "before", "after", "fraction removed"};
   for (const GroupFit& g : d.held_out) {
     section.table.rows.push_back(
-        {g.group, digits(g.before), digits(g.after), g.clear() ? percent(g.removed()) : "-"});
+        {text_for(of.group_names, g.group), digits(g.before), digits(g.after),
+         g.clear() ? percent(g.removed()) : "-"});
   }
   if (of.eq9) {
     section.below.push_back("Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) +
@@ -172,7 +188,8 @@ ReportSection ranking_section(const Diagnosis& d) {
     section.above.push_back(share + "have an effect beyond z " + digits(d.effect_threshold) +
                             ", a force law beyond z " + digits(d.shape_threshold) +
                             ", or too large a residual; residual after the findings: z " +
-                            digits(d.strongest_left));
+                            digits(d.strongest_left) +
+                            (residual_remains(d) ? ", which is larger than chance explains" : ""));
   } else {
     section.above.push_back(share + "exceed z " + digits(d.effect_threshold));
   }
