@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "text/number.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"
 #include "statistics/text_table.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 
 namespace lilytank {
 

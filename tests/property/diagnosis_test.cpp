@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 

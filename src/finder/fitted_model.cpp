@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "calibrate/fit_conditions.hpp"
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 #include "finder/show.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"

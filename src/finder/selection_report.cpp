@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 

@@ -1,4 +1,4 @@
-#include "finder/diagnoser.hpp"
+#include "finder/prepared_tank.hpp"
 
 #include <algorithm>
 #include <cmath>
