@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finder/prepared_tank.hpp"
+#include "finder/fitted_model.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "text/number.hpp"
@@ -82,6 +82,29 @@ std::string identity_of(const Experiment& experiment) {
   return hex(hash.value());
 }
 
+// Verdict, model and comparison of recordings without faults; kept in the claimed directory.
+void search(DiagnosisSetup& setup, Diagnosis& out) {
+  PreparedTank tank(setup, setup.model_cost());
+  const CalibrationSetup& calibration = setup.calibration;
+  out.flow_csv = calibration.corrected_csv(*tank.maps.best());
+  out.modules = std::max(
+      {out.modules, most_bodies(calibration.shapes), most_bodies(calibration.held_out_shapes)});
+  if (!tank.ensemble.plan().identities) {
+    out.checks.push_back(
+        "there are more identities than bodies: differences between modules, "
+        "heterogeneous_module among them, are not tested");
+  }
+  out.nothing_held_out = calibration.held_out.empty();
+  if (out.nothing_held_out) {
+    out.warnings.push_back(
+        "no recording was held out: what is shown of the fit is of recordings "
+        "that it rests on, and says less than of others");
+  }
+  const Judged judged = judge(tank, calibration.training, out);
+  fit_findings(tank, judged, out.nothing_held_out ? calibration.training : calibration.held_out,
+                 out);
+}
+
 }  // namespace
 
 std::string Detectable::parameter() const {
@@ -143,11 +166,11 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options
     out.verdict = Verdict::measurement;
     return out;
   }
-  Diagnoser diagnoser(experiment, options);
+  DiagnosisSetup setup(experiment, options);
   const auto lock = claim_directory(options.out, options.force,
-                                    {"diagnosis", diagnoser.identity(), diagnosis_files()});
+                                    {"diagnosis", setup.identity(), diagnosis_files()});
   if (options.lock != nullptr) *options.lock = lock;
-  diagnoser.run(out);
+  search(setup, out);
   return out;
 }
 

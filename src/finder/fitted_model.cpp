@@ -1,9 +1,11 @@
-// The joint fit of findings and baseline, and its test on held-out recordings.
+#include "finder/fitted_model.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/fit_conditions.hpp"
-#include "finder/prepared_tank.hpp"
+#include "finder/found_effect.hpp"
+#include "finder/joint.hpp"
 #include "finder/show.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
@@ -50,90 +52,21 @@ std::string overlay_of(const CalibrationSetup& setup, const std::vector<JointEff
   return out.text();
 }
 
-}  // namespace
-
-std::vector<double> Diagnoser::report_baseline(const Judged& judged, Diagnosis& out) const {
-  const Vector& summary = judged.observed.summary;
-  std::vector<double> alone = stages_.from_scale(ensemble_->nearest(summary).point);
-  for (std::size_t i = 0; i < setup_.reported_count(); ++i) {
-    MovedParameter& p = out.parameters.emplace_back();
-    p.path = setup_.parameters[i].path, p.unit = setup_.parameters[i].unit;
-    p.baseline = p.with_effects = alone[i];
-    p.deviation = deviation_(static_cast<Eigen::Index>(i));
-  }
-  // Where the baseline does not explain the recordings, its bias is unknown.
-  if (out.verdict != Verdict::complete) return alone;
-  const FitBounds bounds = stages_.bounds();
-  const ParameterEstimate posterior = ensemble_->posterior(
-      summary, {stages_.to_scale(setup_.start), kPrior * (bounds.high - bounds.low)});
-  for (std::size_t i = 0; i < setup_.reported_count(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const FitParameter& of = setup_.parameters[i];
-    const double middle = posterior.estimate(k), half = posterior.wide * posterior.deviation(k);
-    const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
-    MovedParameter& p = out.parameters[i];
-    p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
-  }
-  return alone;
-}
-
-void Diagnoser::model_and_show(const Judged& judged, const std::vector<Recording>& held_out,
-                               Diagnosis& out) {
-  const SelectedModel& e = judged.selected;
-  const Vectors& observed = judged.observed;
-  const Vector baseline = ensemble_->calibrated(observed.summary);
-  const std::vector<double> before = report_baseline(judged, out);
-  if (out.verdict != Verdict::missing) {
-    report_camera(before, out);
-    return;
-  }
-  std::vector<JointEffect> found;
-  // The calibrated baseline less the effects' shift of it.
-  Vector moved = Vector::Zero(baseline.size());
-  for (const EffectFit& f : e.found) {
-    moved += f.moved;
-    found.push_back({found_effect(f, judged.details), f.amplitudes, f.shape});
-  }
-  const FitBounds bounds = stages_.bounds();
-  const JointStart start{stages_.to_scale(setup_.start),
-                         (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
-                         spread_.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(stages_, *maps_, *ensemble_, found, observed, start,
-                                   {budget_.round, selection_->effect_threshold(), judged.tag,
-                                    derived_seed(options_.seed, 700)});
-  if (!fit.settled) {
-    out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
-  }
-  keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
-  report_camera(fit.value, out);
-  report_parameters(fit, found, out);
-  show(fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
-}
-
-// The baseline alone, with the parameters at these scaled values.
-Model Diagnoser::baseline_at(const Vector& scaled) const {
-  const std::vector<std::string> all = setup_.paths();
-  const std::vector<double> values = stages_.from_scale(scaled);
-  const auto reported = static_cast<std::ptrdiff_t>(setup_.reported_count());
-  return with_parameters(setup_.model,
-                         std::vector<std::string>(all.begin(), all.begin() + reported),
-                         std::vector<double>(values.begin(), values.begin() + reported));
-}
-
-void Diagnoser::report_camera(const std::vector<double>& values, Diagnosis& out) const {
-  for (std::size_t i = setup_.reported_count(); i < setup_.parameters.size(); ++i) {
-    out.checks.push_back(setup_.parameters[i].path + " = " + significant(values[i], 3) + " " +
-                         setup_.parameters[i].unit + ", fitted along");
+void report_camera(const CalibrationSetup& setup, const std::vector<double>& values,
+                   Diagnosis& out) {
+  for (std::size_t i = setup.reported_count(); i < setup.parameters.size(); ++i) {
+    out.checks.push_back(setup.parameters[i].path + " = " + significant(values[i], 3) + " " +
+                         setup.parameters[i].unit + ", fitted along");
   }
 }
 
-void Diagnoser::report_parameters(const JointFit& fit, const std::vector<JointEffect>& found,
-                                  Diagnosis& out) const {
+void report_parameters(const CalibrationSetup& setup, const JointFit& fit,
+                       const std::vector<JointEffect>& found, Diagnosis& out) {
   for (std::size_t i = 0; i < out.parameters.size(); ++i) {
     out.parameters[i].with_effects = fit.value[i];
     out.parameters[i].low = fit.low[i], out.parameters[i].high = fit.high[i];
   }
-  std::size_t at = setup_.parameters.size();
+  std::size_t at = setup.parameters.size();
   for (std::size_t e = 0; e < found.size(); ++e) {
     const Effect& effect = found[e].effect;
     const std::size_t count = effect.paths.size() + effect.refine.size();
@@ -156,23 +89,27 @@ void Diagnoser::report_parameters(const JointFit& fit, const std::vector<JointEf
       }
     }
   }
-  out.overlay = overlay_of(setup_, found, out);
+  out.overlay = overlay_of(setup, found, out);
 }
 
 // `baseline`: its calibration to these recordings.
-void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, const Vector& baseline,
-                     const std::vector<Recording>& recordings, Diagnosis& out) {
+void show(PreparedTank& tank, const JointFit& fit, const std::vector<double>& before,
+          const Vector& baseline, const std::vector<Recording>& recordings, Diagnosis& out) {
+  const CalibrationSetup& setup = tank.setup.calibration;
+  const Stages& stages = tank.setup.stages;
+  const ScorePlan& plan = tank.ensemble.plan();
   std::vector<RecordingShape> shapes;
   for (const Recording& one : recordings) shapes.push_back(shape_of(one));
   std::vector<std::string> paths;
   for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
   const Emulator with(fit.model, paths, shapes, {.moment_matched = false});
-  const auto b = repeat(stages_, *maps_, setup_.emulator(shapes, CalibrationSetup::Of::experiments),
-                        before, budget_.comparisons, derived_seed(options_.seed, 801));
-  const auto a = repeat(stages_, *maps_, with, fit.value, budget_.comparisons,
-                        derived_seed(options_.seed, 802));
-  out.held_out = group_fits(setup_, ensemble_->plan(), recordings, b, a);
-  msd_share(recordings, b, a, setup_.piece, out);
+  const auto b =
+      repeat(stages, tank.maps, setup.emulator(shapes, CalibrationSetup::Of::experiments), before,
+             tank.setup.budget.comparisons, derived_seed(tank.setup.options.seed, 801));
+  const auto a = repeat(stages, tank.maps, with, fit.value, tank.setup.budget.comparisons,
+                        derived_seed(tank.setup.options.seed, 802));
+  out.held_out = group_fits(setup, plan, recordings, b, a);
+  msd_share(recordings, b, a, setup.piece, out);
   std::vector<std::string> kept;
   std::vector<double> values;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -183,21 +120,86 @@ void Diagnoser::show(const JointFit& fit, const std::vector<double>& before, con
   // Compared with the better of two baselines: under a strong omitted effect a calibration can be
   // worse than the start.
   const auto gain_over = [&](const Model& without) {
-    return step_gain(without, after, ensemble_->plan().predictor, recordings);
+    return step_gain(without, after, plan.predictor, recordings);
   };
-  const StepGain by_plan = gain_over(ensemble_->plan().model);
-  const StepGain by_own = gain_over(baseline_at(baseline));
+  const StepGain by_plan = gain_over(plan.model);
+  const StepGain by_own = gain_over(tank.baseline_at(baseline));
   const StepGain& gain = by_own.gain < by_plan.gain ? by_own : by_plan;
   for (DiagnosisFinding& f : out.findings) {
     f.gain = gain.gain, f.gain_low = gain.low, f.gain_high = gain.high;
   }
   if (gain.high >= 0) return;
   out.warnings.push_back(
-      likelier_but_for_errors(ensemble_->plan(), after, recordings)
+      likelier_but_for_errors(plan, after, recordings)
           ? "one step ahead, errors of the baseline's parameters cost more than what was found "
             "gains; allowing for these, it does predict recordings that had no part in this better"
           : "one step ahead, what was found predicts recordings that had no part in this worse "
             "than nothing does: the name or its law is doubtful");
+}
+
+}  // namespace
+
+std::vector<double> report_baseline(const PreparedTank& tank, const Judged& judged,
+                                    Diagnosis& out) {
+  const CalibrationSetup& setup = tank.setup.calibration;
+  const Stages& stages = tank.setup.stages;
+  const Vector& summary = judged.observed.summary;
+  std::vector<double> alone = stages.from_scale(tank.ensemble.nearest(summary).point);
+  for (std::size_t i = 0; i < setup.reported_count(); ++i) {
+    MovedParameter& p = out.parameters.emplace_back();
+    p.path = setup.parameters[i].path, p.unit = setup.parameters[i].unit;
+    p.baseline = p.with_effects = alone[i];
+    p.deviation = tank.baseline.deviation(static_cast<Eigen::Index>(i));
+  }
+  // Where the baseline does not explain the recordings, its bias is unknown.
+  if (out.verdict != Verdict::complete) return alone;
+  const FitBounds bounds = stages.bounds();
+  const ParameterEstimate posterior = tank.ensemble.posterior(
+      summary, {stages.to_scale(setup.start), kPrior * (bounds.high - bounds.low)});
+  for (std::size_t i = 0; i < setup.reported_count(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const FitParameter& of = setup.parameters[i];
+    const double middle = posterior.estimate(k), half = posterior.wide * posterior.deviation(k);
+    const auto within = [&](double at) { return std::clamp(of.from_scale(at), of.low, of.high); };
+    MovedParameter& p = out.parameters[i];
+    p.with_effects = within(middle), p.low = within(middle - half), p.high = within(middle + half);
+  }
+  return alone;
+}
+
+void fit_findings(PreparedTank& tank, const Judged& judged,
+                    const std::vector<Recording>& held_out, Diagnosis& out) {
+  const CalibrationSetup& setup = tank.setup.calibration;
+  Stages& stages = tank.setup.stages;
+  const SelectedModel& e = judged.selected;
+  const Vectors& observed = judged.observed;
+  const Vector baseline = tank.ensemble.calibrated(observed.summary);
+  const std::vector<double> before = report_baseline(tank, judged, out);
+  if (out.verdict != Verdict::missing) {
+    report_camera(setup, before, out);
+    return;
+  }
+  std::vector<JointEffect> found;
+  // The calibrated baseline less the effects' shift of it.
+  Vector moved = Vector::Zero(baseline.size());
+  for (const EffectFit& f : e.found) {
+    moved += f.moved;
+    found.push_back({found_effect(tank.ensemble.plan(), f, judged.details), f.amplitudes, f.shape});
+  }
+  const FitBounds bounds = stages.bounds();
+  const JointStart start{stages.to_scale(setup.start),
+                         (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
+                         tank.spread.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
+  const JointFit fit = fit_jointly(stages, tank.maps, tank.ensemble, found, observed, start,
+                                   {tank.setup.budget.round, tank.selection.effect_threshold(),
+                                    judged.tag, derived_seed(tank.setup.options.seed, 700)});
+  if (!fit.settled) {
+    out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
+  }
+  keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
+  report_camera(setup, fit.value, out);
+  report_parameters(setup, fit, found, out);
+  show(tank, fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
 }
 
 }  // namespace lilytank

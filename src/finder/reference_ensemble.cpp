@@ -21,7 +21,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7;
+constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7,
+                        kCurveSeed = 500;
 constexpr int kEnsembleFolds = 8;
 constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
 // Width of designs about a finding relative to that of nulls: its parameters are known better.
@@ -313,6 +314,15 @@ Vector ReferenceEnsemble::mean_residual(const Effect& effect, const Vector& ampl
       .residuals.colwise()
       .mean()
       .transpose();
+}
+
+const Fingerprint& ReferenceEnsemble::shape_fingerprint(int s) {
+  const auto known = shape_fingerprints_.find(s);
+  if (known != shape_fingerprints_.end()) return known->second;
+  const std::uint64_t seed =
+      derived_seed(options_.curve_seed, kCurveSeed + static_cast<std::uint64_t>(s));
+  return shape_fingerprints_[s] = fingerprint(effect_of(plan_.shapes[static_cast<std::size_t>(s)]),
+                                              "shape " + std::to_string(s), seed);
 }
 
 Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,

@@ -36,6 +36,7 @@ struct EnsembleOptions {
   int nulls = 300;       ///< experiments simulated without any effect
   int experiments = 14;  ///< with an effect, for each of its amplitudes
   std::uint64_t seed = 1;
+  std::uint64_t curve_seed = 1;  ///< of the fingerprints of curves
 };
 
 /// An experiment's vector, its two parts.
@@ -78,8 +79,8 @@ class ReferenceEnsemble {
   /// Of the scores of effects, the first of the named numbers, in the calibrated recordings.
   const Eigen::MatrixXd& informations() const { return informations_; }
   const std::vector<Fingerprint>& fingerprints() const { return fingerprints_; }
-  /// The fingerprint of an effect that is not in the plan's list.
-  Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
+  /// The fingerprint of a curve of the plan; its experiments are simulated at the first call.
+  const Fingerprint& shape_fingerprint(int shape);
   /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
   /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
   /// that was learned there before, by no fewer experiments (an even number), serves again; a new
@@ -108,6 +109,7 @@ class ReferenceEnsemble {
   Responses answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                     const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
                     std::uint64_t seed);
+  Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
   const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
                                        const Eigen::VectorXd& amplitudes,
                                        const Eigen::VectorXd& point, int experiments) const;
@@ -126,6 +128,7 @@ class ReferenceEnsemble {
   Eigen::MatrixXd null_residuals_, informations_;
   Eigen::Index named_ = 0;
   std::vector<Fingerprint> fingerprints_;
+  std::map<int, Fingerprint> shape_fingerprints_;  ///< those learned so far
 };
 
 }  // namespace lilytank

@@ -13,8 +13,8 @@ constexpr double kLeastOwn = 1;     // z of an effect by the scatter of experime
 
 }  // namespace
 
-std::optional<EffectFit> Diagnoser::Refinement::likeliest(bool effects_only,
-                                                          const std::string& variable) const {
+std::optional<EffectFit> Refinement::likeliest(bool effects_only,
+                                               const std::string& variable) const {
   std::optional<EffectFit> out;
   double least = 0;
   for (const auto& [id, one] : state_.refined) {
@@ -29,7 +29,7 @@ std::optional<EffectFit> Diagnoser::Refinement::likeliest(bool effects_only,
   return out;
 }
 
-SelectedModel Diagnoser::Refinement::selected() {
+SelectedModel Refinement::selected() {
   for (int pass = 0; pass < kMostCentred; ++pass) {
     bool moved = false;
     for (const bool effects_only : {false, true}) {
@@ -46,7 +46,7 @@ SelectedModel Diagnoser::Refinement::selected() {
   return selected_by(state_.selection);
 }
 
-SelectedModel Diagnoser::Refinement::selected_by(const ModelSelection& selection) const {
+SelectedModel Refinement::selected_by(const ModelSelection& selection) const {
   const std::optional<EffectFit> likely = likeliest();
   SelectedModel e = selection.select(residual_);
   if (e.found.empty() && likely && baseline_misfit_ > selection.misfit_threshold()) {
@@ -58,8 +58,7 @@ SelectedModel Diagnoser::Refinement::selected_by(const ModelSelection& selection
   return other.penalized_deviance < e.penalized_deviance ? other : e;
 }
 
-SelectedModel Diagnoser::Refinement::at_least(const ModelSelection& selection,
-                                              const EffectFit& likely) const {
+SelectedModel Refinement::at_least(const ModelSelection& selection, const EffectFit& likely) const {
   SelectedModel e = selection.select(residual_, {likely});
   if (e.found.empty() || e.found[0].z < kLeastOwn) {
     e.found.clear(), e.misfit = baseline_misfit_, e.share_left = 1;
@@ -67,14 +66,13 @@ SelectedModel Diagnoser::Refinement::at_least(const ModelSelection& selection,
   return e;
 }
 
-bool Diagnoser::Refinement::leaves_curve(const ModelSelection& selection,
-                                         const SelectedModel& e) const {
+bool Refinement::leaves_curve(const ModelSelection& selection, const SelectedModel& e) const {
   double largest = 0;
   for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
   return e.left_shape.z > std::max(selection.shape_threshold(), kCurveLeft * largest);
 }
 
-bool Diagnoser::Refinement::is_found(const EffectFit& f, const SelectedModel& e) const {
+bool Refinement::is_found(const EffectFit& f, const SelectedModel& e) const {
   return std::any_of(e.found.begin(), e.found.end(),
                      [&](const EffectFit& other) { return id_of(other) == id_of(f); });
 }

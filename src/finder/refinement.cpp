@@ -28,82 +28,50 @@ double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldPara
   return std::hypot(a[0].value - b[0].value, a[1].value - b[1].value);
 }
 
-}  // namespace
-
-// Named effects first; a shape is tried where they leave a significant remainder.
-SelectedModel Diagnoser::explained(ModelSelection& selection, ScoreSensitivity& sensitivity,
-                                   const Vector& residual) {
-  SelectedModel e = selection.select(residual);
-  const std::vector<EffectFit> shapes = selection.shapes(residual);
-  std::vector<int> tested;
-  if (shapes[0].z > selection.shape_threshold() &&
-      (e.found.empty() || shapes[0].z > e.found[0].z)) {
-    tested.push_back(shapes[0].shape);
-  }
-  double largest = 0;
-  for (const EffectFit& f : e.found) largest = std::max(largest, f.z);
-  if (e.left_shape.z > std::max(selection.shape_threshold(), 0.15 * largest)) {
-    if (tested.empty() || tested[0] != e.left_shape.shape) tested.push_back(e.left_shape.shape);
-  }
-  // A large remainder may be another law of the same variable.
-  if (!e.found.empty() && e.found[0].effect >= 0 && e.misfit > selection.misfit_threshold()) {
-    const std::string& variable = effect(e.found[0]).variable;
-    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const EffectFit& f) {
-      return ensemble_->plan().shapes[static_cast<std::size_t>(f.shape)].variable == variable;
-    });
-    if (same != shapes.end() &&
-        std::find(tested.begin(), tested.end(), same->shape) == tested.end()) {
-      tested.push_back(same->shape);
-    }
-  }
-  for (const int s : tested) {
-    const Effect curve = effect_of(ensemble_->plan().shapes[static_cast<std::size_t>(s)]);
-    selection.add_shape(s, sensitivity.aligned(shape_fingerprint(s), curve));
-  }
-  return tested.empty() ? e : selection.select(residual);
-}
-
 // Whether one effect of a measured size explains the whole mismatch, without a remainder or a
 // competitor.
-bool Diagnoser::plain(const ModelSelection& selection, const SelectedModel& e,
-                      const Vector& residual) const {
+bool is_plain(const ScorePlan& plan, const ModelSelection& selection, const SelectedModel& e,
+              const Vector& residual) {
   const EffectFit& f = e.found.front();
   if (e.found.size() > 1 || selection.leaves_residual(e)) return false;
   if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
   const std::vector<EffectFit> leading = selection.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
-    const bool same = other.effect >= 0 && effect(other).family == effect(f).family;
+    const bool same =
+        other.effect >= 0 && effect_in(plan, other).family == effect_in(plan, f).family;
     return !same && other.gain > kNearGain * leading.front().gain;
   });
 }
 
-Diagnoser::Refinement::Refinement(Diagnoser& diagnoser, ScoreSensitivity& sensitivity,
-                                  const Vectors& observed, const Vector& residual,
-                                  const Refined& start)
-    : of_(diagnoser),
-      sensitivity_(sensitivity),
-      residual_(residual),
-      calibrated_(diagnoser.ensemble_->calibrated(observed.summary)),
-      baseline_misfit_(diagnoser.selection_->baseline_misfit(residual)),
+}  // namespace
+
+Refinement::Refinement(const RefinementInput& input, const RefinedSelection& start)
+    : ensemble_(input.ensemble),
+      plan_(input.ensemble.plan()),
+      sensitivity_(input.sensitivity),
+      residual_(input.residual),
+      calibrated_(input.ensemble.calibrated(input.observed.summary)),
+      baseline_misfit_(input.baseline_misfit),
+      threads_(input.threads),
       state_{start.selection, start.details, {}, {}} {
   find_homes();
 }
 
 // A scanned effect starts with the slopes of its nearest known fingerprint.
-void Diagnoser::Refinement::find_homes() {
+void Refinement::find_homes() {
   std::map<int, double> least;
-  const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
+  const std::vector<Effect>& effects = plan_.effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    const auto scanned = of_.scanned(effects[e], state_.details);
-    if (!scanned) continue;
-    const double off = far_apart(effects[e].held, scanned->held);
+    const auto direct = scanned(plan_, effects[e], state_.details);
+    if (!direct) continue;
+    const double off = far_apart(effects[e].held, direct->held);
     const auto [at, first] = least.emplace(effects[e].family, off);
     if (!first && off >= at->second) continue;
     at->second = off, state_.home[effects[e].family] = static_cast<int>(e);
   }
 }
 
-Diagnoser::Refined Diagnoser::Refinement::run() {
+RefinedSelection Refinement::run() {
   const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
     if (needs_relinearization(f) && f.gain > kFirstRival * leading[0].gain) refine_fingerprint(f);
@@ -119,32 +87,33 @@ Diagnoser::Refined Diagnoser::Refinement::run() {
   return {std::move(m), std::move(state_.selection), std::move(state_.details)};
 }
 
-Diagnoser::Refinement::Id Diagnoser::Refinement::id_of(const EffectFit& f) const {
+Refinement::Id Refinement::id_of(const EffectFit& f) const {
   if (f.effect < 0) return {f.effect, f.shape};
-  const auto home = state_.home.find(of_.effect(f).family);
+  const auto home = state_.home.find(effect_in(plan_, f).family);
   return {home == state_.home.end() ? f.effect : home->second, f.shape};
 }
 
-EffectFit Diagnoser::Refinement::fit_with(const Id& id, const Vector& amplitudes) {
+EffectFit Refinement::fit_with(const Id& id, const Vector& amplitudes) {
   EffectFit out;
   out.effect = id.first, out.shape = id.second;
   out.amplitudes = amplitudes;
   return out;
 }
 
-const RefinedCandidate* Diagnoser::Refinement::refined(const EffectFit& f) const {
+const RefinedCandidate* Refinement::refined(const EffectFit& f) const {
   const auto found = state_.refined.find(id_of(f));
   return found == state_.refined.end() ? nullptr : &found->second;
 }
 
-Fingerprint Diagnoser::Refinement::fingerprint(const EffectFit& f) {
+Fingerprint Refinement::fingerprint(const EffectFit& f) {
   if (const RefinedCandidate* known = refined(f)) return known->fingerprint;
-  if (f.effect < 0) return sensitivity_.aligned(of_.shape_fingerprint(f.shape), found_effect(f));
+  if (f.effect < 0)
+    return sensitivity_.aligned(ensemble_.shape_fingerprint(f.shape), found_effect(f));
   const auto e = static_cast<std::size_t>(f.effect);
-  return sensitivity_.aligned(of_.ensemble_->fingerprints()[e], of_.ensemble_->plan().effects[e]);
+  return sensitivity_.aligned(ensemble_.fingerprints()[e], plan_.effects[e]);
 }
 
-void Diagnoser::Refinement::forget(int family) {
+void Refinement::forget(int family) {
   const auto concerns = [&](const Id& id) { return id.first >= 0 && effect(id).family == family; };
   std::erase_if(filtered_, [&](const auto& one) { return concerns(one.first); });
   for (auto known = state_.refined.begin(); known != state_.refined.end();) {
@@ -158,14 +127,13 @@ void Diagnoser::Refinement::forget(int family) {
   }
 }
 
-void Diagnoser::Refinement::refine_fingerprint(EffectFit f, int experiments) {
+void Refinement::refine_fingerprint(EffectFit f, int experiments) {
   if (refined(f) == nullptr) f = first_guess(f);
   const Fingerprint from = fingerprint(f);
   f.amplitudes = halfway(f, from);
   const Effect effect = found_effect(f);
-  const Fingerprint about =
-      of_.ensemble_->fingerprint_about(f.amplitudes, from, effect, calibrated_,
-                                       of_.stage_name(f, state_.details), learned_, experiments);
+  const Fingerprint about = ensemble_.fingerprint_about(f.amplitudes, from, effect, calibrated_,
+                                                        stage_name(f), learned_, experiments);
   RefinedCandidate& own = state_.refined[id_of(f)];
   own.fingerprint = sensitivity_.aligned(about, effect);
   state_.selection.set_fingerprint(f, own.fingerprint);
@@ -173,7 +141,7 @@ void Diagnoser::Refinement::refine_fingerprint(EffectFit f, int experiments) {
 }
 
 // Halves a step that reverses the last one: two places may point to each other.
-Vector Diagnoser::Refinement::halfway(const EffectFit& f, const Fingerprint& from) {
+Vector Refinement::halfway(const EffectFit& f, const Fingerprint& from) {
   const auto own = state_.refined.find(id_of(f));
   if (own == state_.refined.end()) return f.amplitudes;
   Vector step = f.amplitudes - from.about;
@@ -183,7 +151,7 @@ Vector Diagnoser::Refinement::halfway(const EffectFit& f, const Fingerprint& fro
   return from.about + step;
 }
 
-SelectedModel Diagnoser::Refinement::settled(SelectedModel m) {
+SelectedModel Refinement::settled(SelectedModel m) {
   for (int more = 0; more < kMostRefined; ++more) {
     const std::optional<EffectFit> next = next_after(m);
     if (!next) break;
@@ -194,7 +162,7 @@ SelectedModel Diagnoser::Refinement::settled(SelectedModel m) {
   return m;
 }
 
-EffectFit Diagnoser::Refinement::first_guess(EffectFit f) {
+EffectFit Refinement::first_guess(EffectFit f) {
   f.effect = id_of(f).first;
   const Effect effect = found_effect(f);
   if (!effect.mean_force) return f;
@@ -203,23 +171,22 @@ EffectFit Diagnoser::Refinement::first_guess(EffectFit f) {
   return f;
 }
 
-const JointAmplitudes& Diagnoser::Refinement::filtered(const EffectFit& f, const Effect& effect) {
+const JointAmplitudes& Refinement::filtered(const EffectFit& f, const Effect& effect) {
   const auto known = filtered_.find(id_of(f));
   if (known != filtered_.end()) return known->second;
-  auto linear = joint_amplitudes(of_.ensemble_->plan(), sensitivity_.recordings(), {effect});
+  auto linear = joint_amplitudes(plan_, sensitivity_.recordings(), {effect});
   return filtered_[id_of(f)] = scanned_or(std::move(linear.front()), effect);
 }
 
-JointAmplitudes Diagnoser::Refinement::scanned_or(JointAmplitudes linear,
-                                                  const Effect& effect) const {
-  const auto scanned = of_.scanned(effect, state_.details);
-  return scanned && scanned->amplitudes ? *scanned->amplitudes : std::move(linear);
+JointAmplitudes Refinement::scanned_or(JointAmplitudes linear, const Effect& effect) const {
+  const auto direct = scanned(plan_, effect, state_.details);
+  return direct && direct->amplitudes ? *direct->amplitudes : std::move(linear);
 }
 
 // Far beyond the measured sizes the fingerprints are unreliable; the filter's ranking is used.
-std::vector<EffectFit> Diagnoser::Refinement::clearest() {
+std::vector<EffectFit> Refinement::clearest() {
   std::map<Id, Effect> of;
-  const std::vector<Effect>& effects = of_.ensemble_->plan().effects;
+  const std::vector<Effect>& effects = plan_.effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (!effects[e].mean_force) continue;
     const Id id = id_of(fit_with({static_cast<int>(e), -1}, {}));
@@ -227,7 +194,7 @@ std::vector<EffectFit> Diagnoser::Refinement::clearest() {
   }
   std::vector<Effect> tried;
   for (const auto& [id, effect] : of) tried.push_back(effect);
-  const auto linear = joint_amplitudes(of_.ensemble_->plan(), sensitivity_.recordings(), tried);
+  const auto linear = joint_amplitudes(plan_, sensitivity_.recordings(), tried);
   std::vector<EffectFit> out;
   for (const auto& [id, effect] : of) {
     const JointAmplitudes& one = filtered_[id] = scanned_or(linear[out.size()], effect);
@@ -243,20 +210,20 @@ std::vector<EffectFit> Diagnoser::Refinement::clearest() {
   return out;
 }
 
-bool Diagnoser::Refinement::needs_relinearization(const EffectFit& f) const {
+bool Refinement::needs_relinearization(const EffectFit& f) const {
   if (!(f.amplitudes.norm() > kLeastAmplitude)) return false;
   const RefinedCandidate* known = refined(f);
   return known == nullptr || (f.at_bound && off_centre(f) && known->moves < kMostMoved);
 }
 
-bool Diagnoser::Refinement::off_centre(const EffectFit& f, double far) const {
+bool Refinement::off_centre(const EffectFit& f, double far) const {
   const RefinedCandidate* known = refined(f);
   if (known == nullptr) return false;
   const Vector& about = known->fingerprint.about;
   return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
 }
 
-std::optional<EffectFit> Diagnoser::Refinement::next_after(const SelectedModel& m) {
+std::optional<EffectFit> Refinement::next_after(const SelectedModel& m) {
   // Candidates already measured so are not counted again.
   std::vector<EffectFit> next =
       state_.selection.leading(residual_, kRivals + static_cast<int>(state_.refined.size()));
@@ -277,12 +244,12 @@ std::optional<EffectFit> Diagnoser::Refinement::next_after(const SelectedModel& 
   return std::nullopt;
 }
 
-Diagnoser::Refined Diagnoser::refined(Refined start, ScoreSensitivity& sensitivity,
-                                      const Vectors& observed, const Vector& residual) {
+RefinedSelection refined_selection(const RefinementInput& input, RefinedSelection start) {
   if (start.model.found.empty()) return start;
-  start.details.scans = scans_of(ensemble_->plan(), sensitivity.recordings(), options_.threads);
-  if (plain(start.selection, start.model, residual)) return start;
-  return Refinement(*this, sensitivity, observed, residual, start).run();
+  const ScorePlan& plan = input.ensemble.plan();
+  start.details.scans = scans_of(plan, input.sensitivity.recordings(), input.threads);
+  if (is_plain(plan, start.selection, start.model, input.residual)) return start;
+  return Refinement(input, start).run();
 }
 
 }  // namespace lilytank

@@ -6,7 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "finder/prepared_tank.hpp"
+#include "finder/found_effect.hpp"
+#include "finder/model_selection.hpp"
+#include "finder/score_sensitivity.hpp"
 
 namespace lilytank {
 
@@ -19,17 +21,37 @@ struct RefinedCandidate {
   bool centred = false;     ///< its experiments were repeated at the estimate
 };
 
+/// A selection for one experiment's recordings and what it rests on.
+struct RefinedSelection {
+  SelectedModel model;
+  ModelSelection selection;
+  ScoreDetails details;
+};
+
+/// What the search is for and with; all must outlive it.
+struct RefinementInput {
+  ReferenceEnsemble& ensemble;
+  ScoreSensitivity& sensitivity;  ///< of the recordings
+  const Vectors& observed;
+  const Eigen::VectorXd& residual;
+  double baseline_misfit;  ///< of the residual, by the scatter of nulls
+  int threads;
+};
+
+/// The selection by experiments of its own, unless `start` explains the residual plainly: by one
+/// effect of a size that fingerprints were learned at, without a rival. Throws Stopped.
+RefinedSelection refined_selection(const RefinementInput& input, RefinedSelection start);
+
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
 // experiments of its own strength.
-class Diagnoser::Refinement {
+class Refinement {
  public:
-  /// `start`: the selection and details of the recordings, with their scans. All must outlive this.
-  Refinement(Diagnoser& diagnoser, ScoreSensitivity& sensitivity, const Vectors& observed,
-             const Eigen::VectorXd& residual, const Refined& start);
+  /// `start`: the selection and details of the recordings, with their scans.
+  Refinement(const RefinementInput& input, const RefinedSelection& start);
 
   /// First the candidates that may be it, then whatever leads, what is found and its rivals beside
   /// the others. Throws Stopped.
-  Refined run();
+  RefinedSelection run();
 
  private:
   using Id = std::pair<int, int>;  // effect and shape; of a family the effect that stands for it
@@ -47,8 +69,13 @@ class Diagnoser::Refinement {
   void find_homes();
   Id id_of(const EffectFit& f) const;
   static EffectFit fit_with(const Id& id, const Eigen::VectorXd& amplitudes);
-  const Effect& effect(const Id& id) const { return of_.effect(fit_with(id, {})); }
-  Effect found_effect(const EffectFit& f) const { return of_.found_effect(f, state_.details); }
+  const Effect& effect(const Id& id) const { return effect_in(plan_, fit_with(id, {})); }
+  Effect found_effect(const EffectFit& f) const {
+    return lilytank::found_effect(plan_, f, state_.details);
+  }
+  std::string stage_name(const EffectFit& f) const {
+    return lilytank::stage_name(plan_, f, state_.details);
+  }
   const RefinedCandidate* refined(const EffectFit& f) const;
   // Forgets the experiments with the effects of a family: their place or range is another one now.
   void forget(int family);
@@ -129,11 +156,13 @@ class Diagnoser::Refinement {
   // Of the spread of experiments, that the likeliest may be off.
   static constexpr double kBeside = 0.5;
 
-  Diagnoser& of_;
+  ReferenceEnsemble& ensemble_;
+  const ScorePlan& plan_;
   ScoreSensitivity& sensitivity_;
   const Eigen::VectorXd& residual_;
   const Eigen::VectorXd calibrated_;  // the recordings' parameters by the baseline
-  const double baseline_misfit_;      // by the scatter of nulls
+  const double baseline_misfit_;
+  const int threads_;
   State state_;
   LearnedFingerprints learned_;  // of all experiments that there were
   std::map<Id, JointAmplitudes> filtered_;

@@ -23,8 +23,8 @@ constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range
 
 }  // namespace
 
-ScorePlan Diagnoser::Refinement::beside(const SelectedModel& m, const Effect& scanned) const {
-  ScorePlan plan = of_.ensemble_->plan();
+ScorePlan Refinement::beside(const SelectedModel& m, const Effect& scanned) const {
+  ScorePlan plan = plan_;
   for (const EffectFit& f : m.found) {
     const Effect effect = found_effect(f);
     const bool own = f.effect < 0 ? effect.variable == scanned.variable : effect.is_of(scanned);
@@ -33,32 +33,32 @@ ScorePlan Diagnoser::Refinement::beside(const SelectedModel& m, const Effect& sc
   return plan;
 }
 
-bool Diagnoser::Refinement::rescan(const SelectedModel& m) {
+bool Refinement::rescan(const SelectedModel& m) {
   bool moved = false;
   std::set<int> done;
-  for (const Effect& one : of_.ensemble_->plan().effects) {
+  for (const Effect& one : plan_.effects) {
     if (one.estimated == Estimated::place && done.insert(one.family).second) {
       moved = rescan_stream(m, one) || moved;
     }
   }
-  for (const Effect& one : of_.ensemble_->plan().effects) {
+  for (const Effect& one : plan_.effects) {
     if (one.scanned_from > 0 && done.insert(one.family).second) moved = rescan(m, one) || moved;
   }
   return moved;
 }
 
-bool Diagnoser::Refinement::rescan_stream(const SelectedModel& m, const Effect& stream) {
+bool Refinement::rescan_stream(const SelectedModel& m, const Effect& stream) {
   const ScorePlan plan = beside(m, stream);
   if (plan.beside.empty()) return false;
   StreamPlace& was = state_.details.scans.stream;
-  const StreamPlace now = find_stream(plan, sensitivity_.recordings(), of_.options_.threads);
+  const StreamPlace now = find_stream(plan, sensitivity_.recordings(), threads_);
   if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
   was = now;
   find_homes(), forget(stream.family);
   return true;
 }
 
-bool Diagnoser::Refinement::rescan(const SelectedModel& m, const Effect& scanned) {
+bool Refinement::rescan(const SelectedModel& m, const Effect& scanned) {
   const ScorePlan plan = beside(m, scanned);
   if (plan.beside.empty()) return false;
   const auto all = find_values(plan, sensitivity_.recordings());
@@ -73,38 +73,38 @@ bool Diagnoser::Refinement::rescan(const SelectedModel& m, const Effect& scanned
   was = now->second;
   find_homes();
   std::set<int> forgotten;
-  for (const Effect& one : of_.ensemble_->plan().effects) {
+  for (const Effect& one : plan_.effects) {
     if (one.is_of(scanned) && forgotten.insert(one.family).second) forget(one.family);
   }
   return true;
 }
 
-std::vector<EffectFit> Diagnoser::Refinement::refinable(const SelectedModel& m) const {
+std::vector<EffectFit> Refinement::refinable(const SelectedModel& m) const {
   std::vector<EffectFit> out;
   if (const auto name = likeliest(true)) out.push_back(*name);
   for (const EffectFit& f : m.found) {
     if (f.shape < 0) continue;
     const auto shape = static_cast<std::size_t>(f.shape);
-    const auto same = likeliest(true, of_.ensemble_->plan().shapes[shape].variable);
+    const auto same = likeliest(true, plan_.shapes[shape].variable);
     if (same && id_of(*same) != id_of(out.front())) out.push_back(*same);
   }
   return out;
 }
 
-bool Diagnoser::Refinement::refine_ranges(const SelectedModel& m) {
+bool Refinement::refine_ranges(const SelectedModel& m) {
   const bool curve =
       std::any_of(m.found.begin(), m.found.end(), [](const EffectFit& f) { return f.effect < 0; });
   if (!(curve || state_.selection.leaves_residual(m))) return false;
   bool better = false;
   for (const EffectFit& name : refinable(m)) {
-    for (const FitParameter& p : of_.effect(name).refine) {
+    for (const FitParameter& p : effect_in(plan_, name).refine) {
       if (p.logarithmic && refine_range(name, p)) better = true;
     }
   }
   return better;
 }
 
-bool Diagnoser::Refinement::refine_range(const EffectFit& name, const FitParameter& p) {
+bool Refinement::refine_range(const EffectFit& name, const FitParameter& p) {
   for (const double factor : {kFurther, 1 / kFurther}) {
     bool further = false;
     while (tries_ < kMostTries && fits_better(name, p, factor)) further = true;
@@ -113,7 +113,7 @@ bool Diagnoser::Refinement::refine_range(const EffectFit& name, const FitParamet
   return false;
 }
 
-bool Diagnoser::Refinement::close_call() {
+bool Refinement::close_call() {
   using Known = std::pair<const Id, RefinedCandidate>;
   const auto deviance = [](const Known& one) { return one.second.alone.penalized_deviance; };
   const Known *name = nullptr, *curve = nullptr;
@@ -130,7 +130,7 @@ bool Diagnoser::Refinement::close_call() {
   return true;
 }
 
-bool Diagnoser::Refinement::made_sure(const SelectedModel& m) {
+bool Refinement::made_sure(const SelectedModel& m) {
   const std::optional<EffectFit> likely = likeliest();
   const bool left = m.found.size() > 1 || state_.selection.leaves_residual(m);
   if (!likely || !left || refined(*likely)->fingerprint.experiments >= kMany) return false;
@@ -138,8 +138,7 @@ bool Diagnoser::Refinement::made_sure(const SelectedModel& m) {
   return true;
 }
 
-bool Diagnoser::Refinement::fits_better(const EffectFit& name, const FitParameter& p,
-                                        double factor) {
+bool Refinement::fits_better(const EffectFit& name, const FitParameter& p, double factor) {
   tries_ += 1;
   EffectFit f = name;
   const SingleFit alone = refined(f)->alone;
@@ -152,7 +151,7 @@ bool Diagnoser::Refinement::fits_better(const EffectFit& name, const FitParamete
   if (next == now) return false;
   State before = state_;
   state_.details.refined[p.path] = next;
-  state_.home[of_.effect(f).family] = id_of(f).first;
+  state_.home[effect_in(plan_, f).family] = id_of(f).first;
   refine_fingerprint(f);
   f.amplitudes = refined(f)->alone.amplitudes;
   if (off_centre(f, kBeside)) refine_fingerprint(f);
@@ -161,7 +160,7 @@ bool Diagnoser::Refinement::fits_better(const EffectFit& name, const FitParamete
   return false;
 }
 
-SelectedModel Diagnoser::Refinement::with_interactions(SelectedModel m) {
+SelectedModel Refinement::with_interactions(SelectedModel m) {
   std::set<std::string> simulated_sets;
   while (m.found.size() > 1 && simulated_sets.size() < kMostInteractions) {
     std::vector<EffectFit> found = m.found;
@@ -169,7 +168,7 @@ SelectedModel Diagnoser::Refinement::with_interactions(SelectedModel m) {
               [this](const EffectFit& a, const EffectFit& b) { return id_of(a) < id_of(b); });
     std::string name;
     for (const EffectFit& f : found) {
-      name += (name.empty() ? "" : ", ") + of_.stage_name(f, state_.details);
+      name += (name.empty() ? "" : ", ") + stage_name(f);
     }
     const bool camera = std::any_of(found.begin(), found.end(),
                                     [&](const EffectFit& f) { return found_effect(f).camera(); });
@@ -189,8 +188,7 @@ SelectedModel Diagnoser::Refinement::with_interactions(SelectedModel m) {
   return m;
 }
 
-Fingerprint Diagnoser::Refinement::simulated(const std::vector<EffectFit>& found,
-                                             const std::string& name) {
+Fingerprint Refinement::simulated(const std::vector<EffectFit>& found, const std::string& name) {
   std::vector<Effect> effects;
   std::vector<Fingerprint> each;
   std::vector<Vector> at;
@@ -198,8 +196,8 @@ Fingerprint Diagnoser::Refinement::simulated(const std::vector<EffectFit>& found
     effects.push_back(found_effect(f)), each.push_back(fingerprint(f)), at.push_back(f.amplitudes);
   }
   const Fingerprint sum = together(each, at);
-  Fingerprint out = of_.ensemble_->fingerprint_about(sum.about, sum, together(effects), calibrated_,
-                                                     name, learned_);
+  Fingerprint out =
+      ensemble_.fingerprint_about(sum.about, sum, together(effects), calibrated_, name, learned_);
   out.base = out.at(sum.about), out.about = sum.about;
   return out;
 }

@@ -143,9 +143,8 @@ ReportSection fit_section(const Diagnosis& d) {
   section.above = {std::string(of.measure)};
   section.table.head = {std::string(of.groups), "before", "after", "fraction removed"};
   for (const GroupFit& g : d.held_out) {
-    section.table.rows.push_back(
-        {text_for(of.group_names, g.group), digits(g.before), digits(g.after),
-         g.clear() ? percent(g.removed()) : "-"});
+    section.table.rows.push_back({text_for(of.group_names, g.group), digits(g.before),
+                                  digits(g.after), g.clear() ? percent(g.removed()) : "-"});
   }
   if (of.eq9) {
     section.below.push_back("Eq. 9: " + digits(d.msd_before) + " before, " + digits(d.msd_after) +

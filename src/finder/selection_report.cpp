@@ -1,11 +1,12 @@
-// Results of a diagnosis: findings, maps, ranking, smallest detectable sizes.
+#include "finder/selection_report.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
 
-#include "finder/prepared_tank.hpp"
+#include "finder/found_effect.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -29,26 +30,42 @@ std::string place_words(const std::string& variable) {
   return known == kWords.end() ? variable : known->second;
 }
 
-}  // namespace
+// What the report is written from, and where to.
+struct SelectionReport {
+  void add_ranking();
+  void add_detectable();
+  void add_findings();
+  FoundCurve curve(std::size_t s, double z) const;
+  const FoundCurve* map_of(const std::string& variable) const;
+  bool is_reported(const Effect& one) const;
+  void blame_camera();
+  void disown();
+  void warn_of_rest();
 
-void Diagnoser::report_ranking(const ModelSelection& selection, const Vector& residual,
-                               const SelectedModel& e, Diagnosis& out) const {
+  const ReferenceEnsemble& ensemble;
+  const ModelSelection& selection;
+  const Vector& residual;
+  const SelectedModel& model;
+  Diagnosis& out;
+  const ScorePlan& plan = ensemble.plan();
+};
+
+void SelectionReport::add_ranking() {
   for (const EffectFit& f : selection.effects(residual)) {
-    const auto k = static_cast<std::size_t>(f.effect);
     if (f.effect < 0) continue;
-    const Effect& effect = ensemble_->plan().effects[k];
+    const Effect& effect = effect_in(plan, f);
     out.ranking.push_back({effect.name, effect.variant(), f.z});
   }
   out.effect_threshold = selection.effect_threshold();
-  out.shape_threshold = selection.shape_threshold(), out.false_alarms = options_.false_alarms;
-  out.strongest_left = std::max(e.left_effect.z, e.left_shape.z);
-  std::vector<double> z(ensemble_->plan().shapes.size(), 0.0);
+  out.shape_threshold = selection.shape_threshold();
+  out.strongest_left = std::max(model.left_effect.z, model.left_shape.z);
+  std::vector<double> z(plan.shapes.size(), 0.0);
   for (const EffectFit& f : selection.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
-  for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(residual, s, z[s]));
+  for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(s, z[s]));
 }
 
-FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) const {
-  const Shape& shape = ensemble_->plan().shapes[s];
+FoundCurve SelectionReport::curve(std::size_t s, double z) const {
+  const Shape& shape = plan.shapes[s];
   FoundCurve c;
   c.variable = shape.variable, c.direction = shape.direction, c.unit = shape.unit;
   if (shape.curve.along == Along::x || shape.curve.along == Along::y) {
@@ -56,17 +73,17 @@ FoundCurve Diagnoser::curve(const Vector& residual, std::size_t s, double z) con
   }
   c.value_unit = shape.curve.toward == Toward::torque ? "N m" : "N", c.z = z;
   for (int k = 0; k < kKnots; ++k) {
-    const Eigen::Index at = ensemble_->named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
+    const Eigen::Index at = ensemble.named_numbers() + static_cast<Eigen::Index>(s) * kKnots + k;
     c.at.push_back(knot_at(shape.curve, k));
-    c.value.push_back(residual(at) * ensemble_->deviations()(at) * shape.size);
-    c.deviation.push_back(ensemble_->deviations()(at) * shape.size);
+    c.value.push_back(residual(at) * ensemble.deviations()(at) * shape.size);
+    c.deviation.push_back(ensemble.deviations()(at) * shape.size);
   }
   return c;
 }
 
-void Diagnoser::report_detectable(const ModelSelection& selection, Diagnosis& out) const {
-  for (std::size_t e = 0; e < ensemble_->plan().effects.size(); ++e) {
-    const Effect& effect = ensemble_->plan().effects[e];
+void SelectionReport::add_detectable() {
+  for (std::size_t e = 0; e < plan.effects.size(); ++e) {
+    const Effect& effect = plan.effects[e];
     const double least = selection.smallest_detectable(static_cast<int>(e)) * effect.sizes[0];
     const double tried = kLearnedSize * effect.sizes[0];
     const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
@@ -81,16 +98,16 @@ void Diagnoser::report_detectable(const ModelSelection& selection, Diagnosis& ou
 }
 
 // The map with the largest z for a variable.
-const FoundCurve* Diagnoser::map_of(const std::string& variable, const Diagnosis& out) const {
+const FoundCurve* SelectionReport::map_of(const std::string& variable) const {
   const FoundCurve* best = nullptr;
   for (std::size_t s = 0; s < out.maps.size(); ++s) {
-    if (ensemble_->plan().shapes[s].variable != variable) continue;
+    if (plan.shapes[s].variable != variable) continue;
     if (best == nullptr || out.maps[s].z > best->z) best = &out.maps[s];
   }
   return best;
 }
 
-void Diagnoser::report_where(const FoundCurve& curve, DiagnosisFinding& f) const {
+void add_place(const FoundCurve& curve, DiagnosisFinding& f) {
   f.curve = curve, f.unit = curve.unit;
   std::size_t peak = 0;
   const auto strength = [&](std::size_t k) {
@@ -114,85 +131,85 @@ void Diagnoser::report_where(const FoundCurve& curve, DiagnosisFinding& f) const
 }
 
 // Whether the findings include an effect of the same family.
-bool Diagnoser::is_reported(const SelectedModel& e, const Effect& one) const {
-  return std::any_of(e.found.begin(), e.found.end(), [&](const EffectFit& fit) {
-    return fit.effect >= 0 && effect(fit).family == one.family;
+bool SelectionReport::is_reported(const Effect& one) const {
+  return std::any_of(model.found.begin(), model.found.end(), [&](const EffectFit& fit) {
+    return fit.effect >= 0 && effect_in(plan, fit).family == one.family;
   });
 }
 
-void Diagnoser::report_findings(const ModelSelection& selection, const Vector& residual,
-                                const SelectedModel& e, Diagnosis& out) const {
+void SelectionReport::add_findings() {
   const std::vector<EffectFit> ranked = selection.effects(residual);
-  for (std::size_t i = 0; i < e.found.size(); ++i) {
-    const EffectFit& fit = e.found[i];
+  for (std::size_t i = 0; i < model.found.size(); ++i) {
+    const EffectFit& fit = model.found[i];
     DiagnosisFinding f;
     f.z = fit.z, f.confidence = selection.confidence(fit);
     if (fit.effect >= 0) {
-      const Effect& effect = ensemble_->plan().effects[static_cast<std::size_t>(fit.effect)];
+      const Effect& effect = effect_in(plan, fit);
       f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
       const auto own = std::find_if(ranked.begin(), ranked.end(),
                                     [&](const EffectFit& one) { return one.effect == fit.effect; });
       std::set<int> rivals;
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
-        const Effect& rival = ensemble_->plan().effects[static_cast<std::size_t>(other.effect)];
-        if (own->gain - other.gain >= kSame || is_reported(e, rival)) continue;
+        const Effect& rival = effect_in(plan, other);
+        if (own->gain - other.gain >= kSame || is_reported(rival)) continue;
         if (rivals.insert(rival.family).second) f.alternatives.push_back(rival.name);
       }
       if (!f.alternatives.empty()) f.split = effect.split;
-      if (const FoundCurve* map = map_of(f.variable, out)) report_where(*map, f);
+      if (const FoundCurve* map = map_of(f.variable)) add_place(*map, f);
     } else {
       const auto s = static_cast<std::size_t>(fit.shape);
-      f.effect = "unnamed", f.variable = ensemble_->plan().shapes[s].variable;
-      f.equation = "F = f(" + f.variable + ") " + ensemble_->plan().shapes[s].direction +
-                   ", the curve that is drawn";
-      report_where(out.maps[s], f);
+      f.effect = "unnamed", f.variable = plan.shapes[s].variable;
+      f.equation =
+          "F = f(" + f.variable + ") " + plan.shapes[s].direction + ", the curve that is drawn";
+      add_place(out.maps[s], f);
     }
     out.findings.push_back(std::move(f));
   }
-  out.verdict = e.found.empty() ? Verdict::complete : Verdict::missing;
-  blame_camera(e, out);
-  if (e.found.empty() && selection.leaves_residual(e)) out.verdict = Verdict::undecided;
-  if (e.found.empty()) return;
-  if (selection.fails(e)) {
-    disown(e, out);
-  } else if (out.verdict == Verdict::missing && selection.leaves_residual(e)) {
-    warn_of_rest(e, out);
+  out.verdict = model.found.empty() ? Verdict::complete : Verdict::missing;
+  blame_camera();
+  if (model.found.empty() && selection.leaves_residual(model)) out.verdict = Verdict::undecided;
+  if (model.found.empty()) return;
+  if (selection.fails(model)) {
+    disown();
+  } else if (out.verdict == Verdict::missing && selection.leaves_residual(model)) {
+    warn_of_rest();
   }
 }
 
 // Warns where the findings leave a significant remainder without a name.
-void Diagnoser::warn_of_rest(const SelectedModel& e, Diagnosis& out) const {
+void SelectionReport::warn_of_rest() {
   std::string text = "the remaining discrepancy exceeds that of null experiments";
-  if (e.left_shape.z > out.shape_threshold) {
-    const Shape& shape = ensemble_->plan().shapes[static_cast<std::size_t>(e.left_shape.shape)];
+  if (model.left_shape.z > out.shape_threshold) {
+    const Shape& shape = plan.shapes[static_cast<std::size_t>(model.left_shape.shape)];
     text += ", most over " + shape.variable + " " + shape.direction + " (z " +
-            significant(e.left_shape.z, 2) + ")";
+            significant(model.left_shape.z, 2) + ")";
   }
   out.warnings.push_back(text + ": another effect may be omitted, or a law has another form");
 }
 
 // Withdraws findings that leave most of the mismatch unexplained.
-void Diagnoser::disown(const SelectedModel& e, Diagnosis& out) {
+void SelectionReport::disown() {
   std::string names;
   for (const DiagnosisFinding& f : out.findings) names += (names.empty() ? "" : " and ") + f.effect;
   char share[40];
-  std::snprintf(share, sizeof share, "%.0f %%", 100 * e.share_left);
+  std::snprintf(share, sizeof share, "%.0f %%", 100 * model.share_left);
   out.warnings.push_back("nothing that is known explains these recordings: what comes nearest, " +
                          names + ", leaves " + share + " of the mismatch");
   out.verdict = Verdict::undecided, out.findings.clear();
 }
 
 // Reports no forces where the camera is faulty: they may be artefacts of the fault.
-void Diagnoser::blame_camera(const SelectedModel& e, Diagnosis& out) const {
+void SelectionReport::blame_camera() {
   std::vector<DiagnosisFinding> faults;
-  for (std::size_t i = 0; i < e.found.size(); ++i) {
-    if (e.found[i].effect < 0) continue;
-    const Effect& effect = ensemble_->plan().effects[static_cast<std::size_t>(e.found[i].effect)];
+  for (std::size_t i = 0; i < model.found.size(); ++i) {
+    if (model.found[i].effect < 0) continue;
+    const Effect& effect = effect_in(plan, model.found[i]);
     if (!effect.camera()) continue;
     DiagnosisFinding f = out.findings[i];
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {
-      const double value = e.found[i].amplitudes(static_cast<Eigen::Index>(c)) * effect.sizes[c];
+      const double value =
+          model.found[i].amplitudes(static_cast<Eigen::Index>(c)) * effect.sizes[c];
       f.parameters.push_back(
           {own_name(effect.paths[c]), effect.paths[c], value, value, value, effect.units[c]});
     }
@@ -200,6 +217,18 @@ void Diagnoser::blame_camera(const SelectedModel& e, Diagnosis& out) const {
   }
   if (faults.empty()) return;
   out.verdict = Verdict::measurement, out.findings = std::move(faults);
+}
+
+}  // namespace
+
+void report_selection(const ReferenceEnsemble& ensemble, const ModelSelection& selection,
+                      const Vector& residual, const SelectedModel& e, double false_alarms,
+                      Diagnosis& out) {
+  out.false_alarms = false_alarms;
+  SelectionReport report{ensemble, selection, residual, e, out};
+  report.add_ranking();
+  report.add_detectable();
+  report.add_findings();
 }
 
 }  // namespace lilytank

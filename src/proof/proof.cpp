@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finder/prepared_tank.hpp"
+#include "finder/fitted_model.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
@@ -81,17 +81,15 @@ std::optional<MeasuredExperiment> measured_of(const std::vector<double>& row) {
 }
 
 // The verdicts of the diagnosis and of the simpler methods.
-Judged judge_world(Diagnoser& diagnoser, const MeasuredExperiment& measured,
+Judged judge_world(PreparedTank& tank, const MeasuredExperiment& measured,
                    const std::vector<Recording>& recordings, Diagnosis& d, ProofWorld& world) {
   if (measured.regression >= 0) {
     const auto effect = static_cast<std::size_t>(measured.regression);
-    world.regression = diagnoser.ensemble().plan().effects[effect].name;
+    world.regression = tank.ensemble.plan().effects[effect].name;
   }
-  Judged before;
-  before.observed = measured.observed, before.details = measured.details;
-  Judged judged = diagnoser.judge(std::move(before), recordings, d);
+  Judged judged = judge(tank, {measured.observed, measured.details}, recordings, d);
   world.verdict = d.verdict;
-  world.displacement = diagnoser.ensemble().displacement_misfit(judged.observed.summary);
+  world.displacement = tank.ensemble.displacement_misfit(judged.observed.summary);
   for (const DiagnosisFinding& f : d.findings) {
     world.findings.push_back({f.effect, f.alternatives, f.variable, f.z});
   }
@@ -133,16 +131,17 @@ void compare_parameters(const Diagnosis& d, const std::map<std::string, double>&
 
 // The model of an experiment that was diagnosed correctly, against the key and further recordings
 // of it.
-void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, const Sealed& s,
-                 double seconds, std::uint64_t seed, Diagnosis& d, ProofWorld& world) {
-  const auto further = film_sealed(tank, s, seconds, seed);
+void model_world(PreparedTank& tank, const Judged& judged, const Model& truth_model,
+                 const Sealed& s, double seconds, std::uint64_t seed, Diagnosis& d,
+                 ProofWorld& world) {
+  const auto further = film_sealed(truth_model, s, seconds, seed);
   if (!further) return;
-  diagnoser.model_and_show(judged, *further, d);
-  auto truth = truth_of(tank, s);
+  fit_findings(tank, judged, *further, d);
+  auto truth = truth_of(truth_model, s);
   if (s.kind == "unnamed") {
     const int shape = judged.selected.found.front().shape;
-    add_law(s.effects.front(),
-            diagnoser.ensemble().plan().shapes[static_cast<std::size_t>(shape)].curve, truth);
+    add_law(s.effects.front(), tank.ensemble.plan().shapes[static_cast<std::size_t>(shape)].curve,
+            truth);
   }
   compare_parameters(d, truth, world);
   for (const DiagnosisFinding& f : d.findings) {
@@ -155,24 +154,24 @@ void model_world(Diagnoser& diagnoser, const Judged& judged, const Model& tank, 
 
 // Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
 // effect has by the curve that shows it best.
-double expected_z(Diagnoser& diagnoser, const Model& tank, const Sealed& s, std::size_t world,
+double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s, std::size_t world,
                   std::uint64_t seed) {
-  const CalibrationSetup& setup = diagnoser.setup();
-  const auto truth = truth_of(tank, s);
+  const CalibrationSetup& setup = tank.setup.calibration;
+  const auto truth = truth_of(truth_model, s);
   std::vector<double> values = setup.start;
   for (std::size_t k = 0; k < setup.reported_count(); ++k) {
     const auto at = truth.find(setup.paths()[k]);
     if (at != truth.end()) values[k] = at->second;
   }
-  const Eigen::VectorXd point = diagnoser.stages().to_scale(values);
+  const Eigen::VectorXd point = tank.setup.stages.to_scale(values);
   double least = 1e300;
   for (const SealedEffect& own : s.effects) {
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
-    const Eigen::VectorXd mean = diagnoser.ensemble().mean_residual(own.effect, amplitudes, point,
-                                                                    kExpectedRuns, stage, seed);
-    const ModelSelection& selection = diagnoser.selection();
+    const Eigen::VectorXd mean =
+        tank.ensemble.mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
+    const ModelSelection& selection = tank.selection;
     least = std::min(least, own.like < 0 ? selection.shapes(mean).front().z
                                          : selection.expected_z(own.like, mean, kExpectedRuns));
   }
@@ -230,28 +229,28 @@ class Examination {
         report(done, world_name_ + stage);
       };
     }
-    Diagnoser diagnoser(open, job);
+    DiagnosisSetup setup(open, job);
     const auto lock =
-        claim_directory(job.out, job.force, {"proof", diagnoser.identity(), proof_files()});
+        claim_directory(job.out, job.force, {"proof", setup.identity(), proof_files()});
     if (job.lock != nullptr) *job.lock = lock;
     if (options_.sealed) options_.sealed(out_.hash);
-    diagnoser.prepare(after(diagnoser));
-    measured_ = measure_all(diagnoser);
+    PreparedTank tank(setup, after(setup.model_cost()));
+    measured_ = measure_all(tank);
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
-    const double begin = diagnoser.stages().spent();
+    const double begin = setup.stages.spent();
     for (std::size_t w = 0; w < measured_.size(); ++w) {
       world_name_ =
           "experiment " + std::to_string(w + 1) + " of " + std::to_string(measured_.size()) + ": ";
       if (w < before.size() && !asks_for_model(before[w])) {
         out_.worlds.push_back(before[w]);
       } else {
-        out_.worlds.push_back(ask(diagnoser, w));
+        out_.worlds.push_back(ask(tank, w));
         keep(job.out, before);
       }
       const ProofWorld& last = out_.worlds.back();
       modelled_ += last.kind == "null" || last.intervals.empty() ? 0 : 1;
-      diagnoser.stages().reach(begin + of_a_world() * static_cast<double>(w + 1) +
-                               modelled_ * diagnoser.model_cost());
+      setup.stages.reach(begin + of_a_world() * static_cast<double>(w + 1) +
+                         modelled_ * setup.model_cost());
       if (options_.judged) options_.judged(out_);
     }
     return std::move(out_);
@@ -269,11 +268,11 @@ class Examination {
   double of_a_world() const { return options_.only == "null" ? kOfANull : kOfAWorld; }
 
   // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds.
-  double after(const Diagnoser& diagnoser) const {
+  double after(double model_cost) const {
     const int experiments = DiagnosisBudget(options_.diagnosis.minutes).experiments;
     return of_a_world() * static_cast<double>(sealed_.size()) +
            static_cast<double>(shapes_.size()) * kKnots * experiments +
-           options_.modelled * diagnoser.model_cost();
+           options_.modelled * model_cost;
   }
 
   std::uint64_t number(std::size_t w) const { return static_cast<std::uint64_t>(sealed_[w].world); }
@@ -282,18 +281,18 @@ class Examination {
     return film_sealed(tank_, sealed_[w], seconds_, derived_seed(seed_, kWorldSeed + number(w)));
   }
 
-  std::vector<std::optional<MeasuredExperiment>> measure_all(Diagnoser& diagnoser) const {
+  std::vector<std::optional<MeasuredExperiment>> measure_all(PreparedTank& tank) const {
     const std::string stage = options_.only.empty() ? "synthetic" : "synthetic " + options_.only;
     const auto row = [&](int i) {
       const auto made = film(static_cast<std::size_t>(i));
       if (!made) return std::vector<double>{};
       MeasuredExperiment m;
-      m.observed = diagnoser.ensemble().vectors(*made, &m.details);
-      m.regression = sparse_regression(diagnoser.ensemble().plan(), *made).effect;
+      m.observed = tank.ensemble.vectors(*made, &m.details);
+      m.regression = sparse_regression(tank.ensemble.plan(), *made).effect;
       return row_of(m);
     };
     std::vector<std::optional<MeasuredExperiment>> out;
-    for (const auto& kept : diagnoser.stages().rows(stage, static_cast<int>(sealed_.size()), row)) {
+    for (const auto& kept : tank.setup.stages.rows(stage, static_cast<int>(sealed_.size()), row)) {
       out.push_back(measured_of(kept));
     }
     return out;
@@ -306,27 +305,27 @@ class Examination {
     return found(world) && world.intervals.empty() && modelled_ < options_.modelled;
   }
 
-  ProofWorld ask(Diagnoser& diagnoser, std::size_t w) const {
+  ProofWorld ask(PreparedTank& tank, std::size_t w) const {
     const Sealed& s = sealed_[w];
     ProofWorld world;
     world.kind = s.kind, world.effects = s.names;
     world.expected_z =
-        expected_z(diagnoser, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
+        expected_z(tank, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
     Diagnosis d;
     std::vector<Recording> recordings;
     std::optional<Judged> judged;
     world.verdict = Verdict::undecided;
     if (measured_[w]) {
       recordings = film(w).value_or(recordings);
-      judged = judge_world(diagnoser, *measured_[w], recordings, d, world);
+      judged = judge_world(tank, *measured_[w], recordings, d, world);
     }
     if (judged && s.kind == "null") {
-      diagnoser.report_baseline(*judged, d);
+      report_baseline(tank, *judged, d);
       compare_parameters(d, truth_of(tank_, s), world);
     }
     if (judged && asks_for_model(world)) {
-      model_world(diagnoser, *judged, tank_, s, seconds_,
-                  derived_seed(seed_, kFurtherSeed + number(w)), d, world);
+      model_world(tank, *judged, tank_, s, seconds_, derived_seed(seed_, kFurtherSeed + number(w)),
+                  d, world);
     }
     return world;
   }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "finder/prepared_tank.hpp"
+#include "finder/fitted_model.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/model_parameter.hpp"
 
@@ -77,11 +77,11 @@ DiagnosisOptions least_budget() {
 // Strong effects in short recordings: a complete model, a force and a camera get the right
 // verdicts.
 TEST(SmallTank, StrongEffectsInShortRecordings) {
-  Diagnoser diagnoser(small_experiment(kFewFrames), least_budget());
-  diagnoser.prepare();
+  DiagnosisSetup setup(small_experiment(kFewFrames), least_budget());
+  PreparedTank tank(setup);
   const auto of = [&](const Model& model, std::uint64_t seed, double tilt) {
     Diagnosis out;
-    diagnoser.judge(filmed(model, seed, tilt, kFewFrames), out);
+    judge(tank, filmed(model, seed, tilt, kFewFrames), out);
     return out;
   };
   const Diagnosis complete = of(small_tank(), 21, 0);
@@ -96,20 +96,20 @@ TEST(SmallTank, StrongEffectsInShortRecordings) {
 
 // One test: nulls and fingerprints of the tank take most of the time and serve every question.
 TEST(LongSmallTank, IsDiagnosed) {
-  Diagnoser diagnoser(small_experiment(kFrames), least_budget());
-  diagnoser.prepare();
+  DiagnosisSetup setup(small_experiment(kFrames), least_budget());
+  PreparedTank tank(setup);
   const auto of = [&](const Model& model, std::uint64_t seed) {
     Diagnosis out;
-    diagnoser.judge(filmed(model, seed), out);
+    judge(tank, filmed(model, seed), out);
     return out;
   };
   int held = 0;
   for (const std::uint64_t seed : {21, 22, 23}) {
     Diagnosis d;
-    const Judged complete = diagnoser.judge(filmed(small_tank(), seed), d);
+    const Judged complete = judge(tank, filmed(small_tank(), seed), d);
     EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
     EXPECT_FALSE(d.detectable.empty());
-    diagnoser.report_baseline(complete, d);
+    report_baseline(tank, complete, d);
     ASSERT_EQ(d.parameters.size(), 5u);
     for (const MovedParameter& p : d.parameters) {
       const double truth = parameter_value(small_tank(), p.path);
@@ -136,25 +136,25 @@ TEST(LongSmallTank, IsDiagnosed) {
   EXPECT_EQ(eddies.findings.front().effect, "correlated_gusts") << diagnosis_text(eddies);
   // What was simulated for one question serves the next ones: asked again, the same answer.
   Diagnosis fitted;
-  const Judged judged = diagnoser.judge(filmed(pulsating, 41), fitted);
+  const Judged judged = judge(tank, filmed(pulsating, 41), fitted);
   EXPECT_EQ(diagnosis_text(fitted), diagnosis_text(pumps));
   // Fitted together with the baseline, and shown on recordings that had no part in it.
   const Model later = with_parameters(
       pulsating, std::vector<std::string>{"forces.flow_pulsation.phase"}, std::vector<double>{2});
-  diagnoser.model_and_show(judged, filmed(later, 42), fitted);
+  fit_findings(tank, judged, filmed(later, 42), fitted);
   const FoundParameter& share = fitted.findings.front().parameters.front();
   EXPECT_LT(share.low, 0.25) << diagnosis_text(fitted);
   EXPECT_GT(share.high, 0.25) << diagnosis_text(fitted);
   EXPECT_GT(fitted.removed(), 0.7) << diagnosis_text(fitted);
   EXPECT_GT(fitted.findings.front().gain_low, 0) << diagnosis_text(fitted);
   Diagnosis camera;
-  diagnoser.judge(filmed(small_tank(), 61, 0.06), camera);
+  judge(tank, filmed(small_tank(), 61, 0.06), camera);
   EXPECT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);
   EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
   // A compass needle in every module.
-  const Model compass = with_compass(diagnoser.ensemble().plan().shapes);
+  const Model compass = with_compass(tank.ensemble.plan().shapes);
   Diagnosis odd;
-  diagnoser.model_and_show(diagnoser.judge(filmed(compass, 51), odd), filmed(compass, 52), odd);
+  fit_findings(tank, judge(tank, filmed(compass, 51), odd), filmed(compass, 52), odd);
   ASSERT_EQ(odd.verdict, Verdict::missing) << diagnosis_text(odd);
   // Strong odd laws may leave a named one beside them; the curve over headings must be there.
   const auto law = std::find_if(

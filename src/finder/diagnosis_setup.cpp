@@ -1,0 +1,56 @@
+#include "finder/diagnosis_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
+                                  const DiagnosisBudget& budget) {
+  CalibrationOptions c;
+  c.parameters = standard_parameters(BodyKind::lily);
+  const bool marked =
+      std::any_of(experiment.recordings.begin(), experiment.recordings.end(),
+                  [](const Recording& r) { return r.body == BodyKind::lily && r.held_out; });
+  const auto lilies = std::count_if(experiment.recordings.begin(), experiment.recordings.end(),
+                                    [](const Recording& r) { return r.body == BodyKind::lily; });
+  c.hold_out = marked || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
+  c.flow_draws = budget.flow_draws;
+  c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
+  c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
+  return c;
+}
+
+}  // namespace
+
+int most_bodies(const std::vector<RecordingShape>& shapes) {
+  int most = 0;
+  for (const RecordingShape& shape : shapes) most = std::max(most, shape.bodies);
+  return most;
+}
+
+DiagnosisBudget::DiagnosisBudget(double minutes) {
+  const double s = std::clamp(minutes / 10, 0.3, 4.0);
+  const auto scaled = [&](int n, int least) {
+    return std::max(least, static_cast<int>(std::lround(n * s)));
+  };
+  flow_draws = scaled(12, 12), centre = 70;
+  nulls = scaled(240, 160), experiments = scaled(5, 5), round = scaled(80, 80);
+  comparisons = scaled(16, 12);
+}
+
+DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
+                               const DiagnosisOptions& diagnosis_options)
+    : options(diagnosis_options),
+      budget(options.minutes),
+      calibration(set_up(experiment, calibration_of(experiment, options, budget))),
+      stages(calibration) {}
+
+std::string DiagnosisSetup::identity() const {
+  return "23 " + hex(calibration.identity) + " " + shortest(options.minutes);
+}
+
+}  // namespace lilytank
