@@ -93,7 +93,7 @@ home jobs run
 home recording camera experiment recording recording_io
 home smoothing smoothing
 home tracks analysis distributions metrics motion_summary
-home flow flow_estimate flow_maps flow_report
+home flow coverage flow_estimate flow_maps flow_report
 home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "lilytank/coverage.hpp"
 #include "lilytank/distributions.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/experiment.hpp"
@@ -111,6 +112,8 @@ struct CalibrationOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Called by one thread at a time with the share done of one stage and what it is.
   std::function<void(double done, const std::string& stage)> progress;
+  /// Receives what the recordings cover, before anything is simulated.
+  std::function<void(const Coverage& coverage)> covered;
 };
 
 /// What was found of one parameter.
@@ -182,6 +185,8 @@ struct MsdFit {
 /// The estimate, its uncertainty and what supports it.
 struct CalibrationResult {
   std::string name, objective, flow, search_name;
+  /// Of the flow map, where the bodies are Lilies.
+  Coverage coverage;
   BodyKind body = BodyKind::lily;
   /// Recordings that were fitted, and bodies in them.
   int recordings = 0, bodies = 0;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/coverage.hpp"
 #include "lilytank/diagnosis_subject.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/report.hpp"
@@ -21,6 +22,9 @@ class DirectoryLock;
 struct DiagnosisOptions {
   int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
   double minutes = 10;  ///< time budget on two cores: scales the simulations
+  /// Go on with recordings that do not meet the requirements (coverage.hpp); error rates are then
+  /// unknown.
+  bool uncertified = false;
   /// False-positive rate: share of null experiments reported as missing.
   double false_alarms = 0.02;
   std::uint64_t seed = 1;
@@ -35,10 +39,11 @@ struct DiagnosisOptions {
 };
 
 enum class Verdict : std::uint8_t {
-  complete,     ///< no omitted effect that these data can show
-  missing,      ///< an omitted effect; see findings
-  measurement,  ///< the recordings are faulty; no force is searched for
-  undecided,    ///< the model differs; these data cannot identify how
+  complete,      ///< no omitted effect that these data can show
+  missing,       ///< an omitted effect; see findings
+  measurement,   ///< the recordings are faulty; no force is searched for
+  undecided,     ///< the model differs; these data cannot identify how
+  insufficient,  ///< recordings too short, or a flow map too poor, for error rates that are known
 };
 std::string name_of(Verdict verdict);
 
@@ -123,6 +128,7 @@ struct Diagnosis {
   /// What was recorded: wording and sections of the report. Never null.
   const DiagnosisSubject* subject = &kLiliesInTank;
   /// No recording was held out: `held_out` is of those that the fit rests on.
+  std::vector<Shortfall> shortfalls;  ///< why recordings are insufficient, and what to record
   bool nothing_held_out = false;
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found

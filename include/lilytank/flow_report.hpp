@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/coverage.hpp"
 #include "lilytank/flow_estimate.hpp"
 #include "lilytank/report.hpp"
 
@@ -30,6 +31,8 @@ struct FlowReport {
   FlowOptions options;
   /// In the order of the report; their names differ.
   std::vector<FlowEstimate> estimates;
+  /// Of the last estimate where the experiment's Lilies went; empty: it has none.
+  std::optional<Coverage> coverage;
   /// Known field to compare with, and the file that it was read from.
   std::optional<FlowTruth> truth;
   std::string truth_file;

@@ -15,7 +15,8 @@ struct Proof;
 struct ProofOptions {
   int worlds = 100;
   std::string only;         ///< null, named, two or unnamed: leaves out those of another kind
-  double minutes = 4;       ///< of a recording; an experiment has three, and three of balls
+  double minutes = 4;       ///< of a recording; an experiment has three
+  double ball_minutes = 0;  ///< of a recording of balls, of which there are three; 0: as `minutes`
   bool known_flow = false;  ///< no balls: the diagnosis uses the true flow
   /// true: pumps, inlets and the parameters that calibrations estimate are drawn from the seed.
   /// false: the built-in tank, with the parameters at which the diagnosis starts.

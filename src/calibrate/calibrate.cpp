@@ -27,6 +27,8 @@ CalibrationResult begun(const CalibrationSetup& setup) {
     p.parameter = setup.parameters[i], p.start = setup.start[i];
     out.parameters.push_back(std::move(p));
   }
+  out.coverage = coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
+  if (setup.options.covered) setup.options.covered(out.coverage);
   out.conditions = fit_conditions(setup.model, setup.body, setup.paths());
   return out;
 }

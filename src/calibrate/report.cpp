@@ -25,10 +25,16 @@ ReportCard card_of(const CalibrationResult& c) {
   constexpr double kSignificant = 0.05;
   ReportCard card;
   const bool fits = !(c.misfit_p < kSignificant);
+  const std::vector<Shortfall>& shortfalls = c.coverage.flow;
   card.tone = fits ? ReportTone::good : ReportTone::fault;
   card.verdict = std::string("the calibrated model ") +
                  (fits ? "fits the recordings" : "does not fit the recordings") +
                  (std::isnan(c.misfit_p) ? "" : " (p = " + p_text(c.misfit_p) + ")");
+  if (!shortfalls.empty()) {
+    card.tone = ReportTone::fault;
+    card.verdict = "insufficient recordings of balls: the estimates are not reliable";
+    for (const Shortfall& s : shortfalls) card.facts.emplace_back("too little", s.what);
+  }
   for (const CalibratedParameter& p : c.parameters) {
     if (!p.parameter.nuisance) card.facts.emplace_back(p.parameter.path, bounded(p));
   }
@@ -36,6 +42,10 @@ ReportCard card_of(const CalibrationResult& c) {
     card.facts.emplace_back("Eq. 9, " + m.recordings,
                             digits(m.before) + " m^2 before, " + digits(m.after) +
                                 " m^2 after, noise floor " + digits(m.floor) + " m^2");
+  }
+  if (!shortfalls.empty()) {
+    card.facts.emplace_back("next", "record " + shortfalls.back().record);
+    return card;
   }
   card.facts.emplace_back("next", fits ? "simulate with the overlay calibrated.toml"
                                        : "lilytank diagnose tests which effect the model omits");

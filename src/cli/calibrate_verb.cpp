@@ -188,6 +188,11 @@ int calibrate_verb(const Arguments& arguments) {
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  job.covered = [](const Coverage& coverage) {
+    for (const Shortfall& s : coverage.flow) {
+      std::cerr << "warning: " << s.what << ": record " << s.record << "\n";
+    }
+  };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const CalibrationResult found = calibrate(experiment, job);

@@ -47,6 +47,7 @@ void add_diagnose_options(VerbOptions& options) {
       "set", "a value over the experiment's, as run.dt='5 ms'",
       cxxopts::value<std::vector<std::string>>(),
       "PATH=VALUE")("threads", "simulations at a time (default: one a core)", text(), "N")(
+      "uncertified", "diagnose insufficient recordings, too: error rates are then unknown")(
       "force", "replace another diagnosis's files")("quiet", "no progress");
 }
 
@@ -66,7 +67,7 @@ int diagnose_verb(const Arguments& arguments) {
   job.hold_out = static_cast<int>(options.whole("hold-out", job.hold_out, 0, 1000));
   job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
-  job.force = options.has("force");
+  job.force = options.has("force"), job.uncertified = options.has("uncertified");
   job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
   job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
@@ -75,7 +76,8 @@ int diagnose_verb(const Arguments& arguments) {
   Diagnosis found;
   std::vector<std::string> inputs = options.positional();
   if (options.positional().size() == 1 && is_body_experiment(options.positional()[0])) {
-    options.refuse_given({"set", "hold-out"}, "has no effect on an experiment of point bodies");
+    options.refuse_given({"set", "hold-out", "uncertified"},
+                         "has no effect on an experiment of point bodies");
     const BodyExperiment experiment = load_body_experiment(options.positional()[0]);
     job.out = directory_of(options, experiment.name);
     for (const std::string& file : experiment.files) inputs.push_back(file);

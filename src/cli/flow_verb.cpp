@@ -46,11 +46,10 @@ FlowOptions flow_options(const VerbOptions& options) {
   return f;
 }
 
-Experiment balls_of(const VerbOptions& options) {
+// Balls, from which the flow is estimated, and Lilies: where they went it must be known.
+Experiment experiment_of(const VerbOptions& options) {
   refuse_point_bodies(options.positional());
-  return load_experiment(
-      options.positional(), options.list("set"),
-      [](const RecordingSource& source) { return source.options.body == BodyKind::ball; });
+  return load_experiment(options.positional(), options.list("set"));
 }
 
 // The drag coefficient from --drag, or as the experiment's files set it.
@@ -145,7 +144,7 @@ int flow_verb(const Arguments& arguments) {
   if (options.has("bias") && word == "paper") {
     options.refuse("--bias needs --estimator smooth or both");
   }
-  const Experiment experiment = balls_of(options);
+  const Experiment experiment = experiment_of(options);
   report.name = experiment.name;
   report.ball = physics(options, experiment);
   report.truth_file = options.text("truth");
@@ -159,6 +158,8 @@ int flow_verb(const Arguments& arguments) {
   const bool force = options.has("force");
   check_directory(dir, force, job);
   estimate(word, experiment.recordings, report);
+  report.coverage =
+      coverage_of(&report.estimates.back(), experiment.recordings, experiment.recordings);
   const auto lock = claim_directory(dir, force, job);
   const auto write = [&] {
     ReportDocument document = flow_report(report);

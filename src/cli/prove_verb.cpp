@@ -58,6 +58,7 @@ void add_prove_options(VerbOptions& options) {
   options.add()("worlds", "synthetic experiments (100)", text(), "N")(
       "only", "null, named, two or unnamed: experiments of this kind only", text(), "KIND")(
       "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
+      "ball-minutes", "of each of the three recordings of balls (as --minutes)", text(), "M")(
       "known-flow", "give the diagnosis the true flow instead of balls")(
       "drawn-tank", "draw the tank, too: its pumps, inlets and parameters (the built-in tank)")(
       "modelled", "experiments in which the effect is also fitted and shown (10)", text(), "N")(
@@ -78,6 +79,10 @@ ProofOptions proof_options(VerbOptions& options) {
                    did_you_mean(job.only, kinds));
   }
   job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
+  job.ball_minutes = options.number("ball-minutes", 0, 0.1, 1e4, "");
+  if (options.has("ball-minutes") && options.has("known-flow")) {
+    options.refuse("--ball-minutes with --known-flow: no balls are recorded");
+  }
   job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));
   job.known_flow = options.has("known-flow"), job.drawn_tank = options.has("drawn-tank");
   job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
@@ -117,8 +122,8 @@ int prove_verb(const Arguments& arguments) {
   add_prove_options(options);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    for (const char* other : {"worlds", "only", "minutes", "known-flow", "drawn-tank", "modelled",
-                              "budget", "seed", "threads"}) {
+    for (const char* other : {"worlds", "only", "minutes", "ball-minutes", "known-flow",
+                              "drawn-tank", "modelled", "budget", "seed", "threads"}) {
       if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
     }
     return print_together(options.positional(), options.text("out", ""), options.has("force"));

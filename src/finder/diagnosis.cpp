@@ -82,6 +82,15 @@ std::string identity_of(const Experiment& experiment) {
   return hex(hash.value());
 }
 
+// What the recordings fall short of: of the flow map first, which everything rests on.
+std::vector<Shortfall> shortfalls_of(const CalibrationSetup& setup) {
+  const Coverage coverage =
+      coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
+  std::vector<Shortfall> out = coverage.flow;
+  out.insert(out.end(), coverage.lilies.begin(), coverage.lilies.end());
+  return out;
+}
+
 // Verdict, model and comparison of recordings without faults; kept in the claimed directory.
 void search(DiagnosisSetup& setup, Diagnosis& out) {
   PreparedTank tank(setup, setup.model_cost());
@@ -102,7 +111,7 @@ void search(DiagnosisSetup& setup, Diagnosis& out) {
   }
   const Judged judged = judge(tank, calibration.training, out);
   fit_findings(tank, judged, out.nothing_held_out ? calibration.training : calibration.held_out,
-                 out);
+               out);
 }
 
 }  // namespace
@@ -136,6 +145,8 @@ std::string name_of(Verdict verdict) {
       return "missing";
     case Verdict::measurement:
       return "measurement";
+    case Verdict::insufficient:
+      return "insufficient";
     default:
       return "undecided";
   }
@@ -170,7 +181,15 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options
   const auto lock = claim_directory(options.out, options.force,
                                     {"diagnosis", setup.identity(), diagnosis_files()});
   if (options.lock != nullptr) *options.lock = lock;
+  out.shortfalls = shortfalls_of(setup.calibration);
+  if (!out.shortfalls.empty() && !options.uncertified) {
+    out.verdict = Verdict::insufficient;
+    return out;
+  }
   search(setup, out);
+  for (const Shortfall& s : out.shortfalls) {
+    out.warnings.insert(out.warnings.begin(), s.what + ": error rates are not known here");
+  }
   return out;
 }
 

@@ -37,6 +37,8 @@ std::string verdict_of(const Diagnosis& d) {
       return "the recordings are faulty: " + effects() + "; forces were not tested";
     case Verdict::undecided:
       return "a discrepancy that these data cannot attribute";
+    case Verdict::insufficient:
+      return "the recordings are insufficient for a diagnosis";
     default:
       return (d.findings.size() == 1 ? "omitted effect: " : "omitted effects: ") + effects();
   }
@@ -49,6 +51,7 @@ ReportTone tone_of(Verdict verdict) {
     case Verdict::missing:
       return ReportTone::finding;
     case Verdict::measurement:
+    case Verdict::insufficient:
       return ReportTone::fault;
     default:
       return ReportTone::neutral;
@@ -69,6 +72,10 @@ std::string next_step(const Diagnosis& d) {
       return "correct the recordings, then diagnose again";
     case Verdict::undecided:
       return "record longer, then diagnose again";
+    case Verdict::insufficient:
+      return "record " +
+             joined(d.shortfalls, " and ", [](const Shortfall& s) { return s.record; }) +
+             "; a diagnosis of what is there (--uncertified) has unknown error rates";
     default:
       break;
   }
@@ -92,6 +99,9 @@ bool residual_remains(const Diagnosis& d) {
 ReportCard card_of(const Diagnosis& d) {
   ReportCard card;
   card.tone = tone_of(d.verdict), card.verdict = verdict_of(d);
+  if (d.verdict == Verdict::insufficient) {
+    for (const Shortfall& s : d.shortfalls) card.facts.emplace_back("too little", s.what);
+  }
   for (const DiagnosisFinding& f : d.findings) {
     const std::string of = d.findings.size() > 1 ? " of " + f.effect : "";
     if (!f.text.empty()) card.facts.emplace_back("where" + of, f.text);

@@ -77,6 +77,11 @@ std::string diagnosis_json(const Diagnosis& d) {
                                  {"high", p.high},
                                  {"unit", p.unit}});
   }
+  if (!d.shortfalls.empty()) {
+    for (const Shortfall& s : d.shortfalls) {
+      out["shortfalls"].push_back({{"what", s.what}, {"record", s.record}});
+    }
+  }
   out["detectable"] = Json::array();
   for (const Detectable& one : d.detectable) {
     out["detectable"].push_back({{"effect", one.effect},

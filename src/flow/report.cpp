@@ -72,11 +72,28 @@ std::string cells_text(const FlowEstimate& e) {
   return std::to_string(e.measured()) + " of " + std::to_string(cells_in_tank(e));
 }
 
+/// Where the flow is not known well enough for the experiment's Lilies.
+bool falls_short(const FlowReport& report) {
+  return report.coverage && !report.coverage->flow.empty();
+}
+
+ReportSection coverage_section(const Coverage& coverage) {
+  ReportSection section;
+  section.title = "Where the Lilies went";
+  section.table.head = {"", "", "needed"};
+  section.table.rows = {{"share of their time in measured cells", fixed(coverage.measured, 3),
+                         "at least " + fixed(kLeastMeasured, 2)},
+                        {"standard error of the mean flow per axis (rms), over the speed (rms)",
+                         fixed(coverage.flow_error / coverage.flow_speed, 3),
+                         "at most " + fixed(kLargestFlowError, 2)}};
+  return section;
+}
+
 ReportCard card_of(const FlowReport& report) {
   const FlowEstimate& e = report.estimates.back();
   const Summary s = summary_of(e);
   ReportCard card;
-  card.tone = sparse(e) ? ReportTone::fault : ReportTone::good;
+  card.tone = sparse(e) || falls_short(report) ? ReportTone::fault : ReportTone::good;
   card.verdict = "the balls measured the flow in " + cells_text(e) + " cells of the tank";
   card.facts = {
       {"mean speed", fixed(s.speed, 4) + " m/s"},
@@ -84,6 +101,8 @@ ReportCard card_of(const FlowReport& report) {
       {"standard error", fixed(s.mean_error, 4) + " m/s per axis of a cell's mean (median)"},
       {"next", sparse(e) ? "record the balls for longer, or use fewer --cells"
                          : "simulate in it with flow.file = \"flow_" + e.name + ".csv\""}};
+  if (falls_short(report))
+    card.facts.back().second = "record " + report.coverage->flow.back().record;
   return card;
 }
 
@@ -233,6 +252,12 @@ ReportDocument flow_report(const FlowReport& report) {
       out.warnings.push_back(e.name + " measured " + cells_text(e) +
                              " cells of the tank and filled all others from these: record longer, "
                              "or use fewer --cells or a smaller --least");
+    }
+  }
+  if (report.coverage && report.coverage->lily_minutes > 0) {
+    out.sections.push_back(coverage_section(*report.coverage));
+    for (const Shortfall& s : report.coverage->flow) {
+      out.warnings.push_back(s.what + ": record " + s.record);
     }
   }
   if (report.truth) out.sections.push_back(errors_section(report));

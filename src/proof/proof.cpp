@@ -31,8 +31,9 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   e.base.model = with_steps(tank_model(), 5);
   if (options.known_flow) e.base.model.field = tank.field;
   const double seconds = 60 * options.minutes;
+  const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
   std::vector<RecordingShape> shapes(kSealedRecordings,
-                                     shape_named("balls", BodyKind::ball, kBalls, seconds));
+                                     shape_named("balls", BodyKind::ball, kBalls, of_balls));
   EmulatorOptions exact;
   exact.moment_matched = false;
   const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
@@ -185,7 +186,11 @@ DrawnTank tank_of(const ProofOptions& options) {
 std::string words_for_tank(const ProofOptions& options) {
   return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
          std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
-         " min, " + (options.known_flow ? "known flow" : "flow from balls");
+         " min, " +
+         (options.known_flow ? "known flow"
+          : options.ball_minutes > 0
+              ? "flow from balls of " + shortest(options.ball_minutes) + " min"
+              : "flow from balls");
 }
 
 // Those of the requested kind.

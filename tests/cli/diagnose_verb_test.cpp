@@ -41,6 +41,25 @@ TEST(diagnoseVerb, refusesWithOneLine) {
   }
 }
 
+// Twenty seconds of balls do not measure the flow: that is the verdict, before anything is
+// simulated.
+TEST(diagnoseVerb, shortRecordingsAreInsufficient) {
+  const Program lilytank;
+  const Answer a = lilytank("diagnose " + kTank + " --out x");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_TRUE(
+      a.out.starts_with("Diagnosis of tank: the recordings are insufficient for a diagnosis\n"))
+      << a.out;
+  EXPECT_NE(a.out.find("min more of 24 balls"), std::string::npos) << a.out;
+  EXPECT_NE(a.out.find("min more of 15 Lilies"), std::string::npos) << a.out;
+  const std::string json = lilytank.here.read("x/diagnosis.json");
+  EXPECT_NE(json.find("\"verdict\": \"insufficient\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"shortfalls\""), std::string::npos) << json;
+  EXPECT_FALSE(lilytank.here.has("x/work/centre 1.rows"));
+  // Again, and with more in the same directory.
+  EXPECT_EQ(lilytank("diagnose " + kTank + " --out x").out, a.out);
+}
+
 // Finished benchmarks, summarised alone and pooled.
 TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Program lilytank;

@@ -1,0 +1,44 @@
+// Whether recordings are long enough for the questions that are put to them, before anything is
+// simulated: how well the balls measured the flow where the Lilies went, and how long these were
+// seen.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lilytank/flow_estimate.hpp"
+#include "lilytank/recording.hpp"
+
+namespace lilytank {
+
+/// A requirement that recordings do not meet.
+struct Shortfall {
+  std::string
+      what;  ///< "the balls measured the flow for 12 % of the Lilies' time; 90 % are needed"
+  std::string record;  ///< what to record in addition: "8 min more of 24 balls"
+};
+
+/// What recordings cover. Times are sums over bodies of the time for which each was seen.
+struct Coverage {
+  double ball_minutes = 0;
+  double lily_minutes = 0;  ///< of recordings that are fitted
+  /// Share of the Lilies' time that they spent in cells of the flow map that balls measured.
+  double measured = 1;
+  /// Root mean square, over the Lilies' time, of the standard error per axis of the mean flow and
+  /// of the mean flow itself, m/s. NaN if the flow is not estimated from balls.
+  double flow_error = 0, flow_speed = 0;
+  std::vector<Shortfall> flow;    ///< of the flow map: without it no parameter and no force
+  std::vector<Shortfall> lilies;  ///< of a diagnosis, beside the flow map
+};
+
+/// Least share of the Lilies' time in measured cells; largest standard error of the mean flow
+/// relative to its speed; least time of Lilies for a diagnosis, min. docs/validation.md gives the
+/// false-positive rates on either side.
+inline constexpr double kLeastMeasured = 0.9, kLargestFlowError = 0.1, kLeastLilyMinutes = 15;
+
+/// `flow`: estimated from `balls`; null if the scenario's flow is used. `lilies`: those that are
+/// fitted; of other bodies nothing is counted.
+Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
+                     std::span<const Recording> lilies);
+
+}  // namespace lilytank

@@ -1,0 +1,162 @@
+#include "lilytank/coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "flow/grid.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+// Calls with each sighting of a body, its position and the seconds that it stands for.
+template <class Use>
+void for_sightings(std::span<const Recording> recordings, BodyKind body, Use use) {
+  for (const Recording& one : recordings) {
+    if (one.body != body) continue;
+    for (const Track& track : one.tracks) {
+      for (std::size_t i = 0; i < track.x.size(); ++i) {
+        if (!std::isnan(track.x[i])) use(track.x[i], track.y[i], 1 / one.rate);
+      }
+    }
+  }
+}
+
+double minutes_seen(std::span<const Recording> recordings, BodyKind body) {
+  double seconds = 0;
+  for_sightings(recordings, body, [&](double, double, double s) { seconds += s; });
+  return seconds / 60;
+}
+
+// The largest number of bodies of a recording.
+std::size_t bodies_in(std::span<const Recording> recordings, BodyKind body) {
+  std::size_t most = 0;
+  for (const Recording& one : recordings) {
+    if (one.body != body) continue;
+    std::vector<std::int64_t> ids;
+    for (const Track& track : one.tracks) ids.push_back(track.id);
+    std::sort(ids.begin(), ids.end());
+    most =
+        std::max(most, static_cast<std::size_t>(std::unique(ids.begin(), ids.end()) - ids.begin()));
+  }
+  return most;
+}
+
+// Seconds that Lilies were in each cell.
+std::vector<double> seconds_by_cell(const FlowGrid& grid, std::span<const Recording> recordings) {
+  std::vector<double> out(static_cast<std::size_t>(grid.size()), 0);
+  for_sightings(recordings, BodyKind::lily, [&](double x, double y, double s) {
+    if (const int cell = grid.cell_at(x, y); cell >= 0) out[static_cast<std::size_t>(cell)] += s;
+  });
+  return out;
+}
+
+// Mean over the cells within two of each: what a cell will get if the balls go on as they did.
+std::vector<double> smoothed(const FlowGrid& grid, const std::vector<double>& of) {
+  constexpr int kAround = 2;
+  std::vector<double> out(of.size(), 0);
+  for (int iy = 0; iy < grid.cells; ++iy) {
+    for (int ix = 0; ix < grid.cells; ++ix) {
+      int count = 0;
+      double sum = 0;
+      for (int y = std::max(0, iy - kAround); y <= std::min(grid.cells - 1, iy + kAround); ++y) {
+        for (int x = std::max(0, ix - kAround); x <= std::min(grid.cells - 1, ix + kAround); ++x) {
+          sum += of[static_cast<std::size_t>(y * grid.cells + x)], ++count;
+        }
+      }
+      out[static_cast<std::size_t>(iy * grid.cells + ix)] = sum / count;
+    }
+  }
+  return out;
+}
+
+// Factor by which the balls' time must grow until the Lilies spend `share` of theirs in measured
+// cells. `samples`: in each cell. A cell is measured with the fewest samples that one is measured
+// with now; what it will get is Poisson, so for nine in ten more are needed on average.
+double factor_for_share(const FlowEstimate& flow, const std::vector<double>& samples,
+                        const std::vector<double>& lilies, double share) {
+  constexpr double kNineInTen = 1.28;  // normal quantile
+  double least = HUGE_VAL, all = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (flow.cell[i].measured) least = std::min(least, samples[i]);
+    all += lilies[i];
+  }
+  const double expected_least = least + kNineInTen * std::sqrt(least);
+  const std::vector<double> expected = smoothed({flow.cells, flow.extent}, samples);
+  std::vector<std::pair<double, double>> needed;  // factor, Lilies' seconds
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (lilies[i] <= 0) continue;
+    const double factor =
+        flow.cell[i].measured ? 1 : expected_least / std::max(expected[i], 1e-9 * least);
+    needed.emplace_back(std::max(1.0, factor), lilies[i]);
+  }
+  std::sort(needed.begin(), needed.end());
+  double sum = 0;
+  for (const auto& [factor, seconds] : needed) {
+    sum += seconds;
+    if (sum >= share * all) return factor;
+  }
+  return 1;
+}
+
+std::string percent(double share) {
+  return significant(100 * share, 2) + " %";
+}
+
+// "8 min more of 24 balls"
+std::string minutes_of(double body_minutes, std::size_t bodies, const char* plural) {
+  const double minutes = body_minutes / static_cast<double>(std::max<std::size_t>(1, bodies));
+  return significant(std::max(minutes, 0.1), 2) + " min more of " + std::to_string(bodies) + " " +
+         plural;
+}
+
+}  // namespace
+
+Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
+                     std::span<const Recording> lilies) {
+  Coverage out;
+  out.ball_minutes = minutes_seen(balls, BodyKind::ball);
+  out.lily_minutes = minutes_seen(lilies, BodyKind::lily);
+  if (out.lily_minutes < kLeastLilyMinutes) {
+    out.lilies.push_back({"the Lilies were seen for " + significant(out.lily_minutes, 2) +
+                              " min, summed over modules; " + significant(kLeastLilyMinutes, 2) +
+                              " min are needed",
+                          minutes_of(kLeastLilyMinutes - out.lily_minutes,
+                                     bodies_in(lilies, BodyKind::lily), "Lilies")});
+  }
+  out.flow_error = out.flow_speed = NAN;
+  if (flow == nullptr || out.lily_minutes <= 0) return out;
+  const FlowGrid grid{flow->cells, flow->extent};
+  const std::vector<double> where = seconds_by_cell(grid, lilies);
+  double all = 0, measured = 0, error = 0, speed = 0;
+  for (std::size_t i = 0; i < where.size(); ++i) {
+    const FlowCell& cell = flow->cell[i];
+    all += where[i], measured += cell.measured ? where[i] : 0;
+    const FlowSample &e = cell.error, &u = cell.flow;
+    if (!std::isnan(e.mu_x)) error += where[i] * (e.mu_x * e.mu_x + e.mu_y * e.mu_y) / 2;
+    speed += where[i] * (u.mu_x * u.mu_x + u.mu_y * u.mu_y);
+  }
+  out.measured = measured / all;
+  out.flow_error = std::sqrt(error / all), out.flow_speed = std::sqrt(speed / all);
+  const std::size_t count = bodies_in(balls, BodyKind::ball);
+  const auto more = [&](double factor) {
+    return minutes_of((factor - 1) * out.ball_minutes, count, "balls");
+  };
+  if (out.measured < kLeastMeasured) {
+    std::vector<double> samples;
+    for (const FlowCell& cell : flow->cell) samples.push_back(cell.samples);
+    out.flow.push_back({"the balls measured the flow for " + percent(out.measured) +
+                            " of the Lilies' time; " + percent(kLeastMeasured) + " are needed",
+                        more(factor_for_share(*flow, samples, where, kLeastMeasured))});
+  }
+  const double relative = out.flow_error / out.flow_speed;
+  if (relative > kLargestFlowError) {
+    out.flow.push_back({"the mean flow where the Lilies went is known to " + percent(relative) +
+                            " of its speed; " + percent(kLargestFlowError) + " are needed",
+                        more(relative * relative / (kLargestFlowError * kLargestFlowError))});
+  }
+  return out;
+}
+
+}  // namespace lilytank
