@@ -27,14 +27,17 @@ struct Coverage {
   /// Root mean square, over the Lilies' time, of the standard error per axis of the mean flow and
   /// of the mean flow itself, m/s. NaN if the flow is not estimated from balls.
   double flow_error = 0, flow_speed = 0;
+  /// Standard error of the gusts' mean standard deviation, relative to it; NaN where unknown.
+  double gust_error = 0;
   std::vector<Shortfall> flow;    ///< of the flow map: without it no parameter and no force
   std::vector<Shortfall> lilies;  ///< of a diagnosis, beside the flow map
 };
 
-/// Least share of the Lilies' time in measured cells; largest standard error of the mean flow
-/// relative to its speed; least time of Lilies for a diagnosis, min. docs/validation.md gives the
-/// false-positive rates on either side.
-inline constexpr double kLeastMeasured = 0.9, kLargestFlowError = 0.1, kLeastLilyMinutes = 15;
+/// Least share of the Lilies' time in measured cells; largest standard errors of the mean flow
+/// relative to its speed and of the gusts' standard deviation relative to it; least time of Lilies
+/// for a diagnosis, min. docs/flow.md shows the errors of flow maps on either side.
+inline constexpr double kLeastMeasured = 0.9, kLargestFlowError = 0.1, kLargestGustError = 0.12,
+                        kLeastLilyMinutes = 15;
 
 /// `flow`: estimated from `balls`; null if the scenario's flow is used. `lilies`: those that are
 /// fitted; of other bodies nothing is counted.

@@ -125,7 +125,7 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
                           minutes_of(kLeastLilyMinutes - out.lily_minutes,
                                      bodies_in(lilies, BodyKind::lily), "Lilies")});
   }
-  out.flow_error = out.flow_speed = NAN;
+  out.flow_error = out.flow_speed = out.gust_error = NAN;
   if (flow == nullptr || out.lily_minutes <= 0) return out;
   const FlowGrid grid{flow->cells, flow->extent};
   const std::vector<double> where = seconds_by_cell(grid, lilies);
@@ -150,12 +150,17 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
                             " of the Lilies' time; " + percent(kLeastMeasured) + " are needed",
                         more(factor_for_share(*flow, samples, where, kLeastMeasured))});
   }
-  const double relative = out.flow_error / out.flow_speed;
-  if (relative > kLargestFlowError) {
-    out.flow.push_back({"the mean flow where the Lilies went is known to " + percent(relative) +
-                            " of its speed; " + percent(kLargestFlowError) + " are needed",
-                        more(relative * relative / (kLargestFlowError * kLargestFlowError))});
-  }
+  // Errors fall with the root of the time.
+  const auto require = [&](const char* what, double error, double largest) {
+    if (!(error > largest)) return;
+    out.flow.push_back({what + percent(error) + "; " + percent(largest) + " are needed",
+                        more(error * error / (largest * largest))});
+  };
+  require("the standard error of the mean flow over its speed, where the Lilies went, is ",
+          out.flow_error / out.flow_speed, kLargestFlowError);
+  if (flow->noise) out.gust_error = flow->noise->gusts_error / flow->noise->gusts;
+  require("the standard error of the gusts' standard deviation over that deviation is ",
+          out.gust_error, kLargestGustError);
   return out;
 }
 

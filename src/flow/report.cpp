@@ -85,7 +85,10 @@ ReportSection coverage_section(const Coverage& coverage) {
                          "at least " + fixed(kLeastMeasured, 2)},
                         {"standard error of the mean flow per axis (rms), over the speed (rms)",
                          fixed(coverage.flow_error / coverage.flow_speed, 3),
-                         "at most " + fixed(kLargestFlowError, 2)}};
+                         "at most " + fixed(kLargestFlowError, 2)},
+                        {"standard error of the gusts' standard deviation, over that deviation",
+                         std::isnan(coverage.gust_error) ? "-" : fixed(coverage.gust_error, 3),
+                         "at most " + fixed(kLargestGustError, 2)}};
   return section;
 }
 

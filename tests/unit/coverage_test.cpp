@@ -91,6 +91,17 @@ TEST(Coverage, MinutesToRecordMeasureTheCells) {
   EXPECT_EQ(c.flow[0].record, "1.2 min more of 24 balls");
 }
 
+TEST(Coverage, GustsMustBeKnown) {
+  const Recording balls = passing(BodyKind::ball, 24, 2), lilies = passing(BodyKind::lily, 15, 4);
+  FlowEstimate flow = flow_with(1, 20, 0.01);
+  flow.noise = NoiseBudget{};
+  flow.noise->gusts = 0.15, flow.noise->gusts_error = 2 * kLargestGustError * 0.15;
+  const Coverage c = coverage_of(&flow, {&balls, 1}, {&lilies, 1});
+  EXPECT_NEAR(c.gust_error, 2 * kLargestGustError, 1e-12);
+  ASSERT_EQ(c.flow.size(), 1u);
+  EXPECT_EQ(c.flow[0].record, "6 min more of 24 balls");
+}
+
 TEST(Coverage, AKnownFlowNeedsOnlyLilies) {
   const Recording lilies = passing(BodyKind::lily, 15, 0.5);
   const Coverage c = coverage_of(nullptr, {}, {&lilies, 1});
