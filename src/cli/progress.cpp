@@ -40,7 +40,7 @@ Progress::~Progress() {
   clear();
 }
 
-void Progress::tell(double done, const std::string& note) {
+void Progress::show(double done, const std::string& note) {
   if (quiet_) return;
   if (first_done_ < 0) first_done_ = done;  // a resumed job begins in the middle
   const auto now = Clock::now();

@@ -14,7 +14,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// `done` is the share done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
-  void tell(double done, const std::string& note);
+  void show(double done, const std::string& note);
   /// Takes the changing line away, before other output.
   void clear();
 
