@@ -2,8 +2,8 @@
 #include <filesystem>
 
 #include "cli/analyze_sources.hpp"
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/results.hpp"
 #include "jobs/job_directory.hpp"
 

@@ -3,11 +3,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"

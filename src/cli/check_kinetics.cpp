@@ -6,7 +6,6 @@
 
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/scenario_layers.hpp"
 #include "lilytank/random.hpp"

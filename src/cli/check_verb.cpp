@@ -7,7 +7,6 @@
 #include "cli/check_kinetics.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 
 namespace lilytank::cli {

@@ -1,9 +1,8 @@
 // lilytank diagnose: what physics a model leaves out.
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/diagnosis.hpp"
 

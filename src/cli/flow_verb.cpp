@@ -1,6 +1,6 @@
 // lilytank flow: the water's velocity from the tracks of balls.
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "jobs/job_directory.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "io/scenario_commands.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/run.hpp"

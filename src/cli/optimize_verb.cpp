@@ -4,7 +4,6 @@
 
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/optimize.hpp"

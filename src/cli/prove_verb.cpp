@@ -5,7 +5,6 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"

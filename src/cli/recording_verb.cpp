@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/point_bodies.hpp"
+#include "cli/inputs.hpp"
 #include "lilytank/experiment.hpp"
 #include "recording/experiment_file.hpp"
 #include "recording/files.hpp"

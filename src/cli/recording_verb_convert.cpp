@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/recording_verb.hpp"
-#include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"

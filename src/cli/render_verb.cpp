@@ -3,11 +3,10 @@
 #include <initializer_list>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
-#include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "io/units.hpp"
 

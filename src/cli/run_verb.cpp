@@ -3,12 +3,10 @@
 #include <iostream>
 #include <optional>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
-#include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"

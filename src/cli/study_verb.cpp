@@ -5,7 +5,6 @@
 
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
