@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "html_report.hpp"
@@ -204,7 +203,7 @@ PlotPage logarithmic(const Analysis& analysis, const AnalysisCurves& set) {
   return page;
 }
 
-AnalysisPlot contact_plot(const Analysis& analysis) {
+Figure contact_plot(const Analysis& analysis) {
   Plot plot;
   plot.title = "duration of contacts";
   plot.x_label = "time (s)", plot.y_label = "share of contacts that last longer";
@@ -227,10 +226,11 @@ AnalysisPlot contact_plot(const Analysis& analysis) {
   }
   plot.x_low = 0, plot.x_high = longest;
   plot.legend_title = shared_key(analysis);
-  return {"contact_times", {{plot}, 1}};
+  return {
+      "contact_times", "Fraction of contacts that last longer (Kaplan and Meier).", {{plot}}, {}};
 }
 
-AnalysisPlot transfer_plot(const Analysis& analysis) {
+Figure transfer_plot(const Analysis& analysis) {
   Plot plot;
   plot.x_label = "frequency (Hz)", plot.y_label = "amplitude kept";
   plot.width = kWidth, plot.height = kHeight;
@@ -249,7 +249,7 @@ AnalysisPlot transfer_plot(const Analysis& analysis) {
     plot.legend_title = shared_key(analysis);
     for (const SourceSummary& s : analysis.sources) add(s.name, s.transfer, s.transfer.velocity);
   }
-  AnalysisPlot made{"transfer", {{plot}, 1}};
+  Figure made{"transfer", "Transfer functions of the smoother.", {{plot}}, {}};
   share_x(made.page.plots);
   return made;
 }
@@ -314,8 +314,6 @@ std::string caption_of(const std::string& plot) {
       {"density", "Density of centres over the distance from the centre; 1: uniform."},
       {"pair_correlation", "Pair correlation; 1: independent."},
       {"nearest", "Probability density of the distance to the nearest body."},
-      {"contact_times", "Fraction of contacts that last longer (Kaplan and Meier)."},
-      {"transfer", "Transfer functions of the smoother."},
   };
   const auto known = kCaptions.find(plot);
   return known == kCaptions.end() ? plot : known->second;
@@ -323,17 +321,20 @@ std::string caption_of(const std::string& plot) {
 
 }  // namespace
 
-std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis) {
-  std::vector<AnalysisPlot> plots;
+std::vector<Figure> analysis_plots(const Analysis& analysis) {
+  std::vector<Figure> figures;
+  const auto add = [&](const std::string& name, const PlotPage& page) {
+    figures.push_back({name, caption_of(name), page, {}});
+  };
   for (const AnalysisCurves& set : analysis.curves) {
-    plots.push_back({set.name, page_of(analysis, set)});
-    if (set.name == "msd_all") plots.push_back({"msd_all_log", logarithmic(analysis, set)});
+    add(set.name, page_of(analysis, set));
+    if (set.name == "msd_all") add("msd_all_log", logarithmic(analysis, set));
   }
-  if (analysis.options.msd_only) return plots;
-  AnalysisPlot contacts = contact_plot(analysis);
-  if (!contacts.page.plots[0].curves.empty()) plots.push_back(std::move(contacts));
-  plots.push_back(transfer_plot(analysis));
-  return plots;
+  if (analysis.options.msd_only) return figures;
+  Figure contacts = contact_plot(analysis);
+  if (!contacts.page.plots[0].curves.empty()) figures.push_back(std::move(contacts));
+  figures.push_back(transfer_plot(analysis));
+  return figures;
 }
 
 Map velocity_maps(const Analysis& analysis) {
@@ -355,29 +356,14 @@ Map velocity_maps(const Analysis& analysis) {
   return map;
 }
 
-std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDocument& report,
-                                       const std::string& dir) {
-  std::vector<std::string> files;
-  std::vector<std::pair<std::string, std::string>> figures;
-  const auto each = [&](const std::string& name, const std::string& caption, const auto& draw) {
-    for (const char* ending : {".png", ".svg"}) {
-      files.push_back((std::filesystem::path(dir) / (name + ending)).string());
-      draw(files.back());
-    }
-    figures.emplace_back(name, caption);
-  };
-  for (const AnalysisPlot& plot : analysis_plots(analysis)) {
-    each(plot.name, caption_of(plot.name),
-         [&](const std::string& file) { draw_plots(plot.page, file); });
-  }
-  const Map map = velocity_maps(analysis);
+void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir) {
+  std::vector<Figure> figures = analysis_plots(analysis);
+  Map map = velocity_maps(analysis);
   if (!map.panels.empty()) {
-    each("velocity_map", "Mean velocity along x, along y and as arrows.",
-         [&](const std::string& file) { draw_map(map, file); });
+    figures.push_back(
+        {"velocity_map", "Mean velocity along x, along y and as arrows.", {}, std::move(map)});
   }
   write_html_report(report, figures, dir);
-  files.push_back((std::filesystem::path(dir) / "report.html").string());
-  return files;
 }
 
 }  // namespace lilytank

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
@@ -154,42 +153,28 @@ PlotPage pair_page(const CalibrationResult& c) {
 
 }  // namespace
 
-std::vector<std::string> draw_calibration(const CalibrationResult& c, const ReportDocument& report,
-                                          const std::string& dir) {
-  std::vector<std::string> names;
-  std::vector<std::pair<std::string, std::string>> figures;
-  const auto draw = [&](const std::string& name, const std::string& caption, const auto& what,
-                        const auto& how) {
-    figures.emplace_back(name, caption);
-    for (const char* ending : {".png", ".svg"}) {
-      how(what, (std::filesystem::path(dir) / (name + ending)).string());
-      names.push_back(name + ending);
-    }
+void draw_calibration(const CalibrationResult& c, const ReportDocument& report,
+                      const std::string& dir) {
+  std::vector<Figure> figures;
+  const auto add = [&](const std::string& name, const std::string& caption, const PlotPage& page) {
+    if (!page.plots.empty()) figures.push_back({name, caption, page, {}});
   };
-  if (!c.msd.empty()) {
-    draw("msd", "Mean squared displacement, recorded and simulated.", msd_page(c), draw_plots);
-  }
+  add("msd", "Mean squared displacement, recorded and simulated.", msd_page(c));
   if (!c.real_velocity.vx.empty() && !c.simulated_velocity.vx.empty()) {
-    draw("velocity", "Mean velocity, recorded and simulated.", velocity_map_of(c), draw_map);
+    figures.push_back(
+        {"velocity", "Mean velocity, recorded and simulated.", {}, velocity_map_of(c)});
   }
-  const PlotPage profiles = profile_page(c), pairs = pair_page(c);
-  if (!profiles.plots.empty()) {
-    draw("profiles",
-         "Profile of the misfit over each parameter, with its 95 % interval. The interval comes "
-         "from simulated experiments and includes the errors of the flow and of the response "
-         "surface, so it can be wider than the part of the profile below the threshold.",
-         profiles, draw_plots);
-  }
-  if (!pairs.plots.empty()) {
-    draw("estimates", "Estimates from simulated experiments, two parameters a plot.", pairs,
-         draw_plots);
-  }
+  add("profiles",
+      "Profile of the misfit over each parameter, with its 95 % interval. The interval comes from "
+      "simulated experiments and includes the errors of the flow and of the response surface, so "
+      "it "
+      "can be wider than the part of the profile below the threshold.",
+      profile_page(c));
+  add("estimates", "Estimates from simulated experiments, two parameters a plot.", pair_page(c));
   if (!c.history.empty()) {
-    draw("convergence", "Convergence of the search.", convergence_plot(c), draw_plot);
+    add("convergence", "Convergence of the search.", {{convergence_plot(c)}});
   }
   write_html_report(report, figures, dir);
-  names.push_back("report.html");
-  return names;
 }
 
 }  // namespace lilytank

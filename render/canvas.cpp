@@ -6,11 +6,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 
+#include "cut_text.hpp"
 #include "lilytank/error.hpp"
 #include "lilytank/math.hpp"
-#include "svg_text.hpp"
+#include "palette.hpp"
+#include "text/markup.hpp"
+#include "text/number.hpp"
+#include "text/printable.hpp"
 
 namespace lilytank {
 namespace {
@@ -41,14 +46,86 @@ cairo_status_t append(void* sink, const unsigned char* data, unsigned length) {
   return CAIRO_STATUS_SUCCESS;
 }
 
+// Cairo's SVG knows text as outlines only. A stroke with a miter limit that numbers it holds a
+// text's place in the order of drawing and under its clip, until with_texts() puts the text there.
+constexpr int kFirst = 1000;  // miter limit of the first place; lines of figures have Cairo's, 10
+
+std::string hex_of(const Colour& c) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string out = "#";
+  for (const double channel : {c.r, c.g, c.b}) {
+    const auto byte = static_cast<unsigned>(std::lround(255 * channel));
+    out += kDigits[byte / 16 % 16], out += kDigits[byte % 16];
+  }
+  return out;
+}
+
+std::string attribute(const std::string& name, double value) {
+  return " " + name + "=\"" + significant(value, 7) + "\"";
+}
+
+// The place's number; none: -1. Cairo 1.16 writes "stroke-miterlimit:1000;", later ones an
+// attribute.
+int place_of(const std::string& path) {
+  const std::string mark = "stroke-miterlimit";
+  const auto at = path.find(mark);
+  if (at == std::string::npos) return -1;
+  const auto digits = path.find_first_of("0123456789", at + mark.size());
+  return digits == std::string::npos ? -1 : std::atoi(path.c_str() + digits) - kFirst;
+}
+
+// The stroke is as wide as the text, which has that width in every font.
+void hold_text_place(const Canvas& canvas, double x, double y, double width, const std::string& s,
+                     const TextStyle& style, std::vector<std::string>& texts) {
+  if (s.empty()) return;
+  const Saved saved(canvas);
+  cairo_set_miter_limit(canvas.get(), kFirst + static_cast<double>(texts.size()));
+  canvas.line(x, y, x + width, y, style.colour, style.size);
+  cairo_matrix_t m;
+  cairo_get_matrix(canvas.get(), &m);
+  cairo_matrix_translate(&m, x, y);
+  std::string text = "<text transform=\"matrix(";
+  for (const double v : {m.xx, m.yx, m.xy, m.yy, m.x0, m.y0}) text += significant(v, 7) + " ";
+  text.back() = ')';
+  text += "\" fill=\"" + hex_of(style.colour) + "\"" + attribute("font-size", style.size);
+  if (style.colour.a < 1) text += attribute("fill-opacity", style.colour.a);
+  if (style.bold) text += " font-weight=\"bold\"";
+  text += attribute("textLength", width) + " lengthAdjust=\"spacingAndGlyphs\">";
+  texts.push_back(text + escaped(printable(s)) + "</text>");
+}
+
+// The SVG with those strokes replaced by their texts, in the font family.
+std::string with_texts(const std::string& svg, const std::vector<std::string>& texts) {
+  std::string out;
+  std::size_t done = 0;
+  const auto copy_to = [&](std::size_t end) { out.append(svg, done, end - done), done = end; };
+  const std::string root = "<svg", path = "<path";
+  copy_to(svg.find(root) + root.size());
+  // Cairo sets glyph beside glyph, without kerning and ligatures.
+  out += " font-family=\"'" + std::string(kFamily) +
+         "', Verdana, sans-serif\" xml:space=\"preserve\""
+         " style=\"font-kerning:none;font-variant-ligatures:none\"";
+  for (auto at = svg.find(path, done); at != std::string::npos; at = svg.find(path, done)) {
+    const auto end = svg.find("/>", at) + 2;
+    const int place = place_of(svg.substr(at, end - at));
+    copy_to(place < 0 ? end : at);
+    if (place >= 0) out += texts.at(static_cast<std::size_t>(place)), done = end;
+  }
+  copy_to(svg.size());
+  return out;
+}
+
 }  // namespace
 
-PictureFormat format_of(const std::string& file, std::span<const PictureFormat> allowed) {
+PictureFormat format_of(const std::string& file, std::initializer_list<PictureFormat> allowed) {
   std::string low = file, names;
   for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const PictureFormat f : allowed) {
     if (low.ends_with(ending_of(f)) && low.size() > 4) return f;
-    names += (names.empty() ? "" : f == allowed.back() ? " or " : ", ") + std::string(ending_of(f));
+    names += (names.empty()               ? ""
+              : f == *(allowed.end() - 1) ? " or "
+                                          : ", ") +
+             std::string(ending_of(f));
   }
   throw InputError("cannot determine the picture's format from '" + file +
                    "': its name must end in " + names);
@@ -86,12 +163,23 @@ Canvas Canvas::vector(PictureFormat format, double width, double height) {
   return Canvas(surface, std::move(sink));
 }
 
-Canvas Canvas::page(PictureFormat format, double width, double height, double scale) {
-  if (format != PictureFormat::png) return vector(format, width, height);
-  Canvas canvas = raster(static_cast<int>(std::lround(width * scale)),
-                         static_cast<int>(std::lround(height * scale)));
-  cairo_scale(canvas.get(), scale, scale);
+Canvas Canvas::page(PictureFormat format, double width, double height) {
+  constexpr double kPixels = 2;  // of a PNG, per unit
+  if (format != PictureFormat::png) {
+    Canvas canvas = vector(format, width, height);
+    canvas.clear();
+    return canvas;
+  }
+  Canvas canvas = raster(static_cast<int>(std::lround(width * kPixels)),
+                         static_cast<int>(std::lround(height * kPixels)));
+  cairo_scale(canvas.get(), kPixels, kPixels);
+  canvas.clear();
   return canvas;
+}
+
+void Canvas::clear() const {
+  colour(palette::paper);
+  cairo_paint(get());
 }
 
 void Canvas::colour(const Colour& c) const {
@@ -163,6 +251,13 @@ void Canvas::text(double x, double y, const std::string& s, const TextStyle& sty
   cairo_new_path(get());
 }
 
+void Canvas::upright_text(double x, double y, const std::string& s, const TextStyle& style) const {
+  const Saved saved(*this);
+  cairo_translate(get(), x, y);
+  cairo_rotate(get(), -kPi / 2);
+  text(0, 0, s, style);
+}
+
 void Canvas::moving_text(double x, double y, const std::string& s, const TextStyle& style) const {
   constexpr double kDigitHeight = 0.729;  // of DejaVu Sans, in font sizes
   const double base = y + kDigitHeight / 2 * style.size;
@@ -173,16 +268,7 @@ void Canvas::moving_text(double x, double y, const std::string& s, const TextSty
 }
 
 std::string Canvas::fitted(const std::string& s, double width, const TextStyle& style) const {
-  if (width_of(s, style) <= width) return s;
-  std::string cut = s;
-  while (!cut.empty()) {
-    // Take a whole UTF-8 character: its continuation bytes read 10xxxxxx.
-    while (!cut.empty() && (cut.back() & 0xC0) == 0x80) cut.pop_back();
-    if (!cut.empty()) cut.pop_back();
-    const std::string candidate = cut + "…";
-    if (width_of(candidate, style) <= width) return candidate;
-  }
-  return "…";
+  return begin_within(s, width, [&](const std::string& text) { return width_of(text, style); });
 }
 
 std::span<unsigned char> Canvas::pixels() const {
@@ -201,7 +287,7 @@ std::string Canvas::encoded() {
       cairo_surface_finish(surface_.get());
       status = cairo_surface_status(surface_.get());
       bytes = std::move(sink_->bytes);
-      if (sink_->format == PictureFormat::svg) bytes = with_texts(bytes, sink_->texts, kFamily);
+      if (sink_->format == PictureFormat::svg) bytes = with_texts(bytes, sink_->texts);
     } else {
       cairo_surface_flush(surface_.get());
       status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);

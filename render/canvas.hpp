@@ -2,6 +2,7 @@
 #pragma once
 #include <cairo.h>
 
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,8 +19,10 @@ struct Colour {
 enum class PictureFormat { png, svg, pdf };
 
 /// The format of a file by its ending (.png, .svg, .pdf; case does not matter). Throws InputError
-/// naming the endings in `allowed` where it is none of them.
-PictureFormat format_of(const std::string& file, std::span<const PictureFormat> allowed);
+/// naming the endings of those `allowed` where it is none of them.
+PictureFormat format_of(const std::string& file,
+                        std::initializer_list<PictureFormat> allowed = {
+                            PictureFormat::png, PictureFormat::svg, PictureFormat::pdf});
 
 enum class Align { left, centre, right };
 
@@ -39,8 +42,10 @@ class Canvas {
   static Canvas raster(int width, int height);
   /// A page of `width` x `height` units; `format` is svg or pdf.
   static Canvas vector(PictureFormat format, double width, double height);
-  /// Raster or vector, as `format` asks; a raster has `scale` pixels a unit.
-  static Canvas page(PictureFormat format, double width, double height, double scale);
+  /// White paper, raster or vector by `format`; a raster has two pixels a unit.
+  static Canvas page(PictureFormat format, double width, double height);
+  /// Paints all of it white.
+  void clear() const;
 
   /// The context, for paths.
   cairo_t* get() const { return context_.get(); }
@@ -59,6 +64,8 @@ class Canvas {
 
   /// Writes text with its baseline at y; in SVG as text that can be selected and searched.
   void text(double x, double y, const std::string& s, const TextStyle& style) const;
+  /// Text along a vertical line, upwards.
+  void upright_text(double x, double y, const std::string& s, const TextStyle& style) const;
   /// Text centred at (x, y), the middle of its digits' height. In a raster an outline: a little
   /// slower, but it may lie between two pixels, so that text on a moving body moves with it.
   void moving_text(double x, double y, const std::string& s, const TextStyle& style) const;

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "colour_scale.hpp"
 #include "palette.hpp"
 #include "plot_area.hpp"
 

@@ -113,27 +113,23 @@ Plot fit_plot(const Diagnosis& d) {
 
 }  // namespace
 
-std::vector<std::string> draw_diagnosis(const Diagnosis& d, const ReportDocument& report,
-                                        const std::string& dir) {
-  std::vector<ReportFigure> figures;
-  if (const PlotPage page = laws_page(d); !page.plots.empty()) {
-    figures.push_back({"laws",
-                       "Where each finding acts: what the baseline leaves unexplained (dots), and "
-                       "how far it would be off by chance (band).",
-                       page});
-  }
+void draw_diagnosis(const Diagnosis& d, const ReportDocument& report, const std::string& dir) {
+  std::vector<Figure> figures;
+  const auto add = [&](const std::string& name, const std::string& caption, const PlotPage& page) {
+    if (!page.plots.empty()) figures.push_back({name, caption, page, {}});
+  };
+  add("laws",
+      "Where each finding acts: what the baseline leaves unexplained (dots), and how far it would "
+      "be off by chance (band).",
+      laws_page(d));
   if (!d.held_out.empty()) {
-    const std::string caption(d.subject->fit(d.nothing_held_out).figure_caption);
-    figures.push_back({"fit", caption, {{fit_plot(d)}, 1}});
+    add("fit", std::string(d.subject->fit(d.nothing_held_out).figure_caption), {{fit_plot(d)}});
   }
-  if (!d.maps.empty()) {
-    figures.push_back({"maps",
-                       "Maps of the one-step innovations, strongest first. A curve assumes no "
-                       "formula, so its z is usually below that of a law that fits. Values that the data "
-                       "hardly constrain are not drawn.",
-                       maps_page(d)});
-  }
-  return write_html_report(report, figures, dir);
+  add("maps",
+      "Maps of the one-step innovations, strongest first. A curve assumes no formula, so its z is "
+      "usually below that of a law that fits. Values that the data hardly constrain are not drawn.",
+      maps_page(d));
+  write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

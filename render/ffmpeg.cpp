@@ -1,8 +1,8 @@
 #include "ffmpeg.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -117,75 +117,44 @@ std::vector<std::string> ffmpeg_command(const Encoding& e, const std::string& ou
   return c;
 }
 
+// A socket instead of a pipe: send() can do without SIGPIPE, and leaves the program's signal
+// handlers alone. Messages go to a file in memory, so that neither side waits for the other to read
+// them.
 Ffmpeg::Ffmpeg(const Encoding& encoding, const std::string& output) {
-  // A socket instead of a pipe: writing to it can be told not to raise SIGPIPE, without touching
-  // the program's signal handlers.
-  int sockets[2], pipes[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) {
-    throw InputError(std::string("cannot start ffmpeg: ") + std::strerror(errno));
-  }
-  if (::pipe2(pipes, O_CLOEXEC | O_NONBLOCK) != 0) {
-    const int error = errno;
-    ::close(sockets[0]), ::close(sockets[1]);
-    throw InputError(std::string("cannot start ffmpeg: ") + std::strerror(error));
-  }
-  input_ = sockets[0], messages_ = pipes[0];
-  pid_t child = -1;
-  const int error = spawn(ffmpeg_command(encoding, output), sockets[1], pipes[1], child);
-  ::close(sockets[1]), ::close(pipes[1]);
-  if (error != 0) {
-    close_and_forget(input_), close_and_forget(messages_);
-    throw InputError(error == ENOENT ? std::string(kNotThere)
-                                     : std::string("cannot start ffmpeg: ") + std::strerror(error));
-  }
-  child_ = child;
+  int sockets[2] = {-1, -1};
+  const bool ready = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) == 0 &&
+                     (messages_ = ::memfd_create("ffmpeg", MFD_CLOEXEC)) >= 0;
+  const int error =
+      ready ? spawn(ffmpeg_command(encoding, output), sockets[1], messages_, child_) : errno;
+  input_ = sockets[0];
+  close_and_forget(sockets[1]);
+  if (error == 0) return;
+  close_and_forget(input_), close_and_forget(messages_);
+  throw InputError(error == ENOENT ? std::string(kNotThere)
+                                   : std::string("cannot start ffmpeg: ") + std::strerror(error));
 }
 
 Ffmpeg::~Ffmpeg() {
   if (child_ > 0) {
     ::kill(child_, SIGKILL);
-    wait();
+    end();
   }
-  close_and_forget(input_), close_and_forget(messages_);
+  close_and_forget(messages_);
 }
 
-void Ffmpeg::read_messages() {
-  char buffer[1024];
-  for (;;) {
-    const ssize_t n = ::read(messages_, buffer, sizeof buffer);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return;
-    if (words_.size() < kMostWords) words_.append(buffer, static_cast<std::size_t>(n));
-  }
-}
-
-// Sending and listening at once: ffmpeg could otherwise wait for us to read its messages while we
-// wait for it to take a frame.
 void Ffmpeg::send(std::span<const unsigned char> frame) {
-  std::size_t done = 0;
-  while (done < frame.size()) {
-    pollfd waiting[2] = {{input_, POLLOUT, 0}, {messages_, POLLIN, 0}};
-    if (::poll(waiting, 2, -1) < 0) {
-      if (errno == EINTR) continue;
-      fail(end());
-    }
-    if (waiting[1].revents & POLLIN) read_messages();
-    if (waiting[0].revents & (POLLERR | POLLHUP | POLLNVAL)) fail(end());
-    if (!(waiting[0].revents & POLLOUT)) {
-      // Its standard error is closed, its input is not: it is about to end.
-      if (waiting[1].revents & POLLHUP) fail(end());
-      continue;
-    }
-    const ssize_t n =
-        ::send(input_, frame.data() + done, frame.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
+  while (!frame.empty()) {
+    const ssize_t n = ::send(input_, frame.data(), frame.size(), MSG_NOSIGNAL);
     if (n > 0)
-      done += static_cast<std::size_t>(n);
-    else if (n < 0 && errno != EINTR && errno != EAGAIN)
+      frame = frame.subspan(static_cast<std::size_t>(n));
+    else if (errno != EINTR)
       fail(end());
   }
 }
 
-int Ffmpeg::wait() {
+// Closes ffmpeg's input and waits until it ends; returns its status.
+int Ffmpeg::end() {
+  close_and_forget(input_);
   int status = 0;
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -193,25 +162,10 @@ int Ffmpeg::wait() {
   return status;
 }
 
-// Closes ffmpeg's input and reads what it says until it ends; returns its status.
-int Ffmpeg::end() {
-  close_and_forget(input_);
-  for (;;) {  // its standard error closes when it ends
-    pollfd waiting{messages_, POLLIN, 0};
-    if (::poll(&waiting, 1, -1) < 0) {
-      if (errno == EINTR) continue;
-      break;
-    }
-    if (waiting.revents & POLLIN)
-      read_messages();
-    else if (waiting.revents != 0)
-      break;
-  }
-  return wait();
-}
-
 void Ffmpeg::fail(int status) {
-  std::string reason = words_;
+  std::string reason(kMostWords, ' ');
+  const ssize_t n = ::pread(messages_, reason.data(), reason.size(), 0);
+  reason.resize(static_cast<std::size_t>(std::max<ssize_t>(0, n)));
   while (!reason.empty() && (reason.back() == '\n' || reason.back() == ' ')) reason.pop_back();
   // Its messages are one a line; the user gets them in one.
   for (std::size_t i = 0; (i = reason.find('\n', i)) != std::string::npos;) {

@@ -36,15 +36,12 @@ class Ffmpeg {
   void finish();
 
  private:
-  void read_messages();
   int end();
-  int wait();
   [[noreturn]] void fail(int status);
 
   int input_ = -1;     // our end of a socket that is ffmpeg's standard input
-  int messages_ = -1;  // our end of its standard error
+  int messages_ = -1;  // its standard error
   int child_ = -1;     // its process, -1: ended
-  std::string words_;  // what it said
 };
 
 /// The command line for an encoding.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 
 #include "html_report.hpp"
@@ -153,34 +152,36 @@ Map error_map(const FlowReport& report) {
 
 }  // namespace
 
-std::vector<FlowMap> flow_maps(const FlowReport& report) {
-  std::vector<FlowMap> maps;
+std::vector<Figure> flow_maps(const FlowReport& report) {
+  std::vector<Figure> figures;
   for (const FlowEstimate& e : report.estimates) {
-    maps.push_back({"flow_" + e.name,
-                    "Flow of the " + e.name +
-                        " estimate: mean velocity, standard deviation, standard error, samples.",
-                    flow_map(report, e)});
-    if (e.thinning > 0)
-      maps.push_back({"normality",
-                      "Cells in which a test rejects a normal distribution of the velocity.",
-                      normality_map(report, e)});
+    figures.push_back({"flow_" + e.name,
+                       "Flow of the " + e.name +
+                           " estimate: mean velocity, standard deviation, standard error, samples.",
+                       {},
+                       flow_map(report, e)});
+    if (e.thinning > 0) {
+      figures.push_back({"normality",
+                         "Cells in which a test rejects a normal distribution of the velocity.",
+                         {},
+                         normality_map(report, e)});
+    }
   }
-  if (report.truth)
-    maps.push_back({"errors", "Errors of the estimates against the true flow.", error_map(report)});
-  return maps;
+  if (report.truth) {
+    figures.push_back(
+        {"errors", "Errors of the estimates against the true flow.", {}, error_map(report)});
+  }
+  return figures;
 }
 
-void draw_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir) {
-  std::vector<std::pair<std::string, std::string>> figures;
-  for (const FlowMap& named : flow_maps(report)) {
-    for (const char* ending : {".png", ".svg"}) {
-      draw_map(named.map, (std::filesystem::path(dir) / (named.name + ending)).string());
-    }
-    // The picture beside the verdict is of the estimate that it is about, the last one.
-    const bool first = named.name == "flow_" + report.estimates.back().name;
-    figures.emplace(first ? figures.begin() : figures.end(), named.name, named.caption);
-  }
-  write_html_report(document, figures, dir);
+void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir) {
+  std::vector<Figure> figures = flow_maps(flow);
+  // The picture beside the verdict is of the estimate that it is about, the last one.
+  const auto last = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) {
+    return f.name == "flow_" + flow.estimates.back().name;
+  });
+  std::rotate(figures.begin(), last, last + 1);
+  write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

@@ -1,7 +1,6 @@
 #include "frame.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -39,8 +38,7 @@ FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double
       bodies_(run.scenario.model, view_, style.labels) {}
 
 void FramePainter::draw_static(const Canvas& canvas, int field) const {
-  canvas.colour(palette::paper);
-  cairo_paint(canvas.get());
+  canvas.clear();
   draw_tank(canvas, view_, run_.scenario.model, style_.flow, field);
   draw_scale_bar(canvas, view_, run_.scenario.model, 60, 1036);
   panel_.draw_static(canvas, field, pumps_.power_of(field));
@@ -87,8 +85,7 @@ Canvas& FrameRaster::draw(double time) {
 
 std::string frame_picture(const StoredRun& run, double time, const FrameStyle& style,
                           const std::string& file) {
-  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg};
-  const PictureFormat format = format_of(file, kFormats);
+  const PictureFormat format = format_of(file, {PictureFormat::png, PictureFormat::svg});
   check_time(run.trajectory, time);
   if (format == PictureFormat::png) {
     FrameRaster raster(run, style, 0, style.size);

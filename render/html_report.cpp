@@ -6,32 +6,40 @@
 
 namespace lilytank {
 
-void write_html_report(const ReportDocument& report,
-                       const std::vector<std::pair<std::string, std::string>>& figures,
+void write_html_report(const ReportDocument& report, const std::vector<Figure>& figures,
                        const std::string& dir) {
   const std::filesystem::path path(dir);
   std::vector<ReportPicture> pictures;
-  for (const auto& [name, caption] : figures) {
-    pictures.push_back({read_whole((path / (name + ".svg")).string()), name, caption});
+  for (const Figure& f : figures) {
+    for (const char* ending : {".png", ".svg"}) {
+      const std::string file = (path / (f.name + ending)).string();
+      if (!f.page.plots.empty()) draw_plots(f.page, file);
+      if (!f.map.panels.empty()) draw_map(f.map, file);
+    }
+    pictures.push_back({read_whole((path / (f.name + ".svg")).string()), f.name, f.caption});
   }
   write_atomically((path / "report.html").string(), report_html(report, pictures));
 }
 
-std::vector<std::string> write_html_report(const ReportDocument& report,
-                                           const std::vector<ReportFigure>& figures,
-                                           const std::string& dir) {
-  std::vector<std::string> names;
-  std::vector<std::pair<std::string, std::string>> drawn;
-  for (const ReportFigure& f : figures) {
-    for (const char* ending : {".png", ".svg"}) {
-      names.push_back(f.name + ending);
-      draw_plots(f.page, (std::filesystem::path(dir) / names.back()).string());
-    }
-    drawn.emplace_back(f.name, f.caption);
-  }
-  write_html_report(report, drawn, dir);
-  names.push_back("report.html");
-  return names;
+void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir) {
+  FrameStyle style;
+  style.flow = FlowStyle::none;  // thousands of arrows would be most of the page
+  draw_frame(run, run.trajectory.time.back(), style,
+             (std::filesystem::path(dir) / "frame.svg").string());
+  write_html_report(report,
+                    {{"frame", "The tank at the end of the run.", {}, {}},
+                     {"yield", "Completed copies over time.", {{yield_plot(run)}}, {}}},
+                    dir);
+}
+
+void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir) {
+  const std::string caption =
+      "Convergence: the best point so far and the median of each iteration.";
+  write_html_report(report, {{"fitness", caption, {{plot}}, {}}}, dir);
+}
+
+void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir) {
+  write_html_report(report, study_plots(summary), dir);
 }
 
 }  // namespace lilytank

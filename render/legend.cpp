@@ -1,10 +1,9 @@
-#include "legend.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "modules.hpp"
 #include "palette.hpp"
+#include "panel.hpp"
 #include "pumps.hpp"
 #include "streamlines.hpp"
 #include "text/number.hpp"
@@ -36,6 +35,14 @@ std::vector<int> states_of(const StoredRun& run) {
   return {states.begin(), states.end()};
 }
 
+// A module in a neutral colour, its faces off.
+ModuleLook plain_look() {
+  ModuleLook look;
+  look.fill = mixed(palette::isolated, palette::paper, 0.3);
+  look.faces.fill(FaceLook::off);
+  return look;
+}
+
 void draw_states(const Canvas& canvas, const std::vector<int>& states, double x, double y,
                  double width) {
   canvas.text(x, y + 7, "state", kText);
@@ -44,9 +51,8 @@ void draw_states(const Canvas& canvas, const std::vector<int>& states, double x,
   const double pitch = std::min(
       kChip + 10, (width - 130 - kChip) / static_cast<double>(std::max<std::size_t>(shown, 2) - 1));
   for (std::size_t i = 0; i < shown; ++i) {
-    ModuleLook look;
+    ModuleLook look = plain_look();
     look.fill = colour_of_module(states[i], false);
-    look.faces.fill(FaceLook::off);
     look.label = std::to_string(states[i]);
     const ModulePlace place{at, y, 0, std::min(kChip, pitch - 5)};
     draw_module(canvas, place, look);
@@ -62,11 +68,8 @@ void draw_states(const Canvas& canvas, const std::vector<int>& states, double x,
 
 // Two modules side by side whose common face looks like `face`.
 void draw_pair(const Canvas& canvas, FaceLook face, double x, double y) {
-  ModuleLook look;
-  look.fill = mixed(palette::isolated, palette::paper, 0.3);
-  look.faces.fill(FaceLook::off);
   const double gap = face == FaceLook::free ? 7 : 0, half = kChip / 2;
-  ModuleLook left = look, right = look;
+  ModuleLook left = plain_look(), right = left;
   left.faces[0] = right.faces[2] = face;
   const ModulePlace a{x - half - gap / 2, y, 0, 2 * half}, b{x + half + gap / 2, y, 0, 2 * half};
   const Saved saved(canvas);
@@ -96,9 +99,7 @@ void draw_faces(const Canvas& canvas, bool rules, double x, double y) {
 }
 
 void draw_last(const Canvas& canvas, double x, double y) {
-  ModuleLook look;
-  look.fill = mixed(palette::isolated, palette::paper, 0.3);
-  look.faces.fill(FaceLook::off);
+  ModuleLook look = plain_look();
   look.last = 0;
   const ModulePlace place{x + kChip / 2, y, 0, kChip};
   draw_module(canvas, place, look);
@@ -107,13 +108,10 @@ void draw_last(const Canvas& canvas, double x, double y) {
 }
 
 void draw_finished(const Canvas& canvas, double x, double y) {
-  ModuleLook look;
-  look.fill = mixed(palette::isolated, palette::paper, 0.3);
-  look.faces.fill(FaceLook::off);
   const ModulePlace place{x + kChip / 2, y, 0, kChip * 0.8};
   module_path(canvas, place);
   draw_halo(canvas);
-  draw_module(canvas, place, look);
+  draw_module(canvas, place, plain_look());
   canvas.text(place.x + kChip / 2 + 14, y + 7, "part of a finished copy", kText);
 }
 

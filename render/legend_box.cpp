@@ -1,10 +1,9 @@
-#include "legend_box.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "legend_texts.hpp"
+#include "cut_text.hpp"
 #include "palette.hpp"
+#include "plot_area.hpp"
 
 namespace lilytank {
 namespace {

@@ -8,7 +8,6 @@
 namespace lilytank {
 namespace {
 
-constexpr double kMapPixels = 2;                       // of a PNG, per unit
 constexpr double kLeft = 62, kTop = 40, kBottom = 54;  // room around a panel, units
 constexpr double kKey = 30;                            // below all panels, units
 constexpr double kScale = 116, kClassLegend = 170,
@@ -72,13 +71,10 @@ void check(const Map& map) {
 }  // namespace
 
 void draw_map(const Map& map, const std::string& file) {
-  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
-  const PictureFormat format = format_of(file, kFormats);
+  const PictureFormat format = format_of(file);
   check(map);
   const MapPage page = page_of(map);
-  Canvas canvas = Canvas::page(format, page.width, page.height, kMapPixels);
-  canvas.colour(palette::paper);
-  cairo_paint(canvas.get());
+  Canvas canvas = Canvas::page(format, page.width, page.height);
   const TextStyle title{17, palette::ink, true, Align::centre};
   canvas.text(page.width / 2, 26, canvas.fitted(map.title, page.width - 20, title), title);
   for (std::size_t i = 0; i < map.panels.size(); ++i) {

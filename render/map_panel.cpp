@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "axes.hpp"
-#include "colour_scale.hpp"
 #include "palette.hpp"
 
 namespace lilytank {
@@ -208,10 +207,7 @@ void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pl
   }
   const TextStyle label{14, palette::ink, false, Align::centre};
   canvas.text(place.left + place.size / 2, place.bottom() + 40, "x (cm)", label);
-  const Saved saved(canvas);
-  cairo_translate(canvas.get(), place.left - 40, place.top + place.size / 2);
-  cairo_rotate(canvas.get(), -1.5707963267948966);
-  canvas.text(0, 0, "y (cm)", label);
+  canvas.upright_text(place.left - 40, place.top + place.size / 2, "y (cm)", label);
 }
 
 // The point at an end of a colour bar which says that there are values beyond.
@@ -251,11 +247,9 @@ void draw_bar(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pla
     widest = std::max(widest, canvas.width_of(t.label, text));
   }
   if (!axis.note.empty()) canvas.text(x, place.top - 16, axis.note, {12, palette::muted});
-  const Saved saved(canvas);
-  cairo_translate(canvas.get(), x + kBarWidth + 12 + widest + 12, place.top + place.size / 2);
-  cairo_rotate(canvas.get(), -1.5707963267948966);
   const TextStyle label{14, palette::ink, false, Align::centre};
-  canvas.text(0, 0, canvas.fitted(panel.label, place.size, label), label);
+  canvas.upright_text(x + kBarWidth + 12 + widest + 12, place.top + place.size / 2,
+                      canvas.fitted(panel.label, place.size, label), label);
 }
 
 void draw_classes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place) {

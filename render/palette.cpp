@@ -1,7 +1,9 @@
 #include "palette.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace lilytank {
 namespace {
@@ -12,6 +14,16 @@ constexpr std::array<Colour, 9> kStates = {rgb(0x44AA99), rgb(0xDDCC77), rgb(0xC
                                            rgb(0x999933), rgb(0x117733), rgb(0x882255)};
 constexpr std::array<Colour, 6> kCurves = {rgb(0x0C5DA5), rgb(0xD1495B), rgb(0x228833),
                                            rgb(0xE0A100), rgb(0x7A3E9D), rgb(0x33A6C4)};
+
+// Nine samples of "viridis" (Smith and van der Walt), and P. Tol's "BuRd".
+constexpr std::array<Colour, 9> kRising = {rgb(0x440154), rgb(0x472D7B), rgb(0x3B528B),
+                                           rgb(0x2C728E), rgb(0x21918C), rgb(0x28AE80),
+                                           rgb(0x5EC962), rgb(0xADDC30), rgb(0xFDE725)};
+constexpr std::array<Colour, 9> kDiverging = {rgb(0x2166AC), rgb(0x4393C3), rgb(0x92C5DE),
+                                              rgb(0xD1E5F0), rgb(0xF7F7F7), rgb(0xFDDBC7),
+                                              rgb(0xF4A582), rgb(0xD6604D), rgb(0xB2182B)};
+constexpr std::array<Colour, 5> kClasses = {rgb(0xB9D9EB), rgb(0x2B4C6F), rgb(0xD1495B),
+                                            rgb(0xE0A100), rgb(0x228833)};
 
 double linear(double channel) {
   return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
@@ -35,6 +47,17 @@ Colour colour_of_state(int state) {
 
 Colour colour_of_curve(int curve) {
   return kCurves[static_cast<std::size_t>(curve) % kCurves.size()];
+}
+
+Colour colour_on(ColourScale scale, double share) {
+  const std::span<const Colour> stops = scale == ColourScale::rising ? kRising : kDiverging;
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+  return mixed(stops[below], stops[below + 1], place - static_cast<double>(below));
+}
+
+Colour colour_of_class(int i) {
+  return kClasses[static_cast<std::size_t>(std::max(0, i)) % kClasses.size()];
 }
 
 Colour mixed(const Colour& a, const Colour& b, double share) {

@@ -1,6 +1,7 @@
-// The colours of all pictures: calm, and told apart by readers with any colour vision.
+// The colours of all pictures: calm, and distinguishable by readers with any colour vision.
 #pragma once
 #include "canvas.hpp"
+#include "lilytank/render.hpp"
 
 namespace lilytank {
 
@@ -30,6 +31,12 @@ inline constexpr Colour isolated{0.831, 0.851, 0.867};
 Colour colour_of_state(int state);
 /// The colour of curve i of a plot (after P. Tol's "bright" and "vibrant" schemes), six in turn.
 Colour colour_of_curve(int curve);
+
+/// The colour at `share`, 0 .. 1, of the way along a scale for numbers, held at its ends. Scales
+/// stay in order in grey print.
+Colour colour_on(ColourScale scale, double share);
+/// The colour of class i of a map of classes: the first is pale, the second dark.
+Colour colour_of_class(int i);
 
 /// `share` of b in a, 0 .. 1; the opacity is a's.
 Colour mixed(const Colour& a, const Colour& b, double share);

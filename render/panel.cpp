@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "axes.hpp"
-#include "legend.hpp"
 #include "palette.hpp"
 
 namespace lilytank {

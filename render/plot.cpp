@@ -3,14 +3,12 @@
 #include <cmath>
 
 #include "io/atomic_file.hpp"
-#include "legend_box.hpp"
 #include "palette.hpp"
 #include "plot_area.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kPixels = 2;               // of a PNG, per unit
 constexpr double kMajor = 6, kMinor = 3.5;  // tick lengths
 constexpr double kMargin = 26;              // units, to the right of the area
 constexpr double kBeside = 24;              // units, around a legend beside the area
@@ -208,10 +206,8 @@ void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   canvas.text(middle, 30, canvas.fitted(plot.title, plot.width - 20, kTitleText), kTitleText);
   canvas.text(middle, area.bottom() + 46, canvas.fitted(plot.x_label, area.width, kLabelText),
               kLabelText);
-  const Saved saved(canvas);
-  cairo_translate(canvas.get(), 24, area.top + area.height / 2);
-  cairo_rotate(canvas.get(), -kPi / 2);
-  canvas.text(0, 0, canvas.fitted(plot.y_label, area.height + 40, kLabelText), kLabelText);
+  canvas.upright_text(24, area.top + area.height / 2,
+                      canvas.fitted(plot.y_label, area.height + 40, kLabelText), kLabelText);
 }
 
 void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
@@ -242,8 +238,7 @@ void draw_all(const Canvas& canvas, const Plot& plot, const Margins& margins) {
     std::size_t hidden = 0;
     legend = place_legend(legend, plot, area, hidden);
   }
-  canvas.colour(palette::paper);
-  cairo_paint(canvas.get());
+  canvas.clear();
   draw_grid(canvas, area);
   if (plot.zero_line) draw_zero_line(canvas, area);
   draw_curves(canvas, plot, area);
@@ -292,14 +287,11 @@ PageLayout layout(const PlotPage& page) {
 }  // namespace
 
 void draw_plots(const PlotPage& page, const std::string& file) {
-  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
-  const PictureFormat format = format_of(file, kFormats);
+  const PictureFormat format = format_of(file);
   const PageLayout places = layout(page);
   check_size(places.width, places.height);
   for (const Plot& plot : page.plots) check_size(plot.width, plot.height);
-  Canvas canvas = Canvas::page(format, places.width, places.height, kPixels);
-  canvas.colour(palette::paper);
-  cairo_paint(canvas.get());
+  Canvas canvas = Canvas::page(format, places.width, places.height);
   canvas.text(places.width / 2.0, 30, canvas.fitted(page.title, places.width - 20, kTitleText),
               kTitleText);
   const Margins margins = margins_of(canvas, page);

@@ -51,12 +51,10 @@ Plot power_plot(const ProofFigures& of) {
   const double apart = std::pow(plot.x_high / plot.x_low, kBarsApart);
   std::vector<double> taken;
   plot.curves.push_back(power_curve("one effect", of.named, apart, taken));
-  if (!of.two.empty()) {
-    plot.curves.push_back(power_curve("two effects: both", of.two, apart, taken));
-    plot.curves.back().line = false;
-  }
-  if (!of.unnamed.empty()) {
-    plot.curves.push_back(power_curve("a law of no effect", of.unnamed, apart, taken));
+  for (const auto& [name, power] :
+       {std::pair("two effects: both", &of.two), {"a law of no effect", &of.unnamed}}) {
+    if (power->empty()) continue;
+    plot.curves.push_back(power_curve(name, *power, apart, taken));
     plot.curves.back().line = false;
   }
   return plot;
@@ -121,11 +119,9 @@ Plot errors_plot(const ProofFigures& of) {
   plot.x_label = "error (half widths of the 95 % interval)";
   plot.y_label = "intervals with a lower error (%)";
   plot.x_low = -kFar, plot.x_high = kFar, plot.y_low = 0, plot.y_high = 100;
-  if (!of.baseline_errors.empty()) {
-    plot.curves.push_back(errors_curve("baseline", of.baseline_errors));
-  }
-  if (!of.effect_errors.empty()) {
-    plot.curves.push_back(errors_curve("effects and laws", of.effect_errors));
+  for (const auto& [name, errors] :
+       {std::pair("baseline", &of.baseline_errors), {"effects and laws", &of.effect_errors}}) {
+    if (!errors->empty()) plot.curves.push_back(errors_curve(name, *errors));
   }
   Curve normal;
   normal.name = "as promised";
@@ -163,20 +159,20 @@ std::string outcomes_caption(const ProofFigures& of) {
 
 }  // namespace
 
-std::vector<std::string> draw_proof(const ProofFigures& of, const ReportDocument& report,
-                                    const std::string& dir) {
-  std::vector<ReportFigure> figures;
+void draw_proof(const ProofFigures& of, const ReportDocument& report, const std::string& dir) {
+  std::vector<Figure> figures;
   if (!of.points.empty()) {
-    figures.push_back({"power", power_caption(of), {{power_plot(of)}, 1, ""}});
-    figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}, 1, ""}});
+    figures.push_back({"power", power_caption(of), {{power_plot(of)}}, {}});
+    figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}}, {}});
   }
   if (!of.baseline_errors.empty() || !of.effect_errors.empty()) {
     figures.push_back({"errors",
                        "Errors of fitted parameters: 95 % should be within one half width of their "
                        "interval, as a normal law with it has.",
-                       {{errors_plot(of)}, 1, ""}});
+                       {{errors_plot(of)}},
+                       {}});
   }
-  return write_html_report(report, figures, dir);
+  write_html_report(report, figures, dir);
 }
 
 }  // namespace lilytank

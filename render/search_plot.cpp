@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "html_report.hpp"
+#include "lilytank/render.hpp"
 
 namespace lilytank {
 
@@ -32,13 +32,6 @@ Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
   plot.curves = {std::move(median), std::move(best)};
   if (!last.x.empty()) plot.curves.push_back(std::move(last));
   return plot;
-}
-
-void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir) {
-  const ReportFigure figure{"fitness",
-                            "Convergence: the best point so far and the median of each iteration.",
-                            {{plot}, 1}};
-  write_html_report(report, {figure}, dir);
 }
 
 }  // namespace lilytank

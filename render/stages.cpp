@@ -146,8 +146,7 @@ void draw_key(const Canvas& canvas, double x, double y) {
 
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
                            const std::string& title, const std::string& file) {
-  constexpr std::array kFormats{PictureFormat::png, PictureFormat::svg, PictureFormat::pdf};
-  const PictureFormat format = format_of(file, kFormats);
+  const PictureFormat format = format_of(file);
   const Canvas ruler = Canvas::raster(8, 8);
   const Grid grid = grid_of(ruler, target, stages);
   const double head = title.empty() ? 0 : kHead;
@@ -156,9 +155,7 @@ std::string stages_picture(const Target& target, const std::vector<Stage>& stage
                                            grid.columns * (grid.width + kStageGap) - kStageGap));
   const double height =
       2 * kPageMargin + head + kFoot + grid.rows * (grid.height + kStageGap) - kStageGap;
-  Canvas canvas = Canvas::page(format, width, height, 2);
-  canvas.colour(palette::paper);
-  cairo_paint(canvas.get());
+  Canvas canvas = Canvas::page(format, width, height);
   if (!title.empty())
     canvas.text(kPageMargin, kPageMargin + 18, title, {18, palette::ink, true, Align::left});
   for (int k = 0; k < static_cast<int>(stages.size()); ++k) {

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 
-#include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/undefined.hpp"
 #include "study_names.hpp"
@@ -201,50 +199,40 @@ Plot copies_plot(const StudySummary& summary, std::size_t along,
   return plot;
 }
 
-std::string caption_of(const std::string& plot) {
-  const std::string survival = "survival_", copies = "copies_over_";
-  if (plot == "yield") return "Mean number of completed copies over time, with its 95 % band.";
-  if (plot == "mean_time") return "Mean time to each copy, with its 95 % interval.";
-  if (plot.starts_with(survival)) {
-    return "Fraction of runs without copy " + plot.substr(survival.size()) +
-           " over time (Kaplan and Meier), with its 95 % band.";
-  }
-  return "Completed copies at the end over " + plot.substr(copies.size()) +
-         ", with their 95 % intervals.";
-}
-
 }  // namespace
 
-std::vector<StudyPlot> study_plots(const StudySummary& summary) {
-  std::vector<StudyPlot> plots;
+std::vector<Figure> study_plots(const StudySummary& summary) {
+  std::vector<Figure> figures;
+  const auto add = [&](const std::string& name, const std::string& caption, const Plot& plot) {
+    figures.push_back({name, caption, {{plot}}, {}});
+  };
   const TimeUnit unit = unit_for(summary.horizon);
   const bool any = std::any_of(summary.settings.begin(), summary.settings.end(),
                                [](const SettingSummary& s) { return s.runs > 0; });
-  if (!any || summary.copies.empty()) return plots;
+  if (!any || summary.copies.empty()) return figures;
   const SettingNames names = names_of(summary);
-  plots.push_back({"yield", mean_yield_plot(summary, names, unit)});
+  add("yield", "Mean number of completed copies over time, with its 95 % band.",
+      mean_yield_plot(summary, names, unit));
   for (const int k : summary.copies) {
-    plots.push_back({"survival_" + std::to_string(k), survival_plot(summary, names, k, unit)});
+    const std::string copy = std::to_string(k);
+    add("survival_" + copy,
+        "Fraction of runs without copy " + copy +
+            " over time (Kaplan and Meier), with its 95 % band.",
+        survival_plot(summary, names, k, unit));
   }
   const std::vector<const SettingSummary*> along = along_axis(summary);
-  if (!along.empty()) plots.push_back({"mean_time", mean_time_plot(summary, along, unit)});
-  if (settings_with_runs(summary) <= kNamedUpTo) return plots;
+  if (!along.empty()) {
+    add("mean_time", "Mean time to each copy, with its 95 % interval.",
+        mean_time_plot(summary, along, unit));
+  }
+  if (settings_with_runs(summary) <= kNamedUpTo) return figures;
   const std::vector<std::size_t> axes = number_axes(summary);
   for (const std::size_t axis : axes) {
-    plots.push_back({"copies_over_" + summary.axes[axis], copies_plot(summary, axis, axes)});
+    add("copies_over_" + summary.axes[axis],
+        "Completed copies at the end over " + summary.axes[axis] + ", with their 95 % intervals.",
+        copies_plot(summary, axis, axes));
   }
-  return plots;
-}
-
-void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir) {
-  std::vector<std::pair<std::string, std::string>> figures;
-  for (const StudyPlot& made : study_plots(summary)) {
-    const std::string file = (std::filesystem::path(dir) / made.name).string();
-    draw_plot(made.plot, file + ".png");
-    draw_plot(made.plot, file + ".svg");
-    figures.emplace_back(made.name, caption_of(made.name));
-  }
-  write_html_report(report, figures, dir);
+  return figures;
 }
 
 }  // namespace lilytank

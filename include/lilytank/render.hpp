@@ -165,10 +165,12 @@ void draw_map(const Map& map, const std::string& file);
 /// Copies standing over time, from a run's metrics.
 Plot yield_plot(const StoredRun& run);
 
-/// A plot of a study, and the name of its files without ending.
-struct StudyPlot {
-  std::string name;
-  Plot plot;
+/// A figure of a report: plots or maps.
+struct Figure {
+  std::string name;     ///< of its files, without ending
+  std::string caption;  ///< what a reader sees in it
+  PlotPage page;
+  Map map;  ///< drawn if there are no plots
 };
 /// "yield": mean copies over time with bootstrap bands; "survival_<k>": Kaplan and Meier's curves
 /// of the time to the k-th copy, with their intervals and censored times; "mean_time": restricted
@@ -177,40 +179,19 @@ struct StudyPlot {
 /// settings. Of more than twelve, colours tell the first axis of numbers, and
 /// "copies_over_<axis>" shows the copies at the end over each such axis, a dot with its interval a
 /// setting. Nothing for a study without finished runs.
-std::vector<StudyPlot> study_plots(const StudySummary& summary);
+std::vector<Figure> study_plots(const StudySummary& summary);
 
-/// A page of an analysis, and the name of its files without ending.
-struct AnalysisPlot {
-  std::string name;
-  PlotPage page;
-};
 /// One a set of curves, named as its CSV: all sources laid over each other, beside each other by
 /// AnalysisSource::panel, and of two sources the difference with its band below; the MSD also on
 /// logarithmic axes ("msd_all_log"); "contact_times"; "transfer" of the smoothers.
-std::vector<AnalysisPlot> analysis_plots(const Analysis& analysis);
+std::vector<Figure> analysis_plots(const Analysis& analysis);
 /// Mean velocities along x and y and their arrows, a row a source, then the difference of two
 /// [paper, Fig. 7]. No panels where there are no maps.
 Map velocity_maps(const Analysis& analysis);
-/// Plots and maps of an analysis in a directory, each as .png and .svg, and report.html, the report
-/// with all of them. Returns the files' paths. Throws InputError if they cannot be written.
-std::vector<std::string> draw_analysis(const Analysis& analysis, const ReportDocument& report,
-                                       const std::string& dir);
-
-/// A map of an extracted flow, and the name of its files without ending.
-struct FlowMap {
-  /// Of its files, without ending.
-  std::string name;
-  std::string caption;  ///< what a reader sees in it
-  Map map;
-};
 /// "flow_<estimator>": mean with arrows, deviation, standard error, samples, filled cells hatched;
 /// "normality": where it is rejected, as in Fig. 3 and for independent samples with a bound on
 /// false discoveries; "errors" where the truth is known.
-std::vector<FlowMap> flow_maps(const FlowReport& report);
-/// Draws the maps of a flow in a directory that exists, each as .png and .svg, and writes
-/// report.html. Throws InputError if they cannot be written.
-void draw_flow(const FlowReport& report, const ReportDocument& document, const std::string& dir);
-
+std::vector<Figure> flow_maps(const FlowReport& report);
 /// The stages of an assembly, one after each join [paper, Figs. 9 and 11]: control states in the
 /// modules, hops at their faces, the connector engaged last in blue, the rule above; .png, .svg or
 /// .pdf by the ending. Throws InputError if it cannot be written.
@@ -220,41 +201,34 @@ void draw_stages(const Target& target, const std::vector<Stage>& stages, const s
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
                            const std::string& title, const std::string& file);
 
-/// Draws the last frame and the yield of a run in its directory, and writes report.html. Throws
-/// InputError if they cannot be written.
-void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir);
-
 /// How a search came along: the best point's mean so far and the median of each iteration's new
 /// points, over evaluations [paper, Figs. 10 (a) and 12 (a)]. `selected`: the last record is that
 /// of a final selection, whose new values of the best point stand alone.
 Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
                  const std::string& title, const std::string& y_label);
-/// Draws that plot in a directory, as fitness.png and fitness.svg, and writes report.html. Throws
-/// InputError if they cannot be written.
-void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir);
+// Each of the following draws the figures of a result in a directory that exists, as .png and .svg,
+// and writes report.html, the report with all of them. They throw InputError if a file cannot be
+// written.
 
-/// Plots of a calibration in a directory, each as .png and .svg: "convergence" of the search
-/// [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity" maps [Fig. 7], "profiles"
-/// of the parameters, and "estimates" of simulated experiments, two parameters a plot; and
-/// report.html, the report with all of them. Returns the files' names. Throws InputError if they
-/// cannot be written.
-std::vector<std::string> draw_calibration(const CalibrationResult& calibration,
-                                          const ReportDocument& report, const std::string& dir);
-
-/// Plots of a diagnosis in a directory, each as .png and .svg: "maps" of what the baseline leaves,
-/// "laws" of the findings, "fit" before and after; and report.html, the
-/// report with all of them. Returns the files' names. Throws InputError if they cannot be written.
-std::vector<std::string> draw_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
-                                        const std::string& dir);
-
-/// Figures of sealed experiments in a directory, each as .png and .svg: "power" against expected z,
-/// "outcomes" of every experiment, "errors" of what was fitted; and report.html, the
-/// report with all of them. Returns the files' names. Throws InputError if they cannot be written.
-std::vector<std::string> draw_proof(const ProofFigures& proof, const ReportDocument& report,
-                                    const std::string& dir);
-
-/// Plots of a study in a directory, each as .png and .svg, and report.html, the report with all of
-/// them. Throws InputError if they cannot be written.
+/// "frame", the last one of a run, as .svg alone, and "yield".
+void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir);
+/// study_plots().
 void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir);
+/// `plot`, of search_plot(), as "fitness".
+void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir);
+/// analysis_plots(), and velocity_maps() as "velocity_map".
+void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir);
+/// flow_maps(), the last estimate's before the others.
+void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir);
+/// "convergence" of the search [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity"
+/// maps [Fig. 7], "profiles" of the parameters, and "estimates" of simulated experiments, two
+/// parameters a plot.
+void draw_calibration(const CalibrationResult& calibration, const ReportDocument& report,
+                      const std::string& dir);
+/// "maps" of the baseline's residual, "laws" of the findings, "fit" before and after.
+void draw_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
+                    const std::string& dir);
+/// "power" against expected z, "outcomes" of every experiment, "errors" of what was fitted.
+void draw_proof(const ProofFigures& proof, const ReportDocument& report, const std::string& dir);
 
 }  // namespace lilytank

@@ -15,14 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One recording with what it needs to join others.
-struct Piece {
-  std::string name, panel, key;
-  Recording recording;
-  double tank_radius = 0, size = 0;
-  bool exact = false;  // a run's own places
-};
-
 double size_of(const Model& model, BodyKind body) {
   return body == BodyKind::ball ? 2 * model.ball.radius : model.module.side;
 }
@@ -107,13 +99,13 @@ std::string base_name(const std::string& word) {
   return path.filename().string();
 }
 
-// What the words name, piece by piece.
+// What the words name, as sources of one recording each.
 class Reader {
  public:
   Reader(const SourceOptions& options, std::vector<std::string>& files)
       : options_(options), files_(files) {}
 
-  std::vector<Piece> read(const std::string& word, const std::string& name) {
+  std::vector<AnalysisSource> read(const std::string& word, const std::string& name) {
     pieces_.clear(), name_ = name;
     std::error_code ignored;
     if (fs::exists(fs::path(word) / "resolved.toml", ignored)) {
@@ -133,9 +125,13 @@ class Reader {
   void add(const std::string& name, const std::string& panel, const Recording& recording,
            double tank_radius, double size, bool exact = false) {
     const bool labelled = exact && name_.empty() && !options_.label.empty();
-    pieces_.push_back({name_.empty() ? name : name_, panel,
-                       labelled ? last_word(options_.label) : "",
-                       part_of(recording, options_.from, options_.to), tank_radius, size, exact});
+    pieces_.push_back({name_.empty() ? name : name_,
+                       panel,
+                       {part_of(recording, options_.from, options_.to)},
+                       tank_radius,
+                       size,
+                       exact,
+                       labelled ? last_word(options_.label) : ""});
   }
   void read_run(const std::string& word) {
     const StoredRun run = load_run(word);
@@ -190,21 +186,19 @@ class Reader {
   const SourceOptions& options_;
   std::vector<std::string>& files_;
   std::string name_;
-  std::vector<Piece> pieces_;
+  std::vector<AnalysisSource> pieces_;
 };
 
-void join(std::vector<AnalysisSource>& sources, Piece piece) {
+// Adds the recording of a piece to the source that it belongs to.
+void join(std::vector<AnalysisSource>& sources, AnalysisSource piece) {
   for (AnalysisSource& s : sources) {
     if (s.name == piece.name && s.panel == piece.panel &&
-        s.recordings[0].body == piece.recording.body && s.exact == piece.exact) {
-      s.recordings.push_back(std::move(piece.recording));
+        s.recordings[0].body == piece.recordings[0].body && s.exact == piece.exact) {
+      s.recordings.push_back(std::move(piece.recordings[0]));
       return;
     }
   }
-  AnalysisSource source{piece.name, piece.panel, {},       piece.tank_radius,
-                        piece.size, piece.exact, piece.key};
-  source.recordings.push_back(std::move(piece.recording));
-  sources.push_back(std::move(source));
+  sources.push_back(std::move(piece));
 }
 
 }  // namespace
@@ -216,7 +210,7 @@ std::vector<AnalysisSource> read_sources(const std::vector<std::string>& words,
   std::vector<AnalysisSource> sources;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string name = i < options.names.size() ? options.names[i] : "";
-    for (Piece& piece : reader.read(words[i], name)) join(sources, std::move(piece));
+    for (AnalysisSource& piece : reader.read(words[i], name)) join(sources, std::move(piece));
   }
   return sources;
 }

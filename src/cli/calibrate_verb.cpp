@@ -1,52 +1,73 @@
 // lilytank calibrate: the model's parameters from recordings.
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
-#include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/recovery.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 #include "text/number.hpp"
 
 namespace lilytank::cli {
 namespace {
 
-void add_calibrate_options(VerbOptions& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  const auto list = [] { return cxxopts::value<std::vector<std::string>>(); };
-  options.add()("objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", text(),
-                "WORD")("flow", "smooth (default) or paper: from the balls; or scenario", text(),
-                        "WORD")("balls", "calibrate the balls' parameters instead of the Lilies'")(
-      "vary", "another parameter, or another range of one: forces.body_force.force_x=-0.01..0.01",
-      list(),
-      "PATH=LOW..HIGH")("hold-out", "keep the last N recordings for testing (0)", text(), "N")(
-      "search", "cma-es, paper-lilies, paper-balls: how the region is found", text(), "WORD")(
-      "budget", "evaluations of the search (1500; of a swarm as many as the paper)", text(), "N")(
-      "replicates", "experiments simulated for the intervals (200)", text(), "N")(
-      "simulations", "of the first response surfaces (120); the last one has twice as many", text(),
-      "N")("comparisons", "experiments simulated for Eq. 9 before and after (24)", text(), "N")(
-      "flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", text(),
-      "N")("start", "overlay with the values at which the search starts, as calibrated.toml",
-           text(),
-           "FILE")("set", "a value over the experiment's, as run.dt='5 ms'", list(), "PATH=VALUE")(
-      "recover",
-      "calibrate N synthetic experiments in this scenario and see whether the intervals "
-      "hold the truth",
-      text(), "N")("duration", "of a recording, with --recover ('10 min')", text(), "TIME")(
-      "recordings", "of an experiment, with --recover (3)", text(), "N")(
-      "out", "directory of the results (default: out/calibrate-<name>)", text(), "DIR")(
-      "seed", "of everything that is drawn (1)", text(), "N")(
-      "threads", "simulations at a time (default: one a core)", text(), "N")(
-      "force", "replace another calibration's files")("quiet", "no progress");
+struct CalibrateJob {
+  CalibrationOptions calibration;
+  RecoveryOptions recovery;
+  std::string objective = "summary", flow = "smooth";
+  std::vector<std::string> vary, sets;
+  bool quiet = false;
+};
+
+void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
+  CalibrationOptions& c = job.calibration;
+  RecoveryOptions& r = job.recovery;
+  options.add({"objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", "WORD"},
+              &job.objective);
+  options.add({"flow", "smooth (default) or paper: from the balls; or scenario", "WORD"},
+              &job.flow);
+  options.add({"balls", "calibrate the balls' parameters instead of the Lilies'"});
+  options.add(
+      {"vary", "another parameter, or another range of one: forces.body_force.force_x=-0.01..0.01",
+       "PATH=LOW..HIGH"},
+      &job.vary);
+  options.add({"hold-out", "keep the last N recordings for testing (0)", "N"}, &c.hold_out, 0,
+              1000);
+  options.add({"search", "cma-es, paper-lilies, paper-balls: how the region is found", "WORD"});
+  options.add({"budget", "evaluations of the search (1500; of a swarm as many as the paper)", "N"},
+              &c.search_budget, 20, 100000000);
+  options.add({"replicates", "experiments simulated for the intervals (200)", "N"}, &c.replicates,
+              20, 100000);
+  options.add(
+      {"simulations", "of the first response surfaces (120); the last one has twice as many", "N"},
+      &c.round, 40, 100000);
+  options.add({"comparisons", "experiments simulated for Eq. 9 before and after (24)", "N"},
+              &c.comparisons, 2, 100000);
+  options.add(
+      {"flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", "N"},
+      &c.flow_draws, 0, 10000);
+  options.add(
+      {"start", "overlay with the values at which the search starts, as calibrated.toml", "FILE"});
+  options.add({"set", "a value over the experiment's, as run.dt='5 ms'", "PATH=VALUE"}, &job.sets);
+  options.add({"recover",
+               "calibrate N synthetic experiments in this scenario and see whether the intervals "
+               "hold the truth",
+               "N"},
+              &r.experiments, 1, 100000);
+  options.add({"duration", "of a recording, with --recover ('10 min')", "TIME"}, &r.seconds, 10,
+              1e6, "s");
+  options.add({"recordings", "of an experiment, with --recover (3)", "N"}, &r.recordings, 1, 100);
+  options.add({"out", "directory of the results (default: out/calibrate-<name>)", "DIR"});
+  options.add({"seed", "of everything that is drawn (1)", "N"}, &c.seed, 0, INT64_MAX);
+  options.add({"threads", "simulations at a time (default: one a core)", "N"}, &c.threads, 0, 4096);
+  options.add({"force", "replace another calibration's files"}, &c.force);
+  options.add({"quiet", "no progress"}, &job.quiet);
 }
 
 // "PATH=LOW..HIGH": takes the place of the parameter of that path, or comes after the others.
@@ -79,14 +100,14 @@ void vary(const VerbOptions& options, const std::string& assignment,
   parameters.push_back(wanted);
 }
 
-CalibrationOptions calibration_options(const VerbOptions& options) {
-  CalibrationOptions c;
+// What the words and the parameters to vary come to.
+void complete(const VerbOptions& options, CalibrateJob& job) {
+  CalibrationOptions& c = job.calibration;
   c.body = options.has("balls") ? BodyKind::ball : BodyKind::lily;
-  c.objective = objective_named(options.text("objective", "summary"));
-  c.flow = flow_named(options.text("flow", "smooth"));
+  c.objective = objective_named(job.objective);
+  c.flow = flow_named(job.flow);
   c.parameters = standard_parameters(c.body);
-  for (const std::string& one : options.list("vary")) vary(options, one, c.parameters);
-  c.hold_out = static_cast<int>(options.whole("hold-out", 0, 0, 1000));
+  for (const std::string& one : job.vary) vary(options, one, c.parameters);
   c.search_name = options.text(
       "search", c.objective == CalibrationObjective::msd ? "paper-lilies" : c.search_name);
   std::vector<std::string> searches = swarm_presets();
@@ -95,21 +116,12 @@ CalibrationOptions calibration_options(const VerbOptions& options) {
     options.refuse("--search " + c.search_name + " is not known" +
                    did_you_mean(c.search_name, searches));
   }
-  c.search_budget = options.whole("budget", c.search_budget, 20, 100000000);
   if (c.search_name != "cma-es" && options.has("budget")) {
     const SwarmOptions swarm = swarm_preset(c.search_name);
     c.search_iterations = static_cast<int>(
         std::max<std::int64_t>(1, c.search_budget / (swarm.particles * swarm.evaluations)));
   }
-  c.replicates = static_cast<int>(options.whole("replicates", c.replicates, 20, 100000));
-  c.round = static_cast<int>(options.whole("simulations", c.round, 40, 100000));
   c.last_round = 2 * c.round;
-  c.comparisons = static_cast<int>(options.whole("comparisons", c.comparisons, 2, 100000));
-  c.flow_draws = static_cast<int>(options.whole("flow-draws", c.flow_draws, 0, 10000));
-  c.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  c.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
-  c.force = options.has("force");
-  return c;
 }
 
 // The parameters' values where the last file overrides the others. Only these: a file of another
@@ -124,38 +136,32 @@ std::vector<double> start_values(const std::vector<std::string>& files,
 }
 
 // --recover: no recordings are read, they are simulated.
-int recover_verb(const VerbOptions& options, const Arguments& arguments, CalibrationOptions job) {
+int recover_verb(const VerbOptions& options, const Arguments& arguments, CalibrateJob& job,
+                 Progress& progress) {
+  CalibrationOptions& c = job.calibration;
+  RecoveryOptions& r = job.recovery;
   options.refuse_given({"start", "comparisons", "balls"}, "has no effect with --recover");
-  if (job.flow == CalibrationFlow::paper) {
-    options.refuse("--flow " + options.text("flow") +
-                   " does not go with --recover: smooth or scenario");
+  if (c.flow == CalibrationFlow::paper) {
+    options.refuse("--flow " + job.flow + " does not go with --recover: smooth or scenario");
   }
-  const Scenario scenario = load_scenario(options.positional(), options.list("set"));
-  RecoveryOptions r;
-  r.experiments = static_cast<int>(options.whole("recover", 10, 1, 100000));
-  r.recordings = static_cast<int>(options.whole("recordings", r.recordings, 1, 100));
-  r.seconds = options.number("duration", r.seconds, 10, 1e6, "s");
-  if (options.has("objective")) r.objectives = {job.objective};
-  if (options.has("flow") && job.flow == CalibrationFlow::smooth) r.balls = 24;
+  const Scenario scenario = load_scenario(options.positional(), job.sets);
+  if (options.has("objective")) r.objectives = {c.objective};
+  if (options.has("flow") && c.flow == CalibrationFlow::smooth) r.balls = 24;
   const std::string title = scenario.title.empty() ? "scenario" : scenario.title;
-  job.out = options.text("out", (std::filesystem::path("out") / ("recover-" + title)).string());
-  job.stop = &stop_signal();
-  Progress progress(options.has("quiet"));
-  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
-  r.calibration = job;
+  c.out = options.out("out/recover-" + title);
+  r.calibration = c;
   r.done = [&](const std::vector<RecoveryRow>& rows) {
-    const std::filesystem::path out = job.out;
+    const std::filesystem::path out = c.out;
     write_atomically((out / "recovery.csv").string(), recovery_csv(rows));
     write_atomically((out / "recovery.txt").string(), recovery_text(rows));
   };
-  const ReportProvenance origin =
-      provenance("calibrate", arguments, job.seed, options.positional());
+  const ReportProvenance origin = provenance("calibrate", arguments, c.seed, options.positional());
   const auto lock = claim_directory(
-      job.out, job.force, {"recovery", identity_of(origin), {"recovery.csv", "recovery.txt"}});
+      c.out, c.force, {"recovery", identity_of(origin), {"recovery.csv", "recovery.txt"}});
   const std::vector<RecoveryRow> rows = recover(scenario, r);
   progress.clear();
   std::cout << recovery_text(rows) << std::flush;
-  std::cerr << "results in " << job.out << "\n";
+  std::cerr << "results in " << c.out << "\n";
   return Exit::done;
 }
 
@@ -166,49 +172,44 @@ int calibrate_verb(const Arguments& arguments) {
                       "Estimates the model's parameters from an experiment's recordings, with "
                       "intervals, parameters that the data do not constrain, and the fit of the "
                       "calibrated model.");
-  add_calibrate_options(options);
-  if (!options.parse(arguments)) return Exit::done;
-  if (options.positional().empty()) {
-    options.refuse("of what? write lilytank calibrate EXPERIMENT.toml");
+  CalibrateJob job;
+  CalibrationOptions& c = job.calibration;
+  add_calibrate_options(options, job);
+  if (!options.parse(arguments, "of what? write lilytank calibrate EXPERIMENT.toml")) {
+    return Exit::done;
   }
-  if (!options.has("recover"))
+  if (!options.has("recover")) {
     options.refuse_given({"duration", "recordings"}, "goes with --recover");
+  }
   refuse_point_bodies(options.positional());
-  CalibrationOptions job = calibration_options(options);
-  if (options.has("recover")) return recover_verb(options, arguments, std::move(job));
+  complete(options, job);
+  Progress progress(job.quiet);
+  c.progress = [&](double done, const std::string& stage) { progress.show(done, stage); };
+  c.stop = &stop_signal();
+  if (options.has("recover")) return recover_verb(options, arguments, job, progress);
   std::vector<std::string> files = options.positional();
-  const Experiment experiment = load_experiment(files, options.list("set"));
+  const Experiment experiment = load_experiment(files, job.sets);
   if (options.has("start")) {
     files.push_back(options.text("start"));
-    job.start = start_values(files, options.list("set"), job.parameters);
+    c.start = start_values(files, job.sets, c.parameters);
   }
-  job.out = options.text(
-      "out", (std::filesystem::path("out") / ("calibrate-" + experiment.name)).string());
-  if (job.out.empty()) options.refuse("--out is empty");
-  job.stop = &stop_signal();
-  Progress progress(options.has("quiet"));
-  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
-  job.covered = [](const Coverage& coverage) {
+  c.out = options.out("out/calibrate-" + experiment.name);
+  c.covered = [](const Coverage& coverage) {
     for (const Shortfall& s : coverage.flow) {
       std::cerr << "warning: " << s.what << ": record " << s.record << "\n";
     }
   };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
-  job.lock = &lock;
-  const CalibrationResult found = calibrate(experiment, job);
+  c.lock = &lock;
+  const CalibrationResult found = calibrate(experiment, c);
   progress.clear();
   ReportDocument report = calibration_report(found);
   for (const RecordingSource& source : experiment.sources) files.push_back(source.file);
-  report.provenance = provenance("calibrate", arguments, job.seed, files);
-  write_calibration(found, report, job.out);
-#ifdef LILYTANK_HAS_RENDER
-  draw_calibration(found, report, job.out);
-#else
-  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
-#endif
-  std::cout << report_text(report) << std::flush;
-  std::cerr << "results in " << job.out << "\n";
-  return Exit::done;
+  report.provenance = provenance("calibrate", arguments, c.seed, files);
+  write_calibration(found, report, c.out);
+  if constexpr (kDraws) draw_calibration(found, report, c.out);
+  if constexpr (!kDraws) say_undrawn("plots");
+  return print_results(report, c.out);
 }
 
 }  // namespace lilytank::cli

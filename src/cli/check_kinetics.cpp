@@ -5,24 +5,18 @@
 #include <filesystem>
 
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "io/scenario_layers.hpp"
-#include "lilytank/measure.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/statistics.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 
 namespace lilytank::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kMostModules = 1000;
 
 // Worlds that were run, or what was counted elsewhere.
 struct Counted {
@@ -33,7 +27,8 @@ struct Counted {
 };
 
 // What a check decides about its worlds, whatever a scenario says.
-void refuse_overruled(const VerbOptions& options) {
+void refuse_overruled(const CheckJob& job) {
+  const VerbOptions& options = job.options;
   const struct {
     std::string path, why;
     bool overruled;
@@ -44,23 +39,20 @@ void refuse_overruled(const VerbOptions& options) {
       {"module.count", "--modules decides", options.has("modules")},
       {"run.duration", "--duration decides", options.has("duration")},
   };
-  for (const Assignment& set : read_assignments(options.list("set"), "--set"))
+  for (const Assignment& set : read_assignments(job.sets, "--set"))
     for (const auto& value : ours)
       if (value.overruled && set.path() == value.path)
         options.refuse("--set " + value.path + " would have no effect: " + value.why);
 }
 
-Scenario scenario_for(const VerbOptions& options) {
-  std::vector<std::string> sets = options.list("set");
-  if (options.has("modules")) {
-    sets.push_back("module.count=" + std::to_string(options.whole("modules", 15, 1, kMostModules)));
-  }
+Scenario scenario_for(const CheckJob& job) {
+  const VerbOptions& options = job.options;
+  std::vector<std::string> sets = job.sets;
+  if (options.has("modules")) sets.push_back("module.count=" + std::to_string(job.check.modules));
   sets.push_back("control.latches=true");
   sets.push_back("run.seed=0");
-  if (options.has("duration")) {
-    sets.push_back("run.duration=" + shortest(options.number("duration", 0, 1, kLongest, "s")));
-  }
-  Scenario scenario = load_scenario(options.list("measure"), sets);
+  if (job.duration > 0) sets.push_back("run.duration=" + shortest(job.duration));
+  Scenario scenario = load_scenario(job.scenarios, sets);
   const Model& model = scenario.model;
   if (!model.commands.empty() || !model.feedback.empty()) {
     options.refuse(
@@ -121,18 +113,15 @@ std::string identity_of(const CheckInput& input) {
   return hex(hash.value());
 }
 
-Counted measure(const VerbOptions& options, const CheckInput& input, const std::string& dir) {
+Counted measure(const CheckJob& of, const CheckInput& input, const std::string& dir) {
   const Scenario& scenario = *input.scenario;
-  MeasureOptions job;
-  job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 100000));
-  job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
+  MeasureOptions job = of.measured;
   job.duration = scenario.duration;
   job.out = dir;
   job.identity = identity_of(scenario, input.rules);
   job.stop = &stop_signal();
-  Progress progress(options.has("quiet"));
-  job.progress = [&](double done) { progress.tell(done, "of the simulations"); };
+  Progress progress(of.quiet);
+  job.progress = [&](double done) { progress.show(done, "of the simulations"); };
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
   if (stop_signal().load()) throw Stopped();
@@ -182,7 +171,6 @@ std::string curve_csv(const CurveBand& worlds, const CurveBand& model) {
 
 void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, int possible,
           const std::string& dir) {
-#ifdef LILYTANK_HAS_RENDER
   Plot plot;
   plot.title = "Simulations and the well-mixed model on rates measured in them";
   plot.x_label = "time (h)";
@@ -197,11 +185,8 @@ void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, i
   add(worlds, std::to_string(number) + " simulations");
   add(model, "well-mixed model");
   for (const char* ending : {".png", ".svg"})
-    draw_plot(plot, (fs::path(dir) / (std::string("yield") + ending)).string());
-#else
-  static_cast<void>(worlds), static_cast<void>(model), static_cast<void>(number),
-      static_cast<void>(possible), static_cast<void>(dir);
-#endif
+    if constexpr (kDraws)
+      draw_plot(plot, (fs::path(dir) / (std::string("yield") + ending)).string());
 }
 
 std::string digits(double value) {
@@ -238,15 +223,15 @@ std::string comparison(const CurveBand& worlds, const CurveBand& model) {
   return out;
 }
 
-std::string run_model(const VerbOptions& options, const CheckInput& input, const Kinetics& kinetics,
+std::string run_model(const CheckJob& job, const CheckInput& input, const Kinetics& kinetics,
                       const Counted& counted, const std::string& dir) {
-  const auto runs = static_cast<std::size_t>(options.whole("gillespie", 1000, 0, 1000000));
+  const auto runs = static_cast<std::size_t>(job.gillespie);
   if (runs == 0) return "";
   GillespieOptions one;
   one.modules = input.modules;
-  one.duration =
-      counted.duration > 0 ? counted.duration : options.number("duration", 14400, 1, kLongest, "s");
-  const auto seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
+  if (job.duration > 0) one.duration = job.duration;
+  if (counted.duration > 0) one.duration = counted.duration;
+  const std::uint64_t seed = job.measured.seed;
   std::vector<std::vector<double>> completion(runs);
   std::int64_t reactions = 0;
   for (std::size_t k = 0; k < runs; ++k) {
@@ -288,33 +273,37 @@ std::string table_text(const RateTable& table) {
 
 }  // namespace
 
-void add_kinetics_options(VerbOptions& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  const auto list = [] { return cxxopts::value<std::vector<std::string>>(); };
-  options.add()("measure", "measure rates in simulations of a scenario (repeat for overlays)",
-                list(), "SCENARIO")("set", "a value over the scenario's", list(), "PATH=VALUE")(
-      "worlds", "simulations to run (20)", text(), "N")(
-      "duration", "of each (the scenario's; model: 4 h)", text(), "TIME")(
-      "threads", "simulations at a time (one a core)", text(), "N")(
-      "rates", "a run's directory or a rates.csv instead", text(), "RUN|FILE")(
-      "gillespie", "runs of the well-mixed model on the rates (1000)", text(), "N")(
-      "out", "directory of simulations, rates and curves (out/check-<name>)", text(), "DIR")(
-      "kappa", "the rules for KaSim", text(), "FILE.ka")("bngl", "the rules for BioNetGen", text(),
-                                                         "FILE.bngl");
+void add_kinetics_options(CheckJob& job) {
+  VerbOptions& options = job.options;
+  options.add(
+      {"measure", "measure rates in simulations of a scenario (repeat for overlays)", "SCENARIO"},
+      &job.scenarios);
+  options.add({"set", "a value over the scenario's", "PATH=VALUE"}, &job.sets);
+  options.add({"worlds", "simulations to run (20)", "N"}, &job.measured.worlds, 1, 100000);
+  options.add({"duration", "of each (the scenario's; model: 4 h)", "TIME"}, &job.duration, 1,
+              kLongest, "s");
+  options.add({"threads", "simulations at a time (one a core)", "N"}, &job.measured.threads, 0,
+              4096);
+  options.add({"rates", "a run's directory or a rates.csv instead", "RUN|FILE"});
+  options.add({"gillespie", "runs of the well-mixed model on the rates (1000)", "N"},
+              &job.gillespie, 0, 1000000);
+  options.add({"out", "directory of simulations, rates and curves (out/check-<name>)", "DIR"});
+  options.add({"kappa", "the rules for KaSim", "FILE.ka"});
+  options.add({"bngl", "the rules for BioNetGen", "FILE.bngl"});
 }
 
-void check_kinetics_options(const VerbOptions& options) {
+void check_kinetics_options(const CheckJob& job) {
+  const VerbOptions& options = job.options;
   const bool measures = options.has("measure"), reads = options.has("rates");
   if (measures && reads) options.refuse("--measure or --rates, not both");
   if (!measures) options.refuse_given({"worlds", "set", "threads"}, "belongs to --measure");
-  refuse_overruled(options);
+  refuse_overruled(job);
   if (!measures && !reads) {
     options.refuse_given({"gillespie", "duration", "out"},
                          "needs rates: --measure SCENARIO or --rates RUN");
   }
-  static_cast<void>(options.number("duration", 0, 1, kLongest, "s"));
   std::vector<std::string> inputs = options.positional();
-  for (const std::string& file : options.list("measure")) inputs.push_back(file);
+  inputs.insert(inputs.end(), job.scenarios.begin(), job.scenarios.end());
   inputs.push_back(options.text("rates"));
   for (const char* name : {"kappa", "bngl"}) {
     options.spare_inputs(name, options.text(name), inputs);
@@ -322,12 +311,13 @@ void check_kinetics_options(const VerbOptions& options) {
   options.spare_each_other({"kappa", "bngl"});
 }
 
-CheckInput check_input(const VerbOptions& options) {
+CheckInput check_input(const CheckJob& job) {
+  const VerbOptions& options = job.options;
   CheckInput input;
   input.rules = read_ruleset(options.positional().front());
-  input.modules = static_cast<int>(options.whole("modules", input.modules, 1, kMostModules));
+  input.modules = job.check.modules;
   if (options.has("measure")) {
-    input.scenario = scenario_for(options);
+    input.scenario = scenario_for(job);
     input.note = take_p(*input.scenario, input.rules);
     input.scenario->model.rulesets = {input.rules};
     input.modules = input.scenario->model.module.count;
@@ -336,7 +326,8 @@ CheckInput check_input(const VerbOptions& options) {
   return input;
 }
 
-KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input) {
+KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input) {
+  const VerbOptions& options = job.options;
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
   KineticsReport report;
@@ -347,12 +338,12 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
     // Rates that do not suit the rules are refused before a directory is made.
     if (input.rates) kinetics = kinetics_of(input.rules, *input.rates, input.modules);
     report.lock = claim_directory(
-        dir, options.has("force"),
+        dir, job.force,
         {"check", identity_of(input),
          with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
                       {"yield"})});
     const Counted counted =
-        input.scenario ? measure(options, input, dir) : Counted{*input.rates, {}, 0, 0};
+        input.scenario ? measure(job, input, dir) : Counted{*input.rates, {}, 0, 0};
     report.dir = dir;
     report.diverged = counted.diverged, report.text = diverged_text(counted);
     if (report.diverged > 0 && counted.completion.empty()) return report;
@@ -361,14 +352,14 @@ KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input)
       write_atomically((fs::path(dir) / "rates.csv").string(), to_csv(counted.table));
     face_rate = kinetics->face_rate, evaluation_rate = kinetics->evaluation_rate;
     report.text += table_text(counted.table) + kinetics_text(input.rules, *kinetics) +
-                   run_model(options, input, *kinetics, counted, dir);
+                   run_model(job, input, *kinetics, counted, dir);
   }
   NamedContents exports;
   for (const auto& [name, text] : {std::pair("kappa", &to_kappa), std::pair("bngl", &to_bngl)})
     if (options.has(name))
       exports.emplace_back(options.text(name),
                            text(input.rules, face_rate, evaluation_rate, input.modules));
-  write_results(exports, options.has("force"));
+  write_results(exports, job.force);
   return report;
 }
 

@@ -6,14 +6,29 @@
 #include "cli/options.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/kinetics.hpp"
+#include "lilytank/lattice.hpp"
+#include "lilytank/measure.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank::cli {
 
-/// Options --measure, --rates, --gillespie, --kappa, --bngl and what belongs to them.
-void add_kinetics_options(VerbOptions& options);
+inline constexpr int kMostModules = 1000;
+
+/// A command line of `lilytank check`.
+struct CheckJob {
+  VerbOptions options;
+  CheckOptions check;
+  MeasureOptions measured;  ///< how many simulations, their seed and threads
+  std::vector<std::string> scenarios, sets;
+  double duration = 0;   ///< s; 0: not given
+  int gillespie = 1000;  ///< runs of the well-mixed model
+  bool force = false, quiet = false;
+};
+
+/// Adds --measure, --rates, --gillespie, --kappa, --bngl and the options that belong to them.
+void add_kinetics_options(CheckJob& job);
 /// Refuses those that would have no effect or overwrite what is read, before any work is done.
-void check_kinetics_options(const VerbOptions& options);
+void check_kinetics_options(const CheckJob& job);
 
 /// What is checked.
 struct CheckInput {
@@ -25,7 +40,7 @@ struct CheckInput {
 };
 /// Reads the ruleset and what --measure or --rates name, before any work is done. Throws InputError
 /// for files that cannot be used, and for what a scenario says that would have no effect.
-CheckInput check_input(const VerbOptions& options);
+CheckInput check_input(const CheckJob& job);
 
 /// What came of --measure, --rates, --kappa and --bngl.
 struct KineticsReport {
@@ -34,7 +49,7 @@ struct KineticsReport {
   int diverged = 0;                           ///< worlds, which are left out
   std::shared_ptr<const DirectoryLock> lock;  ///< of `dir`, until the last file is written
 };
-/// Does what the options ask for. Throws InputError, Stopped.
-KineticsReport run_kinetics(const VerbOptions& options, const CheckInput& input);
+/// Does what the options require. Throws InputError, Stopped.
+KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input);
 
 }  // namespace lilytank::cli

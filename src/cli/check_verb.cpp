@@ -5,31 +5,35 @@
 #include <sstream>
 
 #include "cli/check_kinetics.hpp"
-#include "cli/options.hpp"
 #include "cli/progress.hpp"
-#include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "io/atomic_file.hpp"
-#include "lilytank/lattice.hpp"
 
 namespace lilytank::cli {
 namespace {
 
-void add_check_options(VerbOptions& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add()("modules", "how many (15; with --measure the scenario's)", text(), "M")(
-      "lattice", "simulations of the lattice model (20)", text(), "N")(
-      "attempts", "meetings in each (20000)", text(), "N")(
-      "seed", "of all random numbers (1)", text(), "N")("force", "replace other results")(
-      "quiet", "no progress");
-  add_kinetics_options(options);
+void add_check_options(CheckJob& job) {
+  VerbOptions& options = job.options;
+  CheckOptions& check = job.check;
+  options.add({"modules", "how many (15; with --measure the scenario's)", "M"}, &check.modules, 1,
+              kMostModules);
+  options.add({"lattice", "simulations of the lattice model (20)", "N"}, &check.lattice_runs, 0,
+              100000);
+  options.add({"attempts", "meetings in each (20000)", "N"}, &check.lattice.attempts, 1,
+              1000000000);
+  options.add({"seed", "of all random numbers (1)", "N"}, &job.measured.seed, 0, INT64_MAX);
+  options.add({"force", "replace other results"}, &job.force);
+  options.add({"quiet", "no progress"}, &job.quiet);
+  add_kinetics_options(job);
 }
 
-std::vector<std::string> input_files(const VerbOptions& options) {
-  std::vector<std::string> files = options.positional();
-  for (const std::string& file : options.list("measure")) files.push_back(file);
-  if (options.has("rates")) files.push_back(options.text("rates"));
-  std::erase_if(files, [](const std::string& file) { return std::filesystem::is_directory(file); });
+std::vector<std::string> input_files(const CheckJob& job) {
+  std::vector<std::string> files = job.options.positional();
+  files.insert(files.end(), job.scenarios.begin(), job.scenarios.end());
+  files.push_back(job.options.text("rates"));
+  std::erase_if(files, [](const std::string& file) {
+    return file.empty() || std::filesystem::is_directory(file);
+  });
   return files;
 }
 
@@ -63,40 +67,37 @@ void write_report(const ReportDocument& report, const std::string& dir) {
 }  // namespace
 
 int check_verb(const Arguments& arguments) {
-  VerbOptions options(
+  CheckJob job{VerbOptions(
       "check", "RULESET",
       "Proves which assemblies a ruleset can build, where it gets stuck and whether its "
       "reverse rules undo their joins. Measures rates in simulations and runs a "
-      "well-mixed model on them.");
-  add_check_options(options);
-  if (!options.parse(arguments)) return Exit::done;
-  if (options.positional().size() != 1)
-    options.refuse("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");
-  check_kinetics_options(options);
-  const CheckInput input = check_input(options);
-  CheckOptions job;
-  job.modules = input.modules;
-  job.lattice_runs = static_cast<int>(options.whole("lattice", 20, 0, 100000));
-  job.lattice.attempts = options.whole("attempts", 20000, 1, 1000000000);
-  job.lattice.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  job.lattice.stop = &stop_signal();
+      "well-mixed model on them.")};
+  job.check.lattice_runs = 20, job.check.lattice.attempts = 20000;
+  add_check_options(job);
+  if (!job.options.parse(arguments)) return Exit::done;
+  job.options.only("one ruleset, please: lilytank check scenarios/rulesets/chain5.rules");
+  check_kinetics_options(job);
+  const CheckInput input = check_input(job);
+  job.check.modules = input.modules;
+  job.check.lattice.seed = job.measured.seed;
+  job.check.lattice.stop = &stop_signal();
   RulesetCheck check;
   {
-    Progress progress(options.has("quiet"));
-    job.progress = [&](double done) { progress.tell(done, "of the lattice simulations"); };
-    check = check_ruleset(input.rules, job);
+    Progress progress(job.quiet);
+    job.check.progress = [&](double done) { progress.show(done, "of the lattice simulations"); };
+    check = check_ruleset(input.rules, job.check);
     progress.clear();
   }
   if (stop_signal().load()) {
     throw Stopped("stopped; lattice simulations are not kept, so the same command starts again");
   }
   ReportDocument report = check_report(input.rules, check);
-  report.provenance = provenance("check", arguments, job.lattice.seed, input_files(options));
+  report.provenance = provenance("check", arguments, job.measured.seed, input_files(job));
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));
-  const KineticsReport kinetics = run_kinetics(options, input);
+  const KineticsReport kinetics = run_kinetics(job, input);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);
   std::cout << report_text(report) << std::flush;
-  if (!kinetics.dir.empty() && options.has("measure")) write_report(report, kinetics.dir);
+  if (!kinetics.dir.empty() && job.options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;
 }

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
-#include "cli/point_bodies.hpp"
 #include "io/scenario_commands.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/run.hpp"
@@ -63,14 +63,14 @@ void print_derived(const Scenario& scenario) {
 int info_verb(const Arguments& arguments) {
   VerbOptions options("info", "SCENARIO...",
                       "Explains a scenario: every value, where it was set, and what follows.");
-  options.add()("set", "a value, as tank.radius=0.3", cxxopts::value<std::vector<std::string>>(),
-                "PATH=VALUE");
-  if (!options.parse(arguments)) return Exit::done;
-  if (options.positional().empty()) {
-    options.refuse("which scenario? write lilytank info SCENARIO, as scenarios/chain5.toml");
+  std::vector<std::string> sets;
+  options.add({"set", "a value, as tank.radius=0.3", "PATH=VALUE"}, &sets);
+  if (!options.parse(arguments,
+                     "which scenario? write lilytank info SCENARIO, as scenarios/chain5.toml")) {
+    return Exit::done;
   }
   refuse_point_bodies(options.positional());
-  const Scenario scenario = load_scenario(options.positional(), options.list("set"));
+  const Scenario scenario = load_scenario(options.positional(), sets);
   print_entries(scenario);
   print_derived(scenario);
   return Exit::done;

@@ -2,18 +2,13 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
-#include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "cli/study_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/optimize.hpp"
 #include "optimize/search_directory.hpp"
 #include "text/number.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 
 namespace lilytank::cli {
 namespace {
@@ -45,23 +40,22 @@ void write_report(const OptimizationPlan& plan, const OptimizationResult& result
                   const ReportDocument& document, const std::string& dir) {
   write_atomically((fs::path(dir) / "optimum.txt").string(), report_text(document));
   write_atomically((fs::path(dir) / "optimum.json").string(), report_json(document));
-#ifdef LILYTANK_HAS_RENDER
-  const std::string unit = fitness_unit(plan.fitness.fitness);
-  const Plot plot =
-      search_plot(result.history, result.selected, plan.name,
-                  name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
-  draw_search(plot, document, dir);
-#else
-  static_cast<void>(plan), static_cast<void>(result);
-  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
-#endif
+  if constexpr (kDraws) {
+    const std::string unit = fitness_unit(plan.fitness.fitness);
+    const Plot plot =
+        search_plot(result.history, result.selected, plan.name,
+                    name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
+    draw_search(plot, document, dir);
+  } else {
+    say_undrawn("plots");
+  }
 }
 
 OptimizationResult run_with_progress(const Optimization& what, OptimizationOptions job,
                                      bool quiet) {
   Progress progress(quiet);
   if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
-  job.progress = [&](double done, const std::string& note) { progress.tell(done, note); };
+  job.progress = [&](double done, const std::string& note) { progress.show(done, note); };
   return run_optimization(what, job);
 }
 
@@ -74,7 +68,7 @@ int compare(const Optimization& what, const OptimizationResult& result,
   job.threads = options.threads, job.stop = options.stop, job.force = options.force;
   Progress progress(quiet);
   job.progress = [&](const StudyProgress& now) {
-    progress.tell(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
+    progress.show(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
                                 std::to_string(now.left) + " left");
   };
   const StudyResult done = run_study(study, job);
@@ -86,41 +80,35 @@ int compare(const Optimization& what, const OptimizationResult& result,
   return done.failed > 0 ? Exit::diverged : Exit::done;
 }
 
-void add_optimize_options(VerbOptions& options) {
-  options.add()("overlay", "a file that overrides values of the scenarios, before --set",
-                cxxopts::value<std::vector<std::string>>(),
-                "FILE")("set", "a value for every simulation, as run.duration='1 h'",
-                        cxxopts::value<std::vector<std::string>>(), "PATH=VALUE")(
-      "out", "directory of the results (default: out/<name>)", cxxopts::value<std::string>(),
-      "DIR")("threads", "simulations at a time (default: one a core)",
-             cxxopts::value<std::string>(), "N")("no-compare", "skip the comparison of [compare]")(
-      "dry-run", "check everything, write nothing")("force", "replace another search's files")(
-      "quiet", "no progress");
-}
-
 }  // namespace
 
 int optimize_verb(const Arguments& arguments) {
   VerbOptions options("optimize", "STUDY.toml",
                       "Searches rule probabilities, a switch of them, pump power or rulesets for "
                       "what builds a target best.");
-  add_optimize_options(options);
-  if (!options.parse(arguments)) return Exit::done;
-  if (options.positional().size() != 1) {
-    options.refuse("one file, please: lilytank optimize scenarios/optimize/chain5.toml");
-  }
-  const Optimization what(options.positional().front(), options.list("overlay"),
-                          options.list("set"));
   OptimizationOptions job;
-  job.out = study_directory(options, what.plan().name);
-  job.threads = static_cast<int>(options.whole("threads", 0, 1, kMostThreads));
-  job.force = options.has("force");
+  std::vector<std::string> overlays, sets;
+  bool quiet = false;
+  options.add({"overlay", "a file that overrides values of the scenarios, before --set", "FILE"},
+              &overlays);
+  options.add({"set", "a value for every simulation, as run.duration='1 h'", "PATH=VALUE"}, &sets);
+  options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
+  options.add({"threads", "simulations at a time (default: one a core)", "N"}, &job.threads, 1,
+              kMostThreads);
+  options.add({"no-compare", "skip the comparison of [compare]"});
+  options.add({"dry-run", "check everything, write nothing"});
+  options.add({"force", "replace another search's files"}, &job.force);
+  options.add({"quiet", "no progress"}, &quiet);
+  if (!options.parse(arguments)) return Exit::done;
+  const Optimization what(
+      options.only("one file, please: lilytank optimize scenarios/optimize/chain5.toml"), overlays,
+      sets);
+  job.out = options.out("out/" + what.plan().name);
   check_directory_can_be(job.out);
   spare_read(options, files_of_search(job.out), what.source().inputs());
   check_search_directory(what.source(), job.out, job.force);
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
   job.stop = &stop_signal();
-  const bool quiet = options.has("quiet");
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const OptimizationResult result = run_with_progress(what, job, quiet);

@@ -7,6 +7,7 @@
 #include "io/units.hpp"
 #include "lilytank/error.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -37,7 +38,48 @@ VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
   options_.add_options()("h,help", "print this");
 }
 
-bool VerbOptions::parse(const Arguments& arguments) {
+void VerbOptions::add(const Option& option, const std::shared_ptr<cxxopts::Value>& type,
+                      const std::function<void()>& store) {
+  options_.add_options()(option.name, option.help, type, option.value);
+  stores_.push_back([=, this] {
+    if (store && has(option.name)) store();
+  });
+}
+
+void VerbOptions::add(const Option& option) {
+  if (option.value.empty()) return add(option, cxxopts::value<bool>(), nullptr);
+  add(option, cxxopts::value<std::string>(), nullptr);
+}
+
+void VerbOptions::add(const Option& option, bool* out) {
+  add(option, cxxopts::value<bool>(), [=] { *out = true; });
+}
+
+void VerbOptions::add(const Option& option, std::string* out,
+                      const std::vector<std::string>& words) {
+  add(option, cxxopts::value<std::string>(), [=, this] {
+    *out = text(option.name);
+    if (words.empty() || among(*out, words)) return;
+    refuse("--" + option.name + " " + *out + " is none of " + joined(words, ", ") +
+           did_you_mean(*out, words));
+  });
+}
+
+void VerbOptions::add_list(const Option& option) {
+  add(option, cxxopts::value<std::vector<std::string>>(), nullptr);
+}
+
+void VerbOptions::add(const Option& option, std::vector<std::string>* out) {
+  add(option, cxxopts::value<std::vector<std::string>>(), [=, this] { *out = list(option.name); });
+}
+
+void VerbOptions::add(const Option& option, double* out, double low, double high,
+                      const std::string& unit) {
+  add(option, cxxopts::value<std::string>(),
+      [=, this] { *out = number(option.name, low, high, unit); });
+}
+
+bool VerbOptions::parse(const Arguments& arguments, const std::string& none_given) {
   // What follows "--" are files, even if they begin with a dash.
   const auto end = std::find(arguments.begin(), arguments.end(), "--");
   const Arguments before(arguments.begin(), end);
@@ -56,9 +98,13 @@ bool VerbOptions::parse(const Arguments& arguments) {
     if (word.size() > 1 && word[0] == '-') refuse("unknown option '" + word + "'");
   }
   if (end != arguments.end()) positional_.insert(positional_.end(), end + 1, arguments.end());
-  if (!has("help")) return true;
-  std::cout << options_.help();
-  return false;
+  if (has("help")) {
+    std::cout << options_.help();
+    return false;
+  }
+  if (!none_given.empty() && positional_.empty()) refuse(none_given);
+  for (const auto& store : stores_) store();
+  return true;
 }
 
 void VerbOptions::check_names(const Arguments& arguments) {
@@ -98,9 +144,19 @@ std::vector<std::string> VerbOptions::list(const std::string& name) const {
   return has(name) ? result_[name].as<std::vector<std::string>>() : std::vector<std::string>{};
 }
 
-double VerbOptions::number(const std::string& name, double otherwise, double low, double high,
+const std::string& VerbOptions::only(const std::string& message) const {
+  if (positional_.size() != 1) refuse(message);
+  return positional_.front();
+}
+
+std::string VerbOptions::out(const std::string& otherwise) const {
+  const std::string dir = text("out", otherwise);
+  if (dir.empty()) refuse("--out is empty");
+  return dir;
+}
+
+double VerbOptions::number(const std::string& name, double low, double high,
                            const std::string& unit) const {
-  if (!has(name)) return otherwise;
   const std::string word = text(name);
   auto value = parse_number(word);
   if (!value && !unit.empty()) {
@@ -114,9 +170,8 @@ double VerbOptions::number(const std::string& name, double otherwise, double low
   return *value;
 }
 
-std::int64_t VerbOptions::whole(const std::string& name, std::int64_t otherwise, std::int64_t low,
+std::int64_t VerbOptions::whole(const std::string& name, std::int64_t low,
                                 std::int64_t high) const {
-  if (!has(name)) return otherwise;
   const std::string word = text(name);
   const auto value = parse_whole(word);
   if (!value) refuse("--" + name + " " + word + " is not a whole number");

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 
@@ -11,6 +12,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kFirstLine = std::chrono::seconds(5);
 constexpr auto kBetweenLines = std::chrono::seconds(60);
+
+// A signal handler can reach nothing but a global.
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void request_stop(int) {
+  stop_requested.store(true, std::memory_order_relaxed);
+}
 
 double seconds(Clock::duration d) {
   return std::chrono::duration<double>(d).count();
@@ -40,7 +49,7 @@ Progress::~Progress() {
   clear();
 }
 
-void Progress::tell(double done, const std::string& note) {
+void Progress::show(double done, const std::string& note) {
   if (quiet_) return;
   if (first_done_ < 0) first_done_ = done;  // a resumed job begins in the middle
   const auto now = Clock::now();
@@ -68,6 +77,19 @@ std::string Progress::time_left(double done) const {
 void Progress::clear() {
   if (shown_ > 0) std::cerr << '\r' << std::string(shown_, ' ') << '\r' << std::flush;
   shown_ = 0;
+}
+
+const std::atomic<bool>& stop_signal() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  // A terminal that goes away, unless nohup said that it does not matter.
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  return stop_requested;
 }
 
 }  // namespace lilytank::cli

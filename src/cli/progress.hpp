@@ -1,6 +1,7 @@
 // How far a job is, on stderr: one line that changes on a terminal; elsewhere a plain line after 5
 // s and then one a minute.
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <string>
 
@@ -14,7 +15,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// `done` is the share done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
-  void tell(double done, const std::string& note);
+  void show(double done, const std::string& note);
   /// Takes the changing line away, before other output.
   void clear();
 
@@ -25,5 +26,9 @@ class Progress {
   std::chrono::steady_clock::time_point start_, last_line_;
   double first_done_ = -1;
 };
+
+/// Becomes true once a signal requests a stop. The first call installs the handlers; a second
+/// signal then ends the process at once, as usual.
+const std::atomic<bool>& stop_signal();
 
 }  // namespace lilytank::cli

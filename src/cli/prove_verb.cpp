@@ -1,34 +1,24 @@
 // lilytank prove: is a diagnosis to be trusted?
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 
 namespace lilytank::cli {
 namespace {
 
-void report_proofs(std::span<const Proof> proofs, const std::string& dir) {
+int report_proofs(std::span<const Proof> proofs, const std::string& dir) {
   const ReportDocument report = proof_report(proofs);
-  const std::string text = report_text(report);
-  write_atomically((std::filesystem::path(dir) / "proof.txt").string(), text);
-#ifdef LILYTANK_HAS_RENDER
-  draw_proof(proof_figures(proofs), report, dir);
-#else
-  std::cerr
-      << "no report.html: this program was built without the renderer (Cairo was not found)\n";
-#endif
-  std::cout << text << std::flush;
-  std::cerr << "results in " << dir << "\n";
+  write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
+  if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir);
+  if constexpr (!kDraws) say_undrawn("report.html");
+  return print_results(report, dir);
 }
 
 // `out`: "" to print only.
@@ -46,52 +36,34 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
   }
   if (out.empty()) {
     std::cout << proof_text(proofs) << std::flush;
-  } else {
-    const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-    report_proofs(proofs, out);
+    return Exit::done;
   }
-  return Exit::done;
+  const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
+  return report_proofs(proofs, out);
 }
 
-void add_prove_options(VerbOptions& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add()("worlds", "synthetic experiments (100)", text(), "N")(
-      "only", "null, named, two or unnamed: experiments of this kind only", text(), "KIND")(
-      "minutes", "of each of an experiment's three recordings (4)", text(), "M")(
-      "ball-minutes", "of each of the three recordings of balls (as --minutes)", text(), "M")(
-      "known-flow", "give the diagnosis the true flow instead of balls")(
-      "drawn-tank", "draw the tank, too: its pumps, inlets and parameters (the built-in tank)")(
-      "modelled", "experiments in which the effect is also fitted and shown (10)", text(), "N")(
-      "budget", "minutes for the tank's nulls and fingerprints (10)", text(), "MINUTES")(
-      "seed", "of everything that is drawn (1)", text(), "N")(
-      "out", "directory of the results (out/proof)", text(), "DIR")(
-      "threads", "simulations at a time (default: one a core)", text(), "N")(
-      "force", "replace another proof's files")("quiet", "no progress");
-}
-
-ProofOptions proof_options(VerbOptions& options) {
-  ProofOptions job;
-  job.worlds = static_cast<int>(options.whole("worlds", job.worlds, 1, 1000000));
-  job.only = options.text("only", "");
-  const std::vector<std::string> kinds{"null", "named", "two", "unnamed"};
-  if (options.has("only") && std::find(kinds.begin(), kinds.end(), job.only) == kinds.end()) {
-    options.refuse("--only " + job.only + " is none of null, named, two, unnamed" +
-                   did_you_mean(job.only, kinds));
-  }
-  job.minutes = options.number("minutes", job.minutes, 0.2, 1e4, "");
-  job.ball_minutes = options.number("ball-minutes", 0, 0.1, 1e4, "");
-  if (options.has("ball-minutes") && options.has("known-flow")) {
-    options.refuse("--ball-minutes with --known-flow: no balls are recorded");
-  }
-  job.modelled = static_cast<int>(options.whole("modelled", job.modelled, 0, 1000000));
-  job.known_flow = options.has("known-flow"), job.drawn_tank = options.has("drawn-tank");
-  job.diagnosis.minutes = options.number("budget", job.diagnosis.minutes, 1, 1e4, "");
-  job.diagnosis.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  job.diagnosis.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
-  job.diagnosis.force = options.has("force");
-  job.diagnosis.out = options.text("out", (std::filesystem::path("out") / "proof").string());
-  if (job.diagnosis.out.empty()) options.refuse("--out is empty");
-  return job;
+void add_prove_options(VerbOptions& options, ProofOptions& job) {
+  DiagnosisOptions& d = job.diagnosis;
+  options.add({"worlds", "synthetic experiments (100)", "N"}, &job.worlds, 1, 1000000);
+  options.add({"only", "null, named, two or unnamed: experiments of this kind only", "KIND"},
+              &job.only, {"null", "named", "two", "unnamed"});
+  options.add({"minutes", "of each of an experiment's three recordings (4)", "M"}, &job.minutes,
+              0.2, 1e4);
+  options.add({"ball-minutes", "of each of the three recordings of balls (as --minutes)", "M"},
+              &job.ball_minutes, 0.1, 1e4);
+  options.add({"known-flow", "give the diagnosis the true flow instead of balls"}, &job.known_flow);
+  options.add({"drawn-tank",
+               "draw the tank, too: its pumps, inlets and parameters (the built-in "
+               "tank)"},
+              &job.drawn_tank);
+  options.add({"modelled", "experiments in which the effect is also fitted and shown (10)", "N"},
+              &job.modelled, 0, 1000000);
+  options.add({"budget", "minutes for the tank's nulls and fingerprints (10)", "MINUTES"},
+              &d.minutes, 1, 1e4);
+  options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
+  options.add({"out", "directory of the results (out/proof)", "DIR"});
+  options.add({"threads", "simulations at a time (default: one a core)", "N"}, &d.threads, 0, 4096);
+  options.add({"force", "replace another proof's files"}, &d.force);
 }
 
 // A directory may have had a proof of other experiments of the same tank, with a key of its own.
@@ -119,21 +91,26 @@ int prove_verb(const Arguments& arguments) {
       "effects outside the catalogue, diagnoses them blind, and compares the verdicts with the "
       "ground truth. With directories of finished benchmarks: pools their experiments, with "
       "--out as a report.");
-  add_prove_options(options);
+  ProofOptions job;
+  bool quiet = false;
+  add_prove_options(options, job);
+  options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    for (const char* other : {"worlds", "only", "minutes", "ball-minutes", "known-flow",
-                              "drawn-tank", "modelled", "budget", "seed", "threads"}) {
-      if (options.has(other)) options.refuse("--" + std::string(other) + " is for a new proof");
-    }
-    return print_together(options.positional(), options.text("out", ""), options.has("force"));
+    options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
+                          "modelled", "budget", "seed", "threads"},
+                         "is for a new proof");
+    return print_together(options.positional(), options.text("out"), job.diagnosis.force);
   }
-  ProofOptions job = proof_options(options);
+  if (options.has("ball-minutes") && job.known_flow) {
+    options.refuse("--ball-minutes with --known-flow: no balls are recorded");
+  }
+  job.diagnosis.out = options.out("out/proof");
   const std::filesystem::path dir(job.diagnosis.out);
-  Progress progress(options.has("quiet"));
+  Progress progress(quiet);
   job.diagnosis.stop = &stop_signal();
   job.diagnosis.progress = [&](double done, const std::string& stage) {
-    progress.tell(done, stage);
+    progress.show(done, stage);
   };
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
@@ -145,8 +122,7 @@ int prove_verb(const Arguments& arguments) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  report_proofs({&proof, 1}, job.diagnosis.out);
-  return Exit::done;
+  return report_proofs({&proof, 1}, job.diagnosis.out);
 }
 
 }  // namespace lilytank::cli

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/point_bodies.hpp"
+#include "cli/inputs.hpp"
 #include "lilytank/experiment.hpp"
 #include "recording/experiment_file.hpp"
 #include "recording/files.hpp"
@@ -50,12 +50,12 @@ void add_experiment(const std::string& file, const VerbOptions& options,
 }  // namespace
 
 void add_reading_options(VerbOptions& options) {
-  options.add()("read",
-                "how files are read, as a [[recording]] of an experiment says it: format=trackpy, "
-                "rate=25, tank_circle=[640,480,455], columns.x=px, checks.swap=mark",
-                cxxopts::value<std::vector<std::string>>(),
-                "KEY=VALUE")("set", "a value of the tank or the bodies, as tank.radius=0.3",
-                             cxxopts::value<std::vector<std::string>>(), "PATH=VALUE");
+  options.add_list({"read",
+                    "how files are read, as a [[recording]] of an experiment says it: "
+                    "format=trackpy, rate=25, tank_circle=[640,480,455], columns.x=px, "
+                    "checks.swap=mark",
+                    "KEY=VALUE"});
+  options.add_list({"set", "a value of the tank or the bodies, as tank.radius=0.3", "PATH=VALUE"});
 }
 
 std::vector<NamedRecording> named_recordings(const VerbOptions& options,

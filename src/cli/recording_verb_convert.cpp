@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/recording_verb.hpp"
-#include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"
@@ -100,23 +100,23 @@ class Output {
 };
 
 void add_writing_options(VerbOptions& options) {
-  options.add()("out",
-                "file to write; a directory for several recordings, or for formats with one "
-                "file a track",
-                cxxopts::value<std::string>(), "FILE")(
-      "to",
-      "format: tidy (default), swistrack-tracks, swistrack-particles, trackpy, idtracker, "
-      "idtracker-wide, trex, fasttrack",
-      cxxopts::value<std::string>(),
-      "FORMAT")("write",
-                "scale of what is written: pixel='0.66 mm', origin=[640,480], "
-                "tank_circle=[640,480,455], y_axis=down, angle_unit=deg",
-                cxxopts::value<std::vector<std::string>>(), "KEY=VALUE")(
-      "camera",
-      "of a run: rate, position_noise, heading_noise, dropped, missed, latency, swaps, "
-      "swap_distance, lens, tilt, tilt_direction, height, headings, seed",
-      cxxopts::value<std::vector<std::string>>(),
-      "KEY=VALUE")("force", "replace files of other contents");
+  options.add({"out",
+               "file to write; a directory for several recordings, or for formats with one "
+               "file a track",
+               "FILE"});
+  options.add({"to",
+               "format: tidy (default), swistrack-tracks, swistrack-particles, trackpy, idtracker, "
+               "idtracker-wide, trex, fasttrack",
+               "FORMAT"});
+  options.add_list({"write",
+                    "scale of what is written: pixel='0.66 mm', origin=[640,480], "
+                    "tank_circle=[640,480,455], y_axis=down, angle_unit=deg",
+                    "KEY=VALUE"});
+  options.add_list({"camera",
+                    "of a run: rate, position_noise, heading_noise, dropped, missed, latency, "
+                    "swaps, swap_distance, lens, tilt, tilt_direction, height, headings, seed",
+                    "KEY=VALUE"});
+  options.add({"force", "replace files of other contents"});
 }
 
 /// Whether a file lies where those of single tracks are to be written, and is named as they are.

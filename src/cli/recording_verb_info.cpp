@@ -190,9 +190,9 @@ int recording_check(const Arguments& arguments) {
                       "Names everything in recordings that looks wrong, with file, frame and id, "
                       "and what is done about it. Exit code 2: not usable as it is.");
   add_reading_options(options);
-  options.add()("all", "show every finding, not ten of a kind")(
-      "csv", "write the findings to a table", cxxopts::value<std::string>(), "FILE")(
-      "force", "replace a file of other contents");
+  options.add({"all", "show every finding, not ten of a kind"});
+  options.add({"csv", "write the findings to a table", "FILE"});
+  options.add({"force", "replace a file of other contents"});
   if (!options.parse(arguments)) return Exit::done;
   const std::vector<NamedRecording> all = named_recordings(options, options.positional());
   options.spare_inputs("csv", options.text("csv"), files_read(all, options.positional()));

@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
+#include "cli/results.hpp"
 #include "cli/study_verb.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
@@ -19,8 +18,7 @@ Shard shard_of(const VerbOptions& options) {
   return shard_of_environment(std::getenv);
 }
 
-int threads_of(const VerbOptions& options) {
-  if (options.has("threads")) return static_cast<int>(options.whole("threads", 0, 1, kMostThreads));
+int usual_threads() {
   const char* cpus = std::getenv("SLURM_CPUS_PER_TASK");
   const auto value = parse_whole(cpus == nullptr ? "" : cpus);
   return value && *value >= 1 && *value <= kMostThreads ? static_cast<int>(*value) : 0;
@@ -70,12 +68,12 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
                   now.runs, now.left, now.worlds_per_second, now.hours_per_second,
                   now.failed > 0 ? ", diverged: " : "",
                   now.failed > 0 ? std::to_string(now.failed).c_str() : "");
-    progress.tell(now.done, note);
+    progress.show(now.done, note);
   };
   return run_study(study, job);
 }
 
-/// What to tell, and the exit code.
+/// What to print, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
   if (result.stopped) {
     throw Stopped("stopped after " + counted(result.runs, "run") +
@@ -106,28 +104,30 @@ int run_one(const Arguments& arguments) {
                       "Runs a study, or what is missing of it: every setting of its axes, many "
                       "replicates each.\nFurther words: lilytank study merge, status, report or "
                       "slurm, each with --help.");
-  options.add()("set", "a value for every setting, as run.duration='1 h'",
-                cxxopts::value<std::vector<std::string>>(),
-                "PATH=VALUE")("out", "directory of the results (default: out/<name>)",
-                              cxxopts::value<std::string>(), "DIR")(
-      "shard",
-      "do part i of n, 1/n to n/n (default: from Slurm's or Open MPI's environment, else all)",
-      cxxopts::value<std::string>(),
-      "I/N")("threads", "simulations at a time (default: SLURM_CPUS_PER_TASK, or one a core)",
-             cxxopts::value<std::string>(), "N")("dry-run", "check everything, write nothing")(
-      "force", "replace another study's files")("quiet", "no progress");
-  if (!options.parse(arguments)) return Exit::done;
-  const Study study(only_argument(options, "which study? write lilytank study STUDY.toml"),
-                    options.list("set"));
   StudyOptions job;
-  job.out = study_directory(options, study.plan().name);
+  std::vector<std::string> sets;
+  bool quiet = false;
+  options.add({"set", "a value for every setting, as run.duration='1 h'", "PATH=VALUE"}, &sets);
+  options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
+  options.add({"shard",
+               "do part i of n, 1/n to n/n (default: from Slurm's or Open MPI's environment, else "
+               "all)",
+               "I/N"});
+  job.threads = usual_threads();
+  options.add(
+      {"threads", "simulations at a time (default: SLURM_CPUS_PER_TASK, or one a core)", "N"},
+      &job.threads, 1, kMostThreads);
+  options.add({"dry-run", "check everything, write nothing"});
+  options.add({"force", "replace another study's files"}, &job.force);
+  options.add({"quiet", "no progress"}, &quiet);
+  if (!options.parse(arguments)) return Exit::done;
+  const Study study(only_argument(options, "which study? write lilytank study STUDY.toml"), sets);
+  job.out = options.out("out/" + study.plan().name);
   job.shard = shard_of(options);
-  job.threads = threads_of(options);
-  job.force = options.has("force");
   spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
   job.stop = &stop_signal();
-  return finish(study.plan(), run_with_progress(study, job, options.has("quiet")), job);
+  return finish(study.plan(), run_with_progress(study, job, quiet), job);
 }
 
 }  // namespace
@@ -139,12 +139,6 @@ std::string only_argument(const VerbOptions& options, const std::string& what) {
   const std::vector<std::string> further{"merge", "status", "report", "slurm"};
   options.refuse("one at a time, not '" + words[0] + "' and '" + words[1] + "'" +
                  did_you_mean(words[0], further));
-}
-
-std::string study_directory(const VerbOptions& options, const std::string& name) {
-  const std::string out = options.text("out", (std::filesystem::path("out") / name).string());
-  if (out.empty()) options.refuse("--out is empty");
-  return out;
 }
 
 void spare_read(const VerbOptions& options, const std::vector<std::string>& files,

@@ -10,8 +10,6 @@ namespace lilytank::cli {
 
 /// The one positional argument; refuses none or several.
 std::string only_argument(const VerbOptions& options, const std::string& what);
-/// --out, or out/<name of the study>.
-std::string study_directory(const VerbOptions& options, const std::string& name);
 /// Refuses --out if one of its `files`, which may be replaced, is one of the `inputs`: not even
 /// --force removes what is read.
 void spare_read(const VerbOptions& options, const std::vector<std::string>& files,

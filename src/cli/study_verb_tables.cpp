@@ -3,13 +3,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/results.hpp"
 #include "cli/study_verb.hpp"
 #include "lilytank/study_summary.hpp"
 #include "study/study_directory.hpp"
 #include "text/words.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 
 namespace lilytank::cli {
 namespace {
@@ -18,35 +16,34 @@ namespace fs = std::filesystem;
 
 const std::string kWhich = "which study? write the directory of its results, or its STUDY.toml";
 
-struct Asked {
+struct FoundStudy {
   std::string dir;
   StoredStudy study;
 };
 
-/// The study of a directory, or of a study file; nothing if only the help was asked for.
-std::optional<Asked> asked(VerbOptions& options, const Arguments& arguments) {
-  options.add()("out",
-                "directory of the results, where a STUDY.toml is given and it is not out/<name>",
-                cxxopts::value<std::string>(),
-                "DIR")("set", "as for lilytank study, where a STUDY.toml is given",
-                       cxxopts::value<std::vector<std::string>>(), "PATH=VALUE");
+/// The study of a directory, or of a study file; nothing if only the help was requested. Refuses
+/// one without runs where these are needed.
+std::optional<FoundStudy> found_study(VerbOptions& options, const Arguments& arguments,
+                                      bool needs_runs) {
+  std::vector<std::string> sets;
+  options.add({"out",
+               "directory of the results, where a STUDY.toml is given and it is not out/<name>",
+               "DIR"});
+  options.add({"set", "as for lilytank study, where a STUDY.toml is given", "PATH=VALUE"}, &sets);
   if (!options.parse(arguments)) return std::nullopt;
-  const std::string word = only_argument(options, kWhich);
+  FoundStudy found{only_argument(options, kWhich), {}};
   std::error_code ignored;
-  if (fs::is_directory(word, ignored)) return Asked{word, load_study(word)};
-  if (!fs::exists(word, ignored)) {
-    options.refuse("'" + word + "' is neither a directory nor a study file");
+  if (fs::is_directory(found.dir, ignored)) {
+    found.study = load_study(found.dir);
+  } else if (fs::exists(found.dir, ignored)) {
+    const StudyPlan plan = Study(found.dir, sets).plan();
+    found.dir = options.out("out/" + plan.name);
+    found.study = load_study(found.dir, plan);
+  } else {
+    options.refuse("'" + found.dir + "' is neither a directory nor a study file");
   }
-  const StudyPlan plan = Study(word, options.list("set")).plan();
-  const std::string dir = study_directory(options, plan.name);
-  return Asked{dir, load_study(dir, plan)};
-}
-
-/// The same, where there are runs.
-std::optional<Asked> asked_with_runs(VerbOptions& options, const Arguments& arguments) {
-  auto found = asked(options, arguments);
-  if (found && found->study.table.rows.empty()) {
-    options.refuse("there are no runs in '" + found->dir + "' yet");
+  if (needs_runs && found.study.table.rows.empty()) {
+    options.refuse("there are no runs in '" + found.dir + "' yet");
   }
   return found;
 }
@@ -91,18 +88,15 @@ std::string report(const StoredStudy& study, const std::string& dir) {
                          std::to_string(plan.seed),
                          {}};
   write_study_summary(summary, document, dir);
-#ifdef LILYTANK_HAS_RENDER
-  draw_study(summary, document, dir);
-#else
-  std::cerr << "no plots: this program was built without the renderer (Cairo was not found)\n";
-#endif
+  if constexpr (kDraws) draw_study(summary, document, dir);
+  if constexpr (!kDraws) say_undrawn("plots");
   return report_text(document);
 }
 
 int study_merge(const Arguments& arguments) {
   VerbOptions options("study merge", "DIR",
                       "Makes table.csv, one row a run, from what all shards have done.");
-  const auto found = asked_with_runs(options, arguments);
+  const auto found = found_study(options, arguments, true);
   if (!found) return Exit::done;
   write_table(found->study, found->dir);
   return completeness(found->study, (fs::path(found->dir) / "table.csv").string());
@@ -112,7 +106,7 @@ int study_report(const Arguments& arguments) {
   VerbOptions options("study report", "DIR",
                       "Writes a study's statistics and plots beside its runs, and prints the "
                       "statistics.");
-  const auto found = asked_with_runs(options, arguments);
+  const auto found = found_study(options, arguments, true);
   if (!found) return Exit::done;
   std::cout << report(found->study, found->dir) << std::flush;
   return completeness(found->study, "results in " + found->dir);
@@ -121,7 +115,7 @@ int study_report(const Arguments& arguments) {
 int study_status(const Arguments& arguments) {
   VerbOptions options("study status", "DIR",
                       "Counts simulations that are done, missing and diverged.");
-  const auto found = asked(options, arguments);
+  const auto found = found_study(options, arguments, false);
   if (!found) return Exit::done;
   const StoredStudy& study = found->study;
   std::size_t width = 8;

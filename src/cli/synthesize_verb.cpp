@@ -4,12 +4,10 @@
 #include <iostream>
 
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/synthesis.hpp"
 #include "text/number.hpp"
-#ifdef LILYTANK_HAS_RENDER
-#include "lilytank/render.hpp"
-#endif
 
 namespace lilytank::cli {
 namespace {
@@ -66,13 +64,12 @@ std::string file_text(const Plan& plan, const Ruleset& rules, const std::vector<
   return text.substr(0, first) + comments + text.substr(first);
 }
 
-std::string picture(const VerbOptions& options, [[maybe_unused]] const Target& target,
-                    [[maybe_unused]] const Plan& plan) {
-#ifdef LILYTANK_HAS_RENDER
-  return stages_picture(target, stages_of(target, plan), target.name, options.text("figure"));
-#else
-  options.refuse("--figure: this program was built without the renderer (Cairo was not found)");
-#endif
+std::string picture(const VerbOptions& options, const Target& target, const Plan& plan) {
+  if constexpr (kDraws) {
+    return stages_picture(target, stages_of(target, plan), target.name, options.text("figure"));
+  } else {
+    options.refuse("--figure: this program was built without the renderer (Cairo was not found)");
+  }
 }
 
 // Every plan's rules as NAME-01.rules, ... in a directory.
@@ -103,20 +100,20 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
   return Exit::done;
 }
 
-void add_synthesize_options(VerbOptions& options) {
-  const auto text = [] { return cxxopts::value<std::string>(); };
-  options.add()("algorithm", "singleton (the default), linchpin, balanced, or plan", text(),
-                "WORD")("tree", "a drawing of the same cells with the bonds to use", text(),
-                        "FILE")("order", "a drawing with numbered bonds: the whole plan", text(),
-                                "FILE")("modules", "how many there will be: warns of deadlocks",
-                                        text(), "M")(
-      "probabilities", "of r1_reverse, r2_reverse, ... as 0.01,0.005; --p for short", text(),
-      "LIST")("closures", "rules for the contacts that close a finished loop")(
-      "name", "of the ruleset (default: the target's)", text(), "WORD")(
-      "out", "file for the rules (default: the terminal)", text(), "FILE")(
-      "figure", "the stages of the assembly as .svg, .png or .pdf", text(), "FILE")(
-      "all", "the rules of all plans: every tree, algorithm and order", text(), "DIR")(
-      "force", "replace files of other contents");
+void add_synthesize_options(VerbOptions& options, EmitOptions& emitting, int& modules) {
+  options.add({"algorithm", "singleton (the default), linchpin, balanced, or plan", "WORD"});
+  options.add({"tree", "a drawing of the same cells with the bonds to use", "FILE"});
+  options.add({"order", "a drawing with numbered bonds: the whole plan", "FILE"});
+  options.add({"modules", "how many there will be: warns of deadlocks", "M"}, &modules, 1, 100000);
+  options.add(
+      {"probabilities", "of r1_reverse, r2_reverse, ... as 0.01,0.005; --p for short", "LIST"});
+  options.add({"closures", "rules for the contacts that close a finished loop"},
+              &emitting.closures);
+  options.add({"name", "of the ruleset (default: the target's)", "WORD"});
+  options.add({"out", "file for the rules (default: the terminal)", "FILE"});
+  options.add({"figure", "the stages of the assembly as .svg, .png or .pdf", "FILE"});
+  options.add({"all", "the rules of all plans: every tree, algorithm and order", "DIR"});
+  options.add({"force", "replace files of other contents"});
 }
 
 // The library takes a name of one letter for a short option, which has one dash.
@@ -146,12 +143,14 @@ int synthesize_verb(const Arguments& arguments) {
   VerbOptions options("synthesize", "TARGET.txt",
                       "Makes a ruleset that builds a target: a drawing of '#' for modules, with "
                       "bonds '-' and '|' between spaced ones where they matter.");
-  add_synthesize_options(options);
+  EmitOptions emitting;
+  int modules = 0;
+  add_synthesize_options(options, emitting, modules);
   if (!options.parse(with_long_name(arguments))) return Exit::done;
-  if (options.positional().size() != 1)
-    options.refuse("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
+  const std::string& file =
+      options.only("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
   check_outputs(options);
-  Target target = read_target(options.positional().front());
+  Target target = read_target(file);
   if (options.has("name")) {
     // The same rule for names as in a drawing.
     target.name = parse_target("name " + options.text("name") + "\n##\n", "--name").name;
@@ -159,10 +158,7 @@ int synthesize_verb(const Arguments& arguments) {
   if (options.has("tree") && options.has("order")) options.refuse("--tree or --order, not both");
   for (const char* option : {"tree", "order"})
     if (options.has(option)) take_bonds(options, option, target);
-  EmitOptions emitting;
   emitting.p = probabilities(options);
-  emitting.closures = options.has("closures");
-  const int modules = static_cast<int>(options.whole("modules", 0, 1, 100000));
   if (options.has("all")) return write_all(options, target, emitting, modules);
   const Plan plan = make_plan(target, algorithm(options, target));
   const Ruleset rules = emit(target, plan, emitting);

@@ -1,6 +1,8 @@
-// What blinded experiments say of a diagnosis, as a document.
+// What blinded experiments say of a diagnosis, as a document and as figures.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -60,10 +62,14 @@ std::string said_of(const ProofWorld& w) {
   return names.empty() ? name_of(w.verdict) : joined(names, " + ");
 }
 
-std::string held_text(int held, int all) {
-  const Estimate e = wilson(held, all);
-  return std::to_string(held) + " of " + std::to_string(all) + " (" + fixed(100 * e.low, 1) +
-         " to " + fixed(100 * e.high, 1) + " %)";
+// "95.1 to 99.0 %", of a fraction.
+std::string range_text(int n, int all) {
+  const Estimate e = wilson(n, all);
+  return fixed(100 * e.low, 1) + " to " + fixed(100 * e.high, 1) + " %";
+}
+
+std::string count_text(int n, int all) {
+  return std::to_string(n) + " of " + std::to_string(all);
 }
 
 // How many intervals hold the truth: the baseline's by path, all others together.
@@ -80,9 +86,13 @@ struct Coverage {
     }
   }
   /// "95 % intervals that hold the truth: ..." and a line a parameter.
-  std::vector<std::string> lines() const {
-    std::vector<std::string> out{"95 % intervals that hold the truth: " + held_text(held, all)};
-    for (const auto& [path, n] : by) out.push_back(path + ": " + held_text(n.first, n.second));
+  ReportSection section(const std::string& title) const {
+    ReportSection out{title + " (" + std::to_string(worlds) + ")"};
+    const auto add = [&](const std::string& of, int n, int in_all) {
+      out.above.push_back(of + ": " + count_text(n, in_all) + " (" + range_text(n, in_all) + ")");
+    };
+    add("95 % intervals that hold the truth", held, all);
+    for (const auto& [path, n] : by) add(path, n.first, n.second);
     return out;
   }
 };
@@ -94,12 +104,7 @@ void add_baselines(const Proof& proof, ReportDocument& report) {
     if (w.kind == "null" && !w.intervals.empty()) coverage.add(w);
   }
   if (coverage.worlds == 0) return;
-  report.sections.push_back(
-      {"Baseline parameters of null experiments (" + std::to_string(coverage.worlds) + ")",
-       coverage.lines(),
-       {},
-       {},
-       false});
+  report.sections.push_back(coverage.section("Baseline parameters of null experiments"));
 }
 
 // Intervals, fraction removed and gain of the experiments whose model was fitted.
@@ -114,23 +119,18 @@ void add_models(const Proof& proof, ReportDocument& report) {
   }
   if (coverage.worlds == 0) return;
   std::sort(removed.begin(), removed.end());
-  std::vector<std::string> lines = coverage.lines();
+  ReportSection section = coverage.section("Fitted models of correctly diagnosed experiments");
   if (!removed.empty()) {
-    const auto most =
-        std::count_if(removed.begin(), removed.end(), [](double r) { return r >= 0.7; });
-    lines.push_back("Fraction of a clear mismatch removed on further recordings: median " +
-                    fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
-                    fixed(100 * removed.front(), 0) + " %, 70 % and more in " +
-                    std::to_string(most) + " of " + std::to_string(removed.size()));
+    const auto most = static_cast<int>(
+        std::count_if(removed.begin(), removed.end(), [](double r) { return r >= 0.7; }));
+    section.above.push_back("Fraction of a clear mismatch removed on further recordings: median " +
+                            fixed(100 * removed[removed.size() / 2], 0) + " %, least " +
+                            fixed(100 * removed.front(), 0) + " %, 70 % and more in " +
+                            count_text(most, static_cast<int>(removed.size())));
   }
-  lines.push_back("Log-likelihood gain one step ahead above 0 in " + std::to_string(gained) +
-                  " of " + std::to_string(coverage.worlds));
-  report.sections.push_back(
-      {"Fitted models of correctly diagnosed experiments (" + std::to_string(coverage.worlds) + ")",
-       std::move(lines),
-       {},
-       {},
-       false});
+  section.above.push_back("Log-likelihood gain one step ahead above 0 in " +
+                          count_text(gained, coverage.worlds));
+  report.sections.push_back(std::move(section));
 }
 
 // Proofs of the same tank have the same nulls.
@@ -169,14 +169,12 @@ void add_simpler(std::span<const Proof> proofs, ReportDocument& report) {
     }
   }
   if (nulls == 0 || strong == 0) return;
-  const auto of = [](int n, int all) { return std::to_string(n) + " of " + std::to_string(all); };
-  ReportSection section;
-  section.title = "Simpler methods on the same experiments (one effect, expected z >= 10)";
+  ReportSection section{"Simpler methods on the same experiments (one effect, expected z >= 10)"};
   section.table.head = {"method", "right", "wrong name", "false positives"};
-  section.table.rows = {{"this diagnosis", of(ours, strong), "", ""},
-                        {"finite differences with sparse regression", of(right, strong),
-                         of(wrong, strong), of(alarms, nulls)},
-                        {"MSD alone (notices, does not name)", of(seen, compared), "", ""}};
+  section.table.rows = {{"this diagnosis", count_text(ours, strong), "", ""},
+                        {"finite differences with sparse regression", count_text(right, strong),
+                         count_text(wrong, strong), count_text(alarms, nulls)},
+                        {"MSD alone (notices, does not name)", count_text(seen, compared), "", ""}};
   report.sections.push_back(std::move(section));
 }
 
@@ -202,8 +200,7 @@ void add_worlds(const Proof& proof, ReportDocument& report) {
     }
     taken[{key_of(w), said_of(w)}] += 1;
   }
-  ReportSection table;
-  table.title = "Diagnoses by kind of experiment";
+  ReportSection table{"Diagnoses by kind of experiment"};
   table.table.head = {"experiments", "n",          "right",         "95 % from",
                       "to",          "wrong name", "no discrepancy"};
   for (const auto& [name, r] : rates) {
@@ -213,8 +210,7 @@ void add_worlds(const Proof& proof, ReportDocument& report) {
                                 std::to_string(r.wrong_name), std::to_string(r.silent)});
   }
   report.sections.push_back(std::move(table));
-  ReportSection confusion;
-  confusion.title = "Ground truth and diagnosis";
+  ReportSection confusion{"Ground truth and diagnosis"};
   confusion.detail = true;
   confusion.table.head = {"ground truth", "diagnosis", "times"};
   for (const auto& [pair, n] : taken) {
@@ -224,9 +220,7 @@ void add_worlds(const Proof& proof, ReportDocument& report) {
 }
 
 std::string rate_text(int n, int all) {
-  const Estimate e = wilson(n, all);
-  return std::to_string(n) + " of " + std::to_string(all) + " (95 %: " + fixed(100 * e.low, 1) +
-         " to " + fixed(100 * e.high, 1) + " %)";
+  return count_text(n, all) + " (95 %: " + range_text(n, all) + ")";
 }
 
 ReportCard card_of(const Proof& proof, std::size_t tanks) {
@@ -247,6 +241,52 @@ ReportCard card_of(const Proof& proof, std::size_t tanks) {
   }
   card.facts.emplace_back("wrong names", rate_text(wrong, static_cast<int>(proof.worlds.size())));
   return card;
+}
+
+constexpr std::array<double, 5> kEdges = {0, 5, 10, 20, 1e300};  // of expected z
+
+ProofPoint point_of(const ProofWorld& w) {
+  ProofPoint out;
+  out.row = w.kind == "two"       ? "two effects"
+            : w.kind == "unnamed" ? "a law of no effect"
+                                  : w.effects[0];
+  out.expected_z = std::max(w.expected_z, ProofFigures::kLeastZ);
+  // A wrong name is one, whatever is right beside it.
+  if (w.wrong_name()) {
+    out.outcome = ProofPoint::Outcome::wrong_name;
+  } else if (w.right()) {
+    out.outcome = ProofPoint::Outcome::right;
+  } else if (w.verdict == Verdict::complete) {
+    out.outcome = ProofPoint::Outcome::silent;
+  }
+  return out;
+}
+
+std::vector<ProofPower> power_of(std::span<const Proof> proofs, const std::string& kind) {
+  std::array<ProofPower, kEdges.size() - 1> ranges;
+  for (const Proof& p : proofs) {
+    for (const ProofWorld& w : p.worlds) {
+      if (w.kind != kind) continue;
+      const auto above = std::upper_bound(kEdges.begin() + 1, kEdges.end() - 1, w.expected_z);
+      ProofPower& of = ranges[static_cast<std::size_t>(above - kEdges.begin() - 1)];
+      of.all += 1, of.right += w.right() ? 1 : 0;
+      of.z += std::log(std::max(w.expected_z, ProofFigures::kLeastZ));
+    }
+  }
+  std::vector<ProofPower> out;
+  for (ProofPower of : ranges) {
+    if (of.all == 0) continue;
+    const Estimate share = wilson(of.right, of.all);
+    of.z = std::exp(of.z / of.all), of.low = share.low, of.high = share.high;
+    out.push_back(of);
+  }
+  return out;
+}
+
+double in_half_widths(const ProofInterval& of) {
+  const double off = of.value - of.truth, half = off > 0 ? of.value - of.low : of.high - of.value;
+  if (off == 0) return 0;
+  return half > 0 ? off / half : std::copysign(std::numeric_limits<double>::infinity(), off);
 }
 
 }  // namespace
@@ -276,6 +316,24 @@ ReportDocument proof_report(std::span<const Proof> proofs) {
 
 std::string proof_text(std::span<const Proof> proofs) {
   return report_text(proof_report(proofs));
+}
+
+ProofFigures proof_figures(std::span<const Proof> proofs) {
+  ProofFigures out;
+  for (const Proof& p : proofs) {
+    for (const ProofWorld& w : p.worlds) {
+      if (w.kind != "null") out.points.push_back(point_of(w));
+      for (const ProofInterval& of : w.intervals) {
+        (of.of_effect(w.effects) ? out.effect_errors : out.baseline_errors)
+            .push_back(in_half_widths(of));
+      }
+    }
+  }
+  std::sort(out.baseline_errors.begin(), out.baseline_errors.end());
+  std::sort(out.effect_errors.begin(), out.effect_errors.end());
+  out.named = power_of(proofs, "named"), out.two = power_of(proofs, "two");
+  out.unnamed = power_of(proofs, "unnamed");
+  return out;
 }
 
 }  // namespace lilytank

@@ -31,8 +31,8 @@ FlowReport sample_report() {
   return report;
 }
 
-const Map& named(const std::vector<FlowMap>& maps, const std::string& name) {
-  for (const FlowMap& m : maps) {
+const Map& named(const std::vector<Figure>& maps, const std::string& name) {
+  for (const Figure& m : maps) {
     if (m.name == name) return m.map;
   }
   ADD_FAILURE() << "no map " << name;

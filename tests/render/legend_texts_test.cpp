@@ -1,5 +1,5 @@
 // What legends write where names are too wide.
-#include "../../render/legend_texts.hpp"
+#include "../../render/cut_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -23,9 +23,9 @@ void draw(const StudyTable& table, const std::string& dir) {
   draw_study(summary, report, dir);
 }
 
-const Plot* find(const std::vector<StudyPlot>& plots, const std::string& name) {
-  for (const StudyPlot& p : plots) {
-    if (p.name == name) return &p.plot;
+const Plot* find(const std::vector<Figure>& plots, const std::string& name) {
+  for (const Figure& p : plots) {
+    if (p.name == name) return &p.page.plots[0];
   }
   return nullptr;
 }

@@ -1,12 +1,25 @@
-#include "cli/stored_poses.hpp"
+#include "cli/inputs.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "io/scenario_layers.hpp"
+#include "lilytank/bodies.hpp"
 #include "text/number.hpp"
 
 namespace lilytank::cli {
 namespace {
+
+/// Recordings of a tank may be of points as well, but name no column as "x" and have no baseline.
+bool has_keys_of_bodies(const Layer& layer) {
+  const auto any = [](const std::vector<Assignment>& values, const auto& is) {
+    return std::any_of(values.begin(), values.end(), is);
+  };
+  for (const CommandTable& recording : layer.recordings) {
+    if (any(recording.fields, [](const Assignment& a) { return a.path() == "x"; })) return true;
+  }
+  return any(layer.values, [](const Assignment& a) { return a.keys.front() == "baseline"; });
+}
 
 constexpr std::size_t kMostTimes = 2000;  // looked at, of a long film's
 
@@ -28,6 +41,20 @@ void add_ways(const Trajectory& t, double time, std::vector<double>& ways) {
 }
 
 }  // namespace
+
+void refuse_point_bodies(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (!file.ends_with(".toml") || !is_body_experiment(file)) continue;
+    const Layer layer = read_layers({file}, {}).front();
+    if (!has_keys_of_bodies(layer)) continue;
+    SourcePlace place{file, 0, 0};
+    for (const Assignment& a : layer.experiment) {
+      if (a.path() == "body") place = a.place;
+    }
+    throw InputError(place,
+                     "this is an experiment of point bodies: for lilytank diagnose, one at a time");
+  }
+}
 
 double stored_rate(const Trajectory& t) {
   return t.frames() > 1 ? (t.frames() - 1) / (t.time.back() - t.time.front()) : 0;

@@ -1,12 +1,18 @@
-#include "cli/provenance.hpp"
+#include "cli/results.hpp"
+
+#include <filesystem>
+#include <iostream>
 
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
 #include "recording/files.hpp"
+#include "study/study_directory.hpp"
 
 namespace lilytank::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// A word as a shell would need it.
 std::string quoted(const std::string& word) {
@@ -36,6 +42,23 @@ std::vector<std::string> essential(const Arguments& arguments) {
 
 }  // namespace
 
+void check_directory_can_be(const std::string& dir) {
+  std::error_code ignored;
+  if (fs::exists(dir, ignored)) {
+    if (fs::is_directory(dir, ignored)) return;
+    throw InputError("'" + dir + "' is a file; the results need a directory");
+  }
+  fs::path above = fs::absolute(dir, ignored);
+  while (above.has_relative_path() && !fs::exists(above, ignored)) above = above.parent_path();
+  if (fs::is_directory(above, ignored)) return;
+  throw InputError(system_problem("cannot make", dir, ENOTDIR));
+}
+
+void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force) {
+  check_directory_can_be(dir);
+  check_study_directory(dir, plan, force);
+}
+
 ReportProvenance provenance(const std::string& verb, const Arguments& arguments, std::uint64_t seed,
                             const std::vector<std::string>& inputs) {
   ReportProvenance out;
@@ -58,6 +81,17 @@ std::string identity_of(const ReportProvenance& provenance) {
   std::string text = provenance.command + "\n" + provenance.version + "\n" + provenance.seed;
   for (const auto& [file, hash] : provenance.inputs) text += "\n" + hash;
   return sha256(text);
+}
+
+void say_undrawn(const std::string& what) {
+  std::cerr << "no " << what
+            << ": this program was built without the renderer (Cairo was not found)\n";
+}
+
+int print_results(const ReportDocument& report, const std::string& dir) {
+  std::cout << report_text(report) << std::flush;
+  std::cerr << "results in " << dir << "\n";
+  return Exit::done;
 }
 
 }  // namespace lilytank::cli

@@ -1,4 +1,4 @@
-// Warnings about runs that store poses too seldom for a film or an analysis.
+// Refusals and warnings about what verbs read.
 #pragma once
 #include <string>
 #include <vector>
@@ -6,6 +6,10 @@
 #include "lilytank/run.hpp"
 
 namespace lilytank::cli {
+
+/// Throws InputError if one of the files is an experiment that lilytank diagnose alone reads,
+/// rather than let its first key be called unknown.
+void refuse_point_bodies(const std::vector<std::string>& files);
 
 /// Poses of a body that were stored in a second, on average; 0 for fewer than two.
 double stored_rate(const Trajectory& trajectory);

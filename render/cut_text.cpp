@@ -1,25 +1,13 @@
-#include "legend_texts.hpp"
+#include "cut_text.hpp"
 
 namespace lilytank {
 namespace {
-
-using Width = std::function<double(const std::string&)>;
 
 bool within_character(char c) {
   return (c & 0xC0) == 0x80;  // UTF-8
 }
 
-std::string begin_of(const std::string& name, double widest, const Width& width) {
-  if (width(name) <= widest) return name;
-  std::string cut = name;
-  do {
-    while (!cut.empty() && within_character(cut.back())) cut.pop_back();
-    if (!cut.empty()) cut.pop_back();
-  } while (!cut.empty() && width(cut + "…") > widest);
-  return cut + "…";
-}
-
-std::string end_of(const std::string& name, double widest, const Width& width) {
+std::string end_within(const std::string& name, double widest, const TextWidth& width) {
   if (width(name) <= widest) return name;
   std::size_t from = 0;
   do {
@@ -41,15 +29,25 @@ bool alike(const std::vector<std::string>& cut, const std::vector<std::string>& 
 
 }  // namespace
 
+std::string begin_within(const std::string& s, double widest, const TextWidth& width) {
+  if (width(s) <= widest) return s;
+  std::string cut = s;
+  do {
+    while (!cut.empty() && within_character(cut.back())) cut.pop_back();
+    if (!cut.empty()) cut.pop_back();
+  } while (!cut.empty() && width(cut + "…") > widest);
+  return cut + "…";
+}
+
 std::vector<std::string> cut_apart(const std::vector<std::string>& names, double widest,
-                                   const Width& width) {
+                                   const TextWidth& width) {
   std::vector<std::string> cut;
-  for (const std::string& name : names) cut.push_back(begin_of(name, widest, width));
+  for (const std::string& name : names) cut.push_back(begin_within(name, widest, width));
   if (!alike(cut, names)) return cut;
-  for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = end_of(names[i], widest, width);
+  for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = end_within(names[i], widest, width);
   if (!alike(cut, names)) return cut;
   for (std::size_t i = 0; i < cut.size(); ++i) {
-    cut[i] = begin_of(std::to_string(i + 1) + ": " + names[i], widest, width);
+    cut[i] = begin_within(std::to_string(i + 1) + ": " + names[i], widest, width);
   }
   return cut;
 }
