@@ -43,8 +43,8 @@ Moments moments(const std::vector<double>& value, const std::vector<int>& stay, 
   std::vector<double> first(static_cast<std::size_t>(stays)), second(first.size());
   for (std::size_t i = 0; i < value.size(); ++i) {
     const double d = value[i] - m.mean;
-    first[static_cast<std::size_t>(stay[i])] += d;
-    second[static_cast<std::size_t>(stay[i])] += d * d - variance;
+    first[stay[i]] += d;
+    second[stay[i]] += d * d - variance;
   }
   double mean_sum = 0, variance_sum = 0;
   for (std::size_t s = 0; s < first.size(); ++s) {

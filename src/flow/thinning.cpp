@@ -66,7 +66,7 @@ void find_stays(const FlowSamples& s, double thinning, CellSamples& cell) {
 std::vector<CellSamples> by_cell(const FlowSamples& samples, int cells, double& thinning) {
   std::vector<CellSamples> out(static_cast<std::size_t>(cells));
   for (std::size_t i = 0; i < samples.cell.size(); ++i) {
-    out[static_cast<std::size_t>(samples.cell[i])].sample.push_back(static_cast<std::uint32_t>(i));
+    out[samples.cell[i]].sample.push_back(static_cast<std::uint32_t>(i));
   }
   thinning = thinning_time(samples, out);
   for (CellSamples& cell : out) find_stays(samples, thinning, cell);

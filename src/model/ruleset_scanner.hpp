@@ -1,4 +1,4 @@
-// Reads one line of a ruleset file word by word and says what is wrong with it, and where.
+// Reads one line of a ruleset file word by word and reports what is wrong with it, and where.
 #pragma once
 #include <string>
 #include <string_view>

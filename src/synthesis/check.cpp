@@ -36,12 +36,11 @@ void judge_species(const Ruleset& rules, RulesetCheck& check) {
     check.faults.push_back("there are more assemblies than were explored: nothing is proved");
   if (!check.target_reached) check.faults.push_back("the rules cannot build the target");
   if (!check.other_finals.empty())
-    check.faults.push_back(
-        "the rules build " +
-        many(static_cast<std::int64_t>(check.other_finals.size()), "other assembly",
-             "other assemblies") +
-        " of the target's size or more, as " +
-        network.species[static_cast<std::size_t>(check.other_finals.front())].drawing);
+    check.faults.push_back("the rules build " +
+                           many(static_cast<std::int64_t>(check.other_finals.size()),
+                                "other assembly", "other assemblies") +
+                           " of the target's size or more, as " +
+                           network.species[check.other_finals.front()].drawing);
   if (check.target_reached && !check.target_stable)
     check.notes.push_back("finished copies can fall apart again");
 }
@@ -56,7 +55,7 @@ void judge_rules(const Ruleset& rules, RulesetCheck& check) {
   }
   std::set<std::string> lost;
   for (const Reaction& reaction : check.network.blocked)
-    lost.insert(rules.rules[static_cast<std::size_t>(reaction.rule)].name);
+    lost.insert(rules.rules[reaction.rule].name);
   for (const std::string& name : lost)
     check.notes.push_back("some joins of " + name + " have no straight way in and are left out");
 }

@@ -26,12 +26,10 @@ Algorithm algorithm_of(const std::string& name) {
 std::vector<int> maximal_joins(const Target& target, const Plan& plan) {
   std::vector<int> last(target.cells.size(), -1), found;
   for (std::size_t k = 0; k < plan.joins.size(); ++k)
-    last[static_cast<std::size_t>(plan.joins[k].a)] =
-        last[static_cast<std::size_t>(plan.joins[k].b)] = static_cast<int>(k);
+    last[plan.joins[k].a] = last[plan.joins[k].b] = static_cast<int>(k);
   for (int k = 0; k < static_cast<int>(plan.joins.size()); ++k) {
-    const Contact& join = plan.joins[static_cast<std::size_t>(k)];
-    if (last[static_cast<std::size_t>(join.a)] == k && last[static_cast<std::size_t>(join.b)] == k)
-      found.push_back(k);
+    const Contact& join = plan.joins[k];
+    if (last[join.a] == k && last[join.b] == k) found.push_back(k);
   }
   return found;
 }
@@ -39,7 +37,7 @@ std::vector<int> maximal_joins(const Target& target, const Plan& plan) {
 std::vector<int> blocked_joins(const Target& target, const Plan& plan) {
   const auto cells = [&](const std::vector<int>& members) {
     std::vector<Cell> found;
-    for (const int k : members) found.push_back(target.cells[static_cast<std::size_t>(k)]);
+    for (const int k : members) found.push_back(target.cells[k]);
     return found;
   };
   Parts parts(static_cast<int>(target.cells.size()));
@@ -47,8 +45,7 @@ std::vector<int> blocked_joins(const Target& target, const Plan& plan) {
   for (std::size_t k = 0; k < plan.joins.size(); ++k) {
     const Contact& join = plan.joins[k];
     if (!can_approach(cells(parts.members(join.a)), cells(parts.members(join.b)),
-                      target.cells[static_cast<std::size_t>(join.a)],
-                      direction_of(target, join.a, join.b)))
+                      target.cells[join.a], direction_of(target, join.a, join.b)))
       blocked.push_back(static_cast<int>(k));
     parts.join(join.a, join.b);
   }
@@ -123,7 +120,7 @@ Plan singleton_plan(const Target& target, const std::vector<Contact>& tree) {
 Plan linchpin_plan(const Target& target, const std::vector<Contact>& tree, int linchpin) {
   const auto next_to = neighbours_of(static_cast<int>(target.cells.size()), tree);
   if (linchpin < 0) linchpin = most_equal_edges(next_to, tree).front();
-  return {Algorithm::linchpin, linchpin_order(next_to, tree[static_cast<std::size_t>(linchpin)])};
+  return {Algorithm::linchpin, linchpin_order(next_to, tree[linchpin])};
 }
 
 Plan balanced_plan(const Target& target, const std::vector<Contact>& tree) {
