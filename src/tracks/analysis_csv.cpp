@@ -121,7 +121,7 @@ std::string curve_csv(const Analysis& analysis, const AnalysisCurves& curves) {
   std::string out = source_head(analysis) + "," + column(curves.x_name, curves.x_unit) + "," +
                     column(curves.y_name, curves.y_unit) + ",low,high,tracks,samples\n";
   for (const AnalysisCurves::Of& of : curves.sources) {
-    const SourceSummary& s = analysis.sources[static_cast<std::size_t>(of.source)];
+    const SourceSummary& s = analysis.sources[of.source];
     add_rows(out, source_cells(analysis, s), curves.x, of.curve, &of);
   }
   if (!curves.difference.value.empty()) {

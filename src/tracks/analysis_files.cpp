@@ -6,10 +6,6 @@
 
 namespace lilytank {
 
-std::string analysis_text(const Analysis& analysis) {
-  return report_text(analysis_report(analysis));
-}
-
 std::vector<std::pair<std::string, std::string>> analysis_files(const Analysis& analysis,
                                                                 const ReportDocument& report) {
   std::vector<std::pair<std::string, std::string>> files{

@@ -24,7 +24,7 @@ LagPlace place_of(double lag, double rate) {
   LagPlace place;
   place.frame[0] = place.frame[1] = place.frame[2] = static_cast<std::size_t>(nearest);
   if (std::fabs(frames - nearest) <= 1e-6 * std::max(1.0, frames)) return place;
-  // Frame 0 is left out: noise does not show there.
+  // Frame 0 is excluded: noise does not show there.
   const double middle = std::max(2.0, nearest), u = frames - middle;
   for (int i = 0; i < 3; ++i) place.frame[i] = static_cast<std::size_t>(middle) + i - 1;
   place.share[0] = u * (u - 1) / 2, place.share[1] = 1 - u * u, place.share[2] = u * (u + 1) / 2;
@@ -146,23 +146,6 @@ BodySums spin_products(const SmoothRecording& recording, const std::vector<doubl
     z.resize(track.spin.size());
     for (std::size_t f = 0; f < z.size(); ++f) z[f] = track.seen[f] ? track.spin[f] : kUndefined;
   });
-}
-
-MsdCurve mean_squared_displacement(const Recording& recording, const std::vector<int>& lags,
-                                   Origins origins) {
-  MsdCurve curve;
-  for (const int lag : lags) curve.lag.push_back(lag / recording.rate);
-  const BodySums sums = squared_displacements(recording, curve.lag, origins);
-  for (std::size_t i = 0; i < lags.size(); ++i) {
-    double sum = 0, count = 0;
-    for (std::size_t at = i; at < sums.sum.size(); at += lags.size()) {
-      sum += sums.sum[at], count += sums.weight[at];
-    }
-    curve.msd.push_back(count > 0 ? sum / count : 0);
-    curve.count.push_back(std::llround(count));
-  }
-  curve.tracks = sums.tracks;
-  return curve;
 }
 
 }  // namespace lilytank

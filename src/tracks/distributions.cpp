@@ -52,7 +52,7 @@ BodySums sums_for(const SmoothRecording& recording, int bins, Quantity quantity)
   sums.bins = bins;
   sums.sum.assign(bodies * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
-  sums.tracks.assign(static_cast<std::size_t>(bins), tracks);
+  sums.tracks.assign(bins, tracks);
   return sums;
 }
 
@@ -115,8 +115,7 @@ BodySums radial_density(const SmoothRecording& recording, double tank_radius, co
   const auto edge = [&](int i) { return bins.low + i * bins.width(); };
   std::vector<double> share(n);  // of the tank's area
   for (int i = 0; i < bins.count; ++i) {
-    share[static_cast<std::size_t>(i)] =
-        (edge(i + 1) * edge(i + 1) - edge(i) * edge(i)) / (tank_radius * tank_radius);
+    share[i] = (edge(i + 1) * edge(i + 1) - edge(i) * edge(i)) / (tank_radius * tank_radius);
   }
   for_each_seen(recording, Quantity::speed,
                 [&](std::size_t body, const SmoothTrack& t, std::size_t f) {

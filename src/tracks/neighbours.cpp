@@ -20,8 +20,7 @@ BodySums empty_sums(const SmoothRecording& recording, const FramesView& frames, 
   sums.bins = bins;
   sums.sum.assign(frames.bodies() * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
-  sums.tracks.assign(static_cast<std::size_t>(bins),
-                     static_cast<std::int64_t>(recording.tracks.size()));
+  sums.tracks.assign(bins, static_cast<std::int64_t>(recording.tracks.size()));
   return sums;
 }
 
@@ -46,7 +45,7 @@ void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, co
   }
 }
 
-// Every how many frames one is looked at, for ten a second.
+// Frames from one that is evaluated to the next, for ten a second.
 std::size_t stride_of(const SmoothRecording& recording) {
   return static_cast<std::size_t>(std::max(1.0, std::round(recording.rate / 10)));
 }
@@ -81,7 +80,7 @@ double gap_along(const SeenBody& a, const SeenBody& b, double side) {
 
 double gap(const SeenBody& a, const SeenBody& b, const ContactRule& rule) {
   const double apart = distance(a, b);
-  // Beyond their corners' reach no axes need to be looked at.
+  // Beyond their corners' reach no axes need to be tested.
   if (!rule.squares || apart > 1.4142135623730951 * rule.size + rule.apart) {
     return apart - rule.size;
   }
