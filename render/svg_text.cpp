@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "text/markup.hpp"
 #include "text/number.hpp"
 #include "text/printable.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {

@@ -3,7 +3,7 @@
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
-#include "recording/files.hpp"
+#include "recording/formats.hpp"
 
 namespace lilytank::cli {
 namespace {

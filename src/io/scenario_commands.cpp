@@ -48,7 +48,8 @@ class CommandReader {
     } else if (name == "power") {
       power_ = &field;
     } else if (name == "do") {
-      take_word(field);
+      const std::size_t kind = index_of_word(field, "command.do", command_words());
+      out_.command.kind = static_cast<CommandKind>(kind), has_do_ = true;
     } else if (name == "modules") {
       take_modules(field);
     } else if (name == "file") {
@@ -104,15 +105,6 @@ class CommandReader {
     const std::string shown = unit == "1" ? "" : " " + unit;
     throw InputError(field.place, "command." + name + " = " + shortest(value) + shown +
                                       " is outside 0 .. " + shortest(high) + shown);
-  }
-
-  void take_word(const Assignment& field) {
-    const auto& words = command_words();
-    const std::string word = text_of(field, "command.do");
-    const auto found = std::find(words.begin(), words.end(), word);
-    if (found == words.end()) throw unknown_word(field.place, "command.do", word, words);
-    out_.command.kind = static_cast<CommandKind>(found - words.begin());
-    has_do_ = true;
   }
 
   void take_modules(const Assignment& field) {

@@ -1,4 +1,4 @@
-// Lines of a table, which may be looked at before they are taken.
+// Lines of a table with lookahead.
 #pragma once
 #include <deque>
 #include <string>

@@ -33,6 +33,18 @@ Markings markings_of(const World& world, int module, const std::vector<std::uint
   return out;
 }
 
+void append_poses(const World& world, Trajectory& trajectory) {
+  const Kinematics& k = world.kinematics();
+  trajectory.bodies = k.size();
+  trajectory.modules = k.modules;
+  trajectory.time.push_back(world.time());
+  for (int i = 0; i < k.size(); ++i) {
+    trajectory.x.push_back(static_cast<float>(k.x[i]));
+    trajectory.y.push_back(static_cast<float>(k.y[i]));
+    trajectory.theta.push_back(static_cast<float>(angle_of({k.c[i], k.s[i]})));
+  }
+}
+
 std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,
                                                   const Model& model, const FileDigest* keep) {
   if (format == TrajectoryFormat::csv) return open_csv_trajectory(file, keep);

@@ -66,10 +66,7 @@ class BinaryWriter final : public TrajectoryWriter {
     out_.append(frame_);
   }
 
-  FileDigest flush() override {
-    out_.flush();
-    return out_.digest();
-  }
+  FileDigest flush() override { return out_.flush(); }
 
  private:
   AppendFile out_;

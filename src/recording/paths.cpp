@@ -80,7 +80,7 @@ std::vector<Path> make_paths(const Sightings& s, const FrameClock& clock, Report
 void check_gaps(const std::vector<Path>& paths, const CheckContext& c) {
   std::vector<bool> any(static_cast<std::size_t>(c.clock.frames));
   for (const Path& path : paths) {
-    for (const Point& point : path.points) any[static_cast<std::size_t>(point.frame)] = true;
+    for (const Point& point : path.points) any[point.frame] = true;
   }
   std::vector<int> before(any.size() + 1);  // frames with something, of those before
   for (std::size_t f = 0; f < any.size(); ++f) before[f + 1] = before[f] + (any[f] ? 1 : 0);
@@ -101,8 +101,7 @@ void check_gaps(const std::vector<Path>& paths, const CheckContext& c) {
   for (const Path& path : paths) {
     for (std::size_t i = 1; i < path.points.size(); ++i) {
       const int from = path.points[i - 1].frame + 1, to = path.points[i].frame;
-      const int unseen =
-          before[static_cast<std::size_t>(to)] - before[static_cast<std::size_t>(from)];
+      const int unseen = before[to] - before[from];
       if (unseen > 0) note(c.place(path.points[i]), from, to - from, path.id);
     }
   }
