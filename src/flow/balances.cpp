@@ -69,8 +69,7 @@ class Finder {
       const Track& t = *out_.tracks[k];
       const int at = frame - t.first, n = static_cast<int>(t.x.size());
       if (std::isnan(t.x[at])) continue;
-      const auto i = static_cast<std::size_t>(at);
-      Place p{t.x[i], t.y[i], 0, 0, static_cast<std::int32_t>(k), at};
+      Place p{t.x[at], t.y[at], 0, 0, static_cast<std::int32_t>(k), at};
       const int back = at - 2 * shape_.half;
       if (back >= 0 && !std::isnan(t.x[back])) {
         p.vx = (p.x - t.x[back]) / shape_.box();

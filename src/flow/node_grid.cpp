@@ -65,11 +65,10 @@ Stencil NodeGrid::stencil(double x, double y) const {
   double sum = 0;
   int any = -1;
   for (int k = 0; k < 4; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    s.node[i] = node_[(iy + k / 2) * grid_.cells + ix + k % 2];
-    s.weight[i] = s.node[i] < 0 ? 0 : weight[i];
-    sum += s.weight[i];
-    if (s.node[i] >= 0) any = s.node[i];
+    s.node[k] = node_[(iy + k / 2) * grid_.cells + ix + k % 2];
+    s.weight[k] = s.node[k] < 0 ? 0 : weight[k];
+    sum += s.weight[k];
+    if (s.node[k] >= 0) any = s.node[k];
   }
   for (std::size_t i = 0; i < 4; ++i) {
     if (s.node[i] < 0) s.node[i] = std::max(any, 0);

@@ -16,10 +16,7 @@ int last_command(const Model& model, CommandKind kind, int given, int copies) {
 }
 
 int said_by(const Model& model, int place, int Command::*what) {
-  if (place < 0) return 0;
-  const auto i = static_cast<std::size_t>(place);
-  const std::size_t timed = model.commands.size();
-  return i < timed ? model.commands[i].*what : model.feedback[i - timed].*what;
+  return place < 0 ? 0 : command_at(model, place).*what;
 }
 
 const Command& command_at(const Model& model, int index) {

@@ -12,31 +12,12 @@ namespace lilytank {
 namespace {
 
 constexpr std::string_view kHeader = "lilytank ruleset 1";
-const std::string kNameForm = "expected a letter, then letters, digits, '_' or '-'";
 
-bool letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool name_letter(char c) {
-  return letter(c) || (c >= '0' && c <= '9') || c == '-';
-}
-
-// Rule names are keys in `rules.<name>.p`.
-bool good_name(std::string_view name) {
-  return !name.empty() && letter(name[0]) && std::all_of(name.begin(), name.end(), name_letter);
-}
-
-std::string text_of(Label label) {
-  return "(" + std::to_string(label.state) + "," + std::to_string(label.hop) + ")";
-}
 std::string text_of(const std::array<Label, 2>& side, bool held) {
   return text_of(side[0]) + (held ? "-" : " ") + text_of(side[1]);
 }
 bool held_before(const Rule& rule) {
   return rule.kind != RuleKind::link;
-}
-bool held_after(const Rule& rule) {
-  return rule.kind != RuleKind::unlink;
 }
 
 // Reads a ruleset line by line.
@@ -99,7 +80,7 @@ class Parser {
     seen_once("name", in);
     const SourcePlace place = in.place();
     out_.name = std::string(in.word());
-    if (!good_name(out_.name))
+    if (!is_name(out_.name))
       throw InputError(place, "'" + out_.name + "' is not a name: " + kNameForm);
     in.expect_end("the name");
   }
@@ -193,8 +174,7 @@ class Parser {
 
   std::string rule_name(std::string name, const SourcePlace& place) {
     if (name.empty()) name = "r" + std::to_string(out_.rules.size() + 1);
-    if (!good_name(name))
-      throw InputError(place, "'" + name + "' is not a rule name: " + kNameForm);
+    if (!is_name(name)) throw InputError(place, "'" + name + "' is not a rule name: " + kNameForm);
     const auto [old, fresh] = seen_.try_emplace(":" + name, number_);
     if (!fresh)
       throw InputError(place, "two rules are named '" + name + "': the first is in line " +
@@ -226,7 +206,7 @@ class Parser {
       const std::size_t slash = out_.file.find_last_of("/\\");
       const std::string base = slash == std::string::npos ? out_.file : out_.file.substr(slash + 1);
       out_.name = base.substr(0, base.find('.'));
-      if (!good_name(out_.name)) out_.name = "ruleset";
+      if (!is_name(out_.name)) out_.name = "ruleset";
     }
     check_probabilities(out_);
   }
@@ -286,6 +266,11 @@ Ruleset read_ruleset(const std::string& file) {
   return parse_ruleset(text.str(), file);
 }
 
+std::string rule_text(const Rule& rule) {
+  return text_of(rule.before, held_before(rule)) + " -> " +
+         text_of(rule.after, rule.kind != RuleKind::unlink);
+}
+
 std::string to_text(const Ruleset& rules) {
   std::string out = std::string(kHeader) + "\nname " + rules.name + "\nhops counter-clockwise\n";
   if (!rules.target.empty()) {
@@ -304,8 +289,7 @@ std::string to_text(const Ruleset& rules) {
   for (const Rule& rule : rules.rules) width = std::max(width, rule.name.size());
   for (const Rule& rule : rules.rules) {
     out += rule.name + ":" + std::string(width - rule.name.size() + 1, ' ');
-    out += text_of(rule.before, held_before(rule)) + " -> " + text_of(rule.after, held_after(rule));
-    out += "  p=" + shortest(rule.p) + "\n";
+    out += rule_text(rule) + "  p=" + shortest(rule.p) + "\n";
   }
   return out;
 }

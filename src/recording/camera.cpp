@@ -125,17 +125,16 @@ class Filming {
   void see(int f, int id) {
     Track& track = out_.tracks[id];
     const int body = first_ + shown_[id];
-    const auto i = static_cast<std::size_t>(f);
     const Vec2 place = image_of({scene_.x(body), scene_.y(body)});
-    track.x[i] = place.x() + camera_.position_noise * noise(id, kNoiseX);
-    track.y[i] = place.y() + camera_.position_noise * noise(id, kNoiseY);
+    track.x[f] = place.x() + camera_.position_noise * noise(id, kNoiseX);
+    track.y[f] = place.y() + camera_.position_noise * noise(id, kNoiseY);
     if (!headings_) return;
     const double seen = scene_.theta(body) + camera_.heading_noise * noise(id, kNoiseHeading);
     // Continued from the last one.
-    std::size_t before = i;
+    std::size_t before = f;
     while (before > 0 && std::isnan(track.theta[before - 1])) --before;
     const double last = before > 0 ? track.theta[before - 1] : seen;
-    track.theta[i] = seen - kTurn * std::floor((seen - last) / kTurn + 0.5);
+    track.theta[f] = seen - kTurn * std::floor((seen - last) / kTurn + 0.5);
   }
 
   // Every pair that is near takes its chance in every frame; from then on each has the other's id.

@@ -45,6 +45,59 @@ void take_out_without_heading(Path& path, const CheckContext& context) {
   }
 }
 
+/// Builds the tracks of one path.
+class TrackMaker {
+ public:
+  TrackMaker(const Path& path, const CheckContext& context, std::vector<Track>& out)
+      : path_(&path), out_(&out), headings_(context.sightings.headings) {
+    const CheckRules& rules = context.report.rules();
+    const double frames = rules.longest_gap * context.clock.rate + 1e-9;
+    const Treatment gaps = rules[Check::gap];
+    longest_gap_ = gaps == Treatment::split  ? 0
+                   : gaps == Treatment::keep ? 1e4  // bounds the memory of a few wrong frames
+                                             : std::floor(frames);
+  }
+
+  void make() {
+    bool cut = true;
+    for (const Point& point : path_->points) {
+      cut = cut || point.cut;
+      if (point.unseen) continue;
+      if (!cut) cut = point.frame - out_->back().last() - 1 > longest_gap_;
+      if (cut) begin(point);
+      add(point);
+      cut = false;
+    }
+  }
+
+ private:
+  void begin(const Point& point) {
+    out_->emplace_back();
+    out_->back().id = path_->id;
+    out_->back().first = point.frame;
+    turned_ = 0;
+  }
+
+  void add(const Point& point) {
+    Track& track = out_->back();
+    const auto size = static_cast<std::size_t>(point.frame - track.first);
+    track.x.resize(size, kUnknown), track.x.push_back(point.x);
+    track.y.resize(size, kUnknown), track.y.push_back(point.y);
+    if (!headings_) return;
+    // Whole turns are added so that it is as near as can be to the last one.
+    if (!track.theta.empty()) {
+      turned_ -= 2 * kPi * std::floor((point.theta - last_) / (2 * kPi) + 0.5);
+    }
+    last_ = point.theta;
+    track.theta.resize(size, kUnknown), track.theta.push_back(point.theta + turned_);
+  }
+
+  const Path* path_;
+  std::vector<Track>* out_;
+  bool headings_;
+  double longest_gap_ = 0, turned_ = 0, last_ = 0;
+};
+
 }  // namespace
 
 std::vector<Path> make_paths(const Sightings& s, const FrameClock& clock, Report& report) {
@@ -137,63 +190,6 @@ void check_outside(std::vector<Path>& paths, const CheckContext& c) {
     }
   }
 }
-
-namespace {
-
-/// Builds the tracks of one path.
-class TrackMaker {
- public:
-  TrackMaker(const Path& path, const CheckContext& context, std::vector<Track>& out)
-      : path_(&path), out_(&out), headings_(context.sightings.headings) {
-    const CheckRules& rules = context.report.rules();
-    const double frames = rules.longest_gap * context.clock.rate + 1e-9;
-    const Treatment gaps = rules[Check::gap];
-    longest_gap_ = gaps == Treatment::split  ? 0
-                   : gaps == Treatment::keep ? 1e4  // bounds the memory of a few wrong frames
-                                             : std::floor(frames);
-  }
-
-  void make() {
-    bool cut = true;
-    for (const Point& point : path_->points) {
-      cut = cut || point.cut;
-      if (point.unseen) continue;
-      if (!cut) cut = point.frame - out_->back().last() - 1 > longest_gap_;
-      if (cut) begin(point);
-      add(point);
-      cut = false;
-    }
-  }
-
- private:
-  void begin(const Point& point) {
-    out_->emplace_back();
-    out_->back().id = path_->id;
-    out_->back().first = point.frame;
-    turned_ = 0;
-  }
-
-  void add(const Point& point) {
-    Track& track = out_->back();
-    const auto size = static_cast<std::size_t>(point.frame - track.first);
-    track.x.resize(size, kUnknown), track.x.push_back(point.x);
-    track.y.resize(size, kUnknown), track.y.push_back(point.y);
-    if (!headings_) return;
-    // Whole turns are added so that it is as near as can be to the last one.
-    if (!track.theta.empty()) {
-      turned_ -= 2 * kPi * std::floor((point.theta - last_) / (2 * kPi) + 0.5);
-    }
-    last_ = point.theta;
-    track.theta.resize(size, kUnknown), track.theta.push_back(point.theta + turned_);
-  }
-
-  const Path* path_;
-  std::vector<Track>* out_;
-  bool headings_;
-  double longest_gap_ = 0, turned_ = 0, last_ = 0;
-};
-
-}  // namespace
 
 std::vector<Track> make_tracks(const std::vector<Path>& paths, const CheckContext& context) {
   std::vector<Track> tracks;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "lilytank/synthesis.hpp"
+#include "model/ruleset_scanner.hpp"
 #include "synthesis/tree.hpp"
 #include "text/number.hpp"
 
@@ -25,14 +26,13 @@ class Emitter {
     if (labels_ > 255)
       throw InputError("the rules of " + target_.name +
                        " need more than the 255 control states that there are");
-    forward.push_back({name, RuleKind::link, {first, second}, {after_a, after_b}, 1, {}});
+    forward.push_back({name, RuleKind::link, {first, second}, {after_a, after_b}});
     const auto undone = [](const Label& l) { return Label{l.state, reverse_hop(l.hop)}; };
     reverse.push_back({name + "_reverse",
                        RuleKind::unlink,
                        {after_a, after_b},
                        {undone(first), undone(second)},
-                       0,
-                       {}});
+                       0});
     cells_[contact.a] = {after_a.state, out};
     cells_[contact.b] = {after_b.state, back};
   }
@@ -119,17 +119,6 @@ Ruleset emit(const Target& target, const Plan& plan, const EmitOptions& options)
   rules.rules.insert(rules.rules.end(), emitter.reverse.begin(), emitter.reverse.end());
   check_probabilities(rules);
   return rules;
-}
-
-std::string rule_text(const Rule& rule) {
-  const auto side = [](const std::array<Label, 2>& labels, bool held) {
-    const auto text = [](const Label& l) {
-      return "(" + std::to_string(l.state) + "," + std::to_string(l.hop) + ")";
-    };
-    return text(labels[0]) + (held ? "-" : " ") + text(labels[1]);
-  };
-  return side(rule.before, rule.kind != RuleKind::link) + " -> " +
-         side(rule.after, rule.kind != RuleKind::unlink);
 }
 
 std::vector<Stage> stages_of(const Target& target, const Plan& plan) {

@@ -47,16 +47,12 @@ double evaluation_rate_of(const RateTable& table) {
                  : kStandardEvaluationRate;
 }
 
-std::string three_digits(double value) {
-  return significant(value, 3);
-}
-
 }  // namespace
 
 std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics) {
-  std::string out = "a pair of faces that fit docks " + three_digits(kinetics.face_rate) +
+  std::string out = "a pair of faces that fit docks " + significant(kinetics.face_rate, 3) +
                     " times a second; a bond is evaluated " +
-                    three_digits(kinetics.evaluation_rate) + " times a second\n";
+                    significant(kinetics.evaluation_rate, 3) + " times a second\n";
   for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
     const Reaction& reaction = kinetics.network.reactions[k];
     const auto side = [&](const std::vector<int>& list) {
@@ -66,9 +62,9 @@ std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics) {
       return text;
     };
     out += "  " + rules.rules[reaction.rule].name + ": " + side(reaction.from) + " -> " +
-           side(reaction.to) + "  " + three_digits(kinetics.rate[k]) + "/s";
+           side(reaction.to) + "  " + significant(kinetics.rate[k], 3) + "/s";
     if (reaction.kind == RuleKind::link)
-      out += ", " + three_digits(kinetics.rate[k] / reaction.places) + "/s for each of " +
+      out += ", " + significant(kinetics.rate[k] / reaction.places, 3) + "/s for each of " +
              shortest(reaction.places) + " pairs of faces, seen " +
              std::to_string(kinetics.seen[k]) + " times";
     out += "\n";

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "lilytank/lattice.hpp"
+#include "model/ruleset_scanner.hpp"
 #include "synthesis/steric.hpp"
 
 namespace lilytank {
@@ -35,10 +36,6 @@ std::size_t orders_of(const Rule& rule) {
 // Share of the places at which an order that fits is taken.
 double share_of_order(const Rule& rule) {
   return rule.before[0] == rule.before[1] && orders_of(rule) == 2 ? 0.5 : 1;
-}
-
-std::string text_of(const Label& label) {
-  return "(" + std::to_string(label.state) + "," + std::to_string(label.hop) + ")";
 }
 
 class Network {

@@ -8,6 +8,30 @@
 #include "synthesis/tree.hpp"
 
 namespace lilytank {
+namespace {
+
+// Fewer maximal joins are better, then fewer blocked ones.
+std::pair<std::size_t, std::size_t> faults(const Target& target, const Plan& plan) {
+  return {maximal_joins(target, plan).size(), blocked_joins(target, plan).size()};
+}
+
+using Planner = std::function<Plan(const std::vector<Contact>&)>;
+
+Plan best_over_trees(const Target& target, const Planner& planner) {
+  constexpr std::size_t kTrees = 300;
+  Plan best = planner(spanning_tree(target));
+  auto least = faults(target, best);
+  if (least == std::pair<std::size_t, std::size_t>{1, 0}) return best;
+  for (const std::vector<Contact>& tree : spanning_trees(target, kTrees)) {
+    Plan plan = planner(tree);
+    const auto found = faults(target, plan);
+    if (found < least) best = std::move(plan), least = found;
+    if (least == std::pair<std::size_t, std::size_t>{1, 0}) break;
+  }
+  return best;
+}
+
+}  // namespace
 
 const std::vector<std::string>& algorithm_names() {
   static const std::vector<std::string> names{"singleton", "linchpin", "balanced", "plan"};
@@ -79,31 +103,6 @@ void check_plan(const Target& target, const Plan& plan) {
                      std::to_string(nodes - 1) + " joins, the plan has " +
                      std::to_string(plan.joins.size()));
 }
-
-namespace {
-
-// Fewer maximal joins are better, then fewer blocked ones.
-std::pair<std::size_t, std::size_t> faults(const Target& target, const Plan& plan) {
-  return {maximal_joins(target, plan).size(), blocked_joins(target, plan).size()};
-}
-
-using Planner = std::function<Plan(const std::vector<Contact>&)>;
-
-Plan best_over_trees(const Target& target, const Planner& planner) {
-  constexpr std::size_t kTrees = 300;
-  Plan best = planner(spanning_tree(target));
-  auto least = faults(target, best);
-  if (least == std::pair<std::size_t, std::size_t>{1, 0}) return best;
-  for (const std::vector<Contact>& tree : spanning_trees(target, kTrees)) {
-    Plan plan = planner(tree);
-    const auto found = faults(target, plan);
-    if (found < least) best = std::move(plan), least = found;
-    if (least == std::pair<std::size_t, std::size_t>{1, 0}) break;
-  }
-  return best;
-}
-
-}  // namespace
 
 Plan singleton_plan(const Target& target, const std::vector<Contact>& tree) {
   const auto next_to = neighbours_of(static_cast<int>(target.cells.size()), tree);

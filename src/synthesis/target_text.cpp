@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "lilytank/target.hpp"
+#include "model/ruleset_scanner.hpp"
 #include "synthesis/tree.hpp"
 
 namespace lilytank {
@@ -35,7 +36,8 @@ class Reader {
       throw InputError({target_.file, 0, 0}, "there is no '#' in the drawing");
     }
     const bool with_bonds = !marks_.empty();
-    with_bonds ? spaced() : compact();
+    for (const Sign& sign : cells_) where_[{sign.column, -sign.row}] = sign;
+    if (with_bonds) spaced();
     numbers();
     std::vector<Cell> cells;
     const int pitch = with_bonds ? 2 : 1;
@@ -105,30 +107,17 @@ class Reader {
   void name(const std::string& raw) {
     const std::size_t begin = raw.find_first_not_of(' ', raw.find("name") + 4);
     const std::size_t end = raw.find_last_not_of(' ') + 1;
-    const auto good = [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-             c == '_' || c == '-';
-    };
     const std::string word = begin == std::string::npos ? "" : raw.substr(begin, end - begin);
-    const bool letter =
-        !word.empty() && good(word[0]) && word[0] != '-' && !(word[0] >= '0' && word[0] <= '9');
-    if (!letter || !std::all_of(word.begin(), word.end(), good)) {
+    if (!is_name(word)) {
       const int column = begin == std::string::npos ? static_cast<int>(raw.size()) + 1
                                                     : static_cast<int>(begin) + 1;
-      throw InputError(
-          {target_.file, row_, column},
-          "'" + word + "' is not a name: expected a letter, then letters, digits, '_' or '-'");
+      throw InputError({target_.file, row_, column}, "'" + word + "' is not a name: " + kNameForm);
     }
     if (!target_.name.empty()) throw InputError({target_.file, row_, 1}, "'name' is given twice");
     target_.name = word;
   }
 
-  void compact() {
-    for (const Sign& sign : cells_) where_[{sign.column, -sign.row}] = sign;
-  }
-
   void spaced() {
-    for (const Sign& sign : cells_) where_[{sign.column, -sign.row}] = sign;
     const Sign origin = cells_.front();
     for (const Sign& sign : cells_) {
       if (((sign.column - origin.column) & 1) != 0 || ((sign.row - origin.row) & 1) != 0)

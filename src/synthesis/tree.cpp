@@ -6,6 +6,13 @@
 #include "lilytank/synthesis.hpp"
 
 namespace lilytank {
+namespace {
+
+std::vector<Contact> edges_of(const Target& target) {
+  return target.bonds.empty() ? contacts_of(target) : target.bonds;
+}
+
+}  // namespace
 
 std::vector<std::vector<int>> neighbours_of(int nodes, const std::vector<Contact>& edges) {
   std::vector<std::vector<int>> found(static_cast<std::size_t>(nodes));
@@ -64,14 +71,6 @@ std::vector<int> side_of(const std::vector<std::vector<int>>& tree, int from, in
   }
   return found;
 }
-
-namespace {
-
-std::vector<Contact> edges_of(const Target& target) {
-  return target.bonds.empty() ? contacts_of(target) : target.bonds;
-}
-
-}  // namespace
 
 std::vector<Contact> spanning_tree(const Target& target) {
   const int nodes = static_cast<int>(target.cells.size());

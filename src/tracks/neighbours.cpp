@@ -32,7 +32,6 @@ struct PairCounts {
 void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, const SeenBody* b_end,
                  const Bins& bins, PairCounts& counts) {
   const double reach = bins.high * bins.high;
-  const auto n = static_cast<std::size_t>(bins.count);
   for (; a != a_end; ++a) {
     for (const SeenBody* p = b; p != b_end; ++p) {
       if (p->body == a->body) continue;
@@ -40,7 +39,7 @@ void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, co
       const double dx = a->x - p->x, dy = a->y - p->y;
       if (dx * dx + dy * dy > reach) continue;
       const int bin = bins.of(std::sqrt(dx * dx + dy * dy));
-      if (bin >= 0) ++counts.by_bin[a->body * n + static_cast<std::size_t>(bin)];
+      if (bin >= 0) ++counts.by_bin[a->body * bins.count + bin];
     }
   }
 }
@@ -200,14 +199,13 @@ BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
 BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins) {
   const FramesView frames(recording);
   BodySums sums = empty_sums(recording, frames, bins.count);
-  const auto n = static_cast<std::size_t>(bins.count);
   std::vector<double> samples(frames.bodies(), 0.0);
   for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
     ++samples[body];
     const int bin = bins.of(nearest);
-    if (bin >= 0) sums.sum[body * n + static_cast<std::size_t>(bin)] += 1 / bins.width();
+    if (bin >= 0) sums.sum[body * bins.count + bin] += 1 / bins.width();
   });
-  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / n];
+  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
 }
 

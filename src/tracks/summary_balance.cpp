@@ -181,8 +181,7 @@ class Neighbours final : public SummaryPart {
       for (const Track& track : recording.tracks) {
         const int k = f - track.first;
         if (k < 0 || k >= static_cast<int>(track.x.size())) continue;
-        const auto i = static_cast<std::size_t>(k);
-        if (!std::isnan(track.x[i])) x_.push_back(track.x[i]), y_.push_back(track.y[i]);
+        if (!std::isnan(track.x[k])) x_.push_back(track.x[k]), y_.push_back(track.y[k]);
       }
       count();
     }

@@ -118,8 +118,7 @@ class Place final : public SummaryPart {
     const double scale = rate_ / (2 * half_);
     for (int i = half_; i + half_ < static_cast<int>(track.x.size()); i += stride_) {
       const auto a = static_cast<std::size_t>(i - half_), b = static_cast<std::size_t>(i + half_);
-      const auto m = static_cast<std::size_t>(i);
-      const double x = track.x[m], y = track.y[m], r = std::sqrt(x * x + y * y);
+      const double x = track.x[i], y = track.y[i], r = std::sqrt(x * x + y * y);
       const double vx = scale * (track.x[b] - track.x[a]), vy = scale * (track.y[b] - track.y[a]);
       const double out = (x * vx + y * vy) / r, around = (x * vy - y * vx) / r;
       if (out - out != 0 || around - around != 0) continue;
