@@ -171,8 +171,6 @@ Analysis analyse(const std::vector<AnalysisSource>& sources, const AnalysisOptio
 
 /// The report, without its provenance.
 ReportDocument analysis_report(const Analysis& analysis);
-/// The same document as text.
-std::string analysis_text(const Analysis& analysis);
 /// Tidy tables: one row a source and x (`difference` rows after them), a cell of a map, a step of
 /// a survival curve, a frequency of a transfer function, a number of the summary.
 std::string curve_csv(const Analysis& analysis, const AnalysisCurves& curves);

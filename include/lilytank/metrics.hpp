@@ -82,21 +82,6 @@ Estimate ratio_functional(const BodySums& sums,
                           const std::function<double(const std::vector<double>&)>& functional,
                           const Bootstrap& bootstrap = {});
 
-/// Mean squared displacement by lag.
-struct MsdCurve {
-  /// Lags, s.
-  std::vector<double> lag;
-  /// Mean over bodies and origins, m^2.
-  std::vector<double> msd;
-  std::vector<std::int64_t> count;  ///< displacements in each mean
-  /// That have such displacements.
-  std::vector<std::int64_t> tracks;
-};
-/// MSD of all bodies at the given lags (in frames, >= 0). A lag that no track is long enough for
-/// has count 0 and msd 0.
-MsdCurve mean_squared_displacement(const Recording& recording, const std::vector<int>& lags,
-                                   Origins origins);
-
 /// Motion between two lags read as diffusion: MSD = 4 D lag + a constant, as measurement noise
 /// adds.
 struct Diffusion {

@@ -111,9 +111,6 @@ PlanList all_plans(const Target& target, const PlanLimits& limits = {});
 /// Equal for rulesets that differ only in the naming and order of control states and rules.
 std::uint64_t structure_of(const Ruleset& rules);
 
-/// A rule's two sides, "(1,3) (0,0) -> (3,1)-(4,1)".
-std::string rule_text(const Rule& rule);
-
 /// What stands after each join, for drawings [paper, Figs. 9 and 11]: a module in a cell of the
 /// target.
 struct StageModule {

@@ -29,7 +29,7 @@ void AssemblyRecord::build_table() {
   possible_ = 0;
   table_ = {{}, false};
   if (model_->rulesets.empty()) return;
-  const Ruleset& rules = model_->rulesets[static_cast<std::size_t>(ruleset_)];
+  const Ruleset& rules = model_->rulesets[ruleset_];
   target_ = canonical_shape(rules.target);
   possible_ = lilytank::possible_copies(rules, model_->module.count);
   std::vector<Pattern> seeds;
@@ -57,7 +57,7 @@ void AssemblyRecord::start_table(int ruleset, bool keep_standing) {
 void AssemblyRecord::count_assembly(const State& state, int first,
                                     std::vector<std::uint8_t>& done) {
   std::vector<int> members = {first};
-  done[static_cast<std::size_t>(first)] = 1;
+  done[first] = 1;
   Pattern pattern;
   for (std::size_t k = 0; k < members.size(); ++k) {
     const int i = members[k];
@@ -70,7 +70,7 @@ void AssemblyRecord::count_assembly(const State& state, int first,
       const Face& face = state.faces[4 * i + f];
       if (!connects(face)) continue;
       m.bonds |= 1u << ((f + state.turn[i]) & 3);
-      std::uint8_t& known = done[static_cast<std::size_t>(face.partner)];
+      std::uint8_t& known = done[face.partner];
       if (known == 0) known = 1, members.push_back(face.partner);
     }
     pattern.push_back(m);
@@ -81,7 +81,7 @@ void AssemblyRecord::count_assembly(const State& state, int first,
   seen_.try_emplace(species.key, species);
   if (!species.target) return;
   ++copies_;
-  for (const int i : members) complete_[static_cast<std::size_t>(i)] = 1;
+  for (const int i : members) complete_[i] = 1;
 }
 
 void AssemblyRecord::count(const World& world) {
@@ -119,7 +119,7 @@ bool AssemblyRecord::count_firings(const World& world) {
       case EventKind::link:
       case EventKind::unlink:
       case EventKind::update:
-        ++firings_[static_cast<std::size_t>(ruleset_)][static_cast<std::size_t>(event.rule)];
+        ++firings_[ruleset_][event.rule];
         changed = true;
         break;
       case EventKind::latch:

@@ -29,6 +29,71 @@ Pattern canonical(const Pattern& pattern) {
   return best;
 }
 
+void apply(const Rule& rule, std::size_t order, Pattern& pattern, std::size_t a, std::size_t b,
+           int direction) {
+  const auto engage = [&](PatternModule& module, int towards, const Label& after) {
+    module.label = after.state;
+    module.last = last_after(towards & 3, after.hop);
+    const unsigned bond = 1u << (towards & 3);
+    if (rule.kind == RuleKind::link) module.bonds |= bond;
+    if (rule.kind == RuleKind::unlink) module.bonds &= ~bond;
+  };
+  engage(pattern[a], direction, rule.after[order]);
+  engage(pattern[b], direction + 2, rule.after[1 - order]);
+}
+
+std::size_t module_at(const Pattern& pattern, Cell cell) {
+  std::size_t k = 0;
+  while (k < pattern.size() && pattern[k].cell != cell) ++k;
+  return k;
+}
+
+std::vector<Site> free_sites(const Pattern& pattern) {
+  std::vector<Site> sites;
+  for (std::size_t k = 0; k < pattern.size(); ++k)
+    for (int d = 0; d < 4; ++d)
+      if (module_at(pattern, neighbour(pattern[k].cell, d)) == pattern.size())
+        sites.push_back({k, d});
+  return sites;
+}
+
+std::vector<Pattern> parts_of(const Pattern& pattern) {
+  std::vector<Pattern> parts;
+  std::vector<bool> done(pattern.size(), false);
+  for (std::size_t first = 0; first < pattern.size(); ++first) {
+    if (done[first]) continue;
+    std::vector<std::size_t> members = {first};
+    done[first] = true;
+    Pattern part;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const PatternModule& module = pattern[members[k]];
+      part.push_back(module);
+      for (int d = 0; d < 4; ++d) {
+        if ((module.bonds >> d & 1u) == 0) continue;
+        const std::size_t n = module_at(pattern, neighbour(module.cell, d));
+        if (n < pattern.size() && !done[n]) done[n] = true, members.push_back(n);
+      }
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::optional<Pattern> beside(const Pattern& host, const Site& ours, const Pattern& guest,
+                              const Site& theirs) {
+  Pattern whole = host, added = guest;
+  for (int turns = (ours.direction + 2 - theirs.direction) & 3; turns > 0; --turns)
+    added = turned(std::move(added));
+  const Cell to = neighbour(host[ours.module].cell, ours.direction);
+  const Cell from = added[theirs.module].cell;
+  for (PatternModule& module : added) {
+    module.cell = {module.cell.x - from.x + to.x, module.cell.y - from.y + to.y};
+    if (module_at(host, module.cell) < host.size()) return std::nullopt;
+    whole.push_back(module);
+  }
+  return whole;
+}
+
 std::string key_of(const Pattern& canonical) {
   std::string key;
   for (const PatternModule& m : canonical) {
@@ -71,7 +136,7 @@ Species species_of(const Pattern& canonical, const std::vector<Cell>& target) {
   for (int y = high.y; y >= 0; --y) {
     std::string row(static_cast<std::size_t>(high.x + 1), '.');
     for (const Cell& cell : cells)
-      if (cell.y == y) row[static_cast<std::size_t>(cell.x)] = '#';
+      if (cell.y == y) row[cell.x] = '#';
     species.drawing += (species.drawing.empty() ? "" : "/") + row;
   }
   return species;

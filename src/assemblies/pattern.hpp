@@ -1,5 +1,6 @@
 // An assembly as rules see it: modules on lattice cells, their states, the bonds between them.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,35 @@ Pattern turned(Pattern pattern);
 /// Moved to the origin, sorted, and the least of its four turns: equal for equal species. Mirror
 /// images differ.
 Pattern canonical(const Pattern& pattern);
+/// A face of a module of a pattern.
+struct Site {
+  std::size_t module = 0;
+  int direction = 0;
+};
+
+/// The label that the module shows at its face in `direction` (taken modulo 4).
+inline Label label_at(const PatternModule& module, int direction) {
+  return {module.label, hop_of(module.last, direction & 3)};
+}
+/// Whether the left side of a rule is these two labels, the first one being before[order].
+inline bool fits(const Rule& rule, std::size_t order, const Label& first, const Label& second) {
+  return rule.before[order] == first && rule.before[1 - order] == second;
+}
+/// Applies a rule to module a, which takes after[order], and its neighbour b in `direction`: their
+/// labels, and the bond between them.
+void apply(const Rule& rule, std::size_t order, Pattern& pattern, std::size_t a, std::size_t b,
+           int direction);
+/// Index of the module in a cell, the pattern's size if there is none.
+std::size_t module_at(const Pattern& pattern, Cell cell);
+/// The faces without a neighbour.
+std::vector<Site> free_sites(const Pattern& pattern);
+/// What bonds connect, each part a pattern of its own in the same frame.
+std::vector<Pattern> parts_of(const Pattern& pattern);
+/// The guest turned and moved so that its face `theirs` lies on the host's face `ours`, added to
+/// the host; nothing if cells would overlap. No bond is made.
+std::optional<Pattern> beside(const Pattern& host, const Site& ours, const Pattern& guest,
+                              const Site& theirs);
+
 /// The text of a canonical pattern: "x,y,label,last,bonds" per module, joined by ';'.
 std::string key_of(const Pattern& canonical);
 /// The pattern of such a text, which must be one of key_of's.

@@ -5,7 +5,6 @@
 
 #include "bodies/bodies_file.hpp"
 #include "bodies/law.hpp"
-#include "io/enough_memory.hpp"
 #include "io/table.hpp"
 #include "io/time_text.hpp"
 #include "statistics/median.hpp"

@@ -5,8 +5,6 @@
 
 #include "cli/inputs.hpp"
 #include "lilytank/experiment.hpp"
-#include "recording/experiment_file.hpp"
-#include "recording/files.hpp"
 #include "recording/formats.hpp"
 #include "recording/recording_keys.hpp"
 

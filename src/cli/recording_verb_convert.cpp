@@ -9,7 +9,7 @@
 #include "jobs/run_directory.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/run.hpp"
-#include "recording/columns.hpp"
+#include "recording/formats.hpp"
 #include "recording/recording_keys.hpp"
 
 namespace lilytank::cli {

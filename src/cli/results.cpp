@@ -6,7 +6,7 @@
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
-#include "recording/files.hpp"
+#include "recording/formats.hpp"
 #include "study/study_directory.hpp"
 
 namespace lilytank::cli {

@@ -9,7 +9,7 @@ namespace {
 constexpr double kDuration = 0.1;         // s, of a balance
 constexpr double kLongestDuration = 0.3;  // s
 constexpr double kLeastKick = 1e-6;       // m^2/s^3
-constexpr double kNear = 0.15;            // m, farther balls are not looked at
+constexpr double kNear = 0.15;            // m, farther balls are ignored
 
 // A ball at the first frame of a balance, and where it is going.
 struct Place {
@@ -19,7 +19,7 @@ struct Place {
 
 bool all_seen(const Track& t, int from, int to) {
   for (int i = from; i <= to; ++i) {
-    if (std::isnan(t.x[static_cast<std::size_t>(i)])) return false;
+    if (std::isnan(t.x[i])) return false;
   }
   return true;
 }
@@ -37,7 +37,7 @@ class Finder {
  public:
   Finder(const BallPhysics& ball, const TrackNoise& noise, BalanceSet& out)
       : ball_(ball), out_(out), shape_(out.shape) {
-    // Kicks move a ball by this much, one deviation, while a balance lasts.
+    // Standard deviation of the displacement by process noise during a balance.
     const double wander = std::sqrt(noise.kick * std::pow(shape_.duration(), 3) / 3);
     margin_ = std::clamp(2 * wander, 0.003, 0.010);
   }
@@ -54,7 +54,7 @@ class Finder {
   }
 
  private:
-  // Tracks are sorted by their first frames; frames are asked for in order.
+  // Tracks are sorted by their first frames; frames are visited in order.
   void follow(int frame) {
     while (next_ < out_.tracks.size() && out_.tracks[next_]->first <= frame) {
       present_.push_back(next_++);
@@ -68,13 +68,12 @@ class Finder {
     for (const std::size_t k : present_) {
       const Track& t = *out_.tracks[k];
       const int at = frame - t.first, n = static_cast<int>(t.x.size());
-      if (std::isnan(t.x[static_cast<std::size_t>(at)])) continue;
-      const auto i = static_cast<std::size_t>(at);
-      Place p{t.x[i], t.y[i], 0, 0, static_cast<std::int32_t>(k), at};
+      if (std::isnan(t.x[at])) continue;
+      Place p{t.x[at], t.y[at], 0, 0, static_cast<std::int32_t>(k), at};
       const int back = at - 2 * shape_.half;
-      if (back >= 0 && !std::isnan(t.x[static_cast<std::size_t>(back)])) {
-        p.vx = (p.x - t.x[static_cast<std::size_t>(back)]) / shape_.box();
-        p.vy = (p.y - t.y[static_cast<std::size_t>(back)]) / shape_.box();
+      if (back >= 0 && !std::isnan(t.x[back])) {
+        p.vx = (p.x - t.x[back]) / shape_.box();
+        p.vy = (p.y - t.y[back]) / shape_.box();
       }
       places_.push_back(p);
       complete_.push_back(at >= shape_.lead() && at + shape_.tail() < n &&
@@ -102,7 +101,7 @@ class Finder {
   }
 
   bool was_at_wall(const Place& p, double limit) const {
-    const Track& t = *out_.tracks[static_cast<std::size_t>(p.track)];
+    const Track& t = *out_.tracks[p.track];
     for (int b = 1; b <= 2 * shape_.half; ++b) {
       const auto i = static_cast<std::size_t>(p.at - b);
       if (t.x[i] * t.x[i] + t.y[i] * t.y[i] > limit * limit) return true;
@@ -111,8 +110,8 @@ class Finder {
   }
 
   bool touched(const Place& p, const Place& o, double limit) const {
-    const Track& a = *out_.tracks[static_cast<std::size_t>(p.track)];
-    const Track& b = *out_.tracks[static_cast<std::size_t>(o.track)];
+    const Track& a = *out_.tracks[p.track];
+    const Track& b = *out_.tracks[o.track];
     for (int back = 1; back <= 2 * shape_.half && back <= o.at; ++back) {
       const auto i = static_cast<std::size_t>(p.at - back),
                  j = static_cast<std::size_t>(o.at - back);
@@ -123,17 +122,15 @@ class Finder {
   }
 
   void add(const Place& p) {
-    const Track& t = *out_.tracks[static_cast<std::size_t>(p.track)];
+    const Track& t = *out_.tracks[p.track];
     const auto speed = [&](const std::vector<double>& x, int f) {
-      return (x[static_cast<std::size_t>(f + shape_.half)] -
-              x[static_cast<std::size_t>(f - shape_.half)]) /
-             shape_.box();
+      return (x[f + shape_.half] - x[f - shape_.half]) / shape_.box();
     };
     const int end = p.at + shape_.length, before = p.at - 2 * shape_.half - shape_.gap;
     Balance b{};
     b.ax = (speed(t.x, end) - speed(t.x, p.at)) / shape_.duration();
     b.ay = (speed(t.y, end) - speed(t.y, p.at)) / shape_.duration();
-    b.x0 = t.x[static_cast<std::size_t>(before)], b.y0 = t.y[static_cast<std::size_t>(before)];
+    b.x0 = t.x[before], b.y0 = t.y[before];
     b.vx0 = speed(t.x, before), b.vy0 = speed(t.y, before);
     b.track = p.track, b.at = p.at;
     out_.balances.push_back(b);
@@ -143,7 +140,7 @@ class Finder {
   BalanceSet& out_;
   const BalanceShape shape_;
   double margin_ = 0;
-  std::size_t next_ = 0;              // track that has not begun
+  std::size_t next_ = 0;              // first track that starts later
   std::vector<std::size_t> present_;  // tracks at this frame
   std::vector<Place> places_;
   std::vector<bool> complete_;

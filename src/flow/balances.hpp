@@ -57,7 +57,7 @@ struct BalanceSet {
   std::vector<const Track*> tracks;
   std::vector<Balance> balances;
   double variance = 0;       ///< m^2, of a measured position, along one axis
-  std::int64_t dropped = 0;  ///< left out because of a contact or the wall
+  std::int64_t dropped = 0;  ///< excluded: a contact or the wall
 };
 /// Balances of a recording, one after the other in each track. Whether a ball is going to touch
 /// something is judged from its motion up to q only: leaving out what did happen afterwards would

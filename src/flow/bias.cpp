@@ -18,8 +18,8 @@ constexpr int kStepsPerTick = 2;  // 12.5 ms: the balls' motion is then nearly t
 struct Variant {
   std::string what;
   double tracking = 1, random_force = 1, gusts = 1, damping = 1;  // factors
-  double window = 0;                                              // s, of Eq. 3; 0: as asked
-  bool smooth = true;  // whether the smooth estimate is asked, too
+  double window = 0;                                              // s, of Eq. 3; 0: unchanged
+  bool smooth = true;  // whether the smooth estimator runs, too
 };
 
 const std::vector<Variant>& variants() {

@@ -13,7 +13,7 @@ struct Candidate {
   GustPosterior fit;
 };
 
-// `spread`: prior deviation of each coefficient about the common constant.
+// `spread`: prior standard deviation of each coefficient about the common constant.
 Candidate fit_with(const Eigen::VectorXd& spread, Eigen::Index plane,
                    const Eigen::MatrixXd& information, const Eigen::VectorXd& product) {
   // Prior covariance C = spread^2 + 1 1^T, the constant made of the first functions, which sum to

@@ -87,10 +87,6 @@ GustedDrag::Mean GustedDrag::mean(double ux, double uy, double s2) const {
   return mean(setting(ux, uy, s2));
 }
 
-GustedDrag::Covariance GustedDrag::covariance(double ux, double uy, double s2) const {
-  return covariance(setting(ux, uy, s2));
-}
-
 GustedDrag::Moments GustedDrag::moments(double ux, double uy, double s2) const {
   const Setting d = setting(ux, uy, s2);
   return {mean(d), covariance(d)};

@@ -21,7 +21,6 @@ class GustedDrag {
   struct Covariance {
     double xx, xy, yy, sxx, sxy, syy;
   };
-  Covariance covariance(double ux, double uy, double s2) const;
 
   /// Both at once.
   struct Moments {

@@ -42,7 +42,7 @@ NodeGrid::NodeGrid(const FlowGrid& grid, double tank_radius)
   for (int i = 0; i < grid.size(); ++i) {
     const double cx = grid.centre(i % grid.cells), cy = grid.centre(i / grid.cells);
     if (cx * cx + cy * cy > reach * reach) continue;
-    node_[static_cast<std::size_t>(i)] = static_cast<int>(cell_.size());
+    node_[i] = static_cast<int>(cell_.size());
     cell_.push_back(i);
   }
 }
@@ -50,7 +50,7 @@ NodeGrid::NodeGrid(const FlowGrid& grid, double tank_radius)
 int NodeGrid::beside(int node, int dx, int dy) const {
   const int ix = cell(node) % grid_.cells + dx, iy = cell(node) / grid_.cells + dy;
   if (ix < 0 || iy < 0 || ix >= grid_.cells || iy >= grid_.cells) return -1;
-  return node_[static_cast<std::size_t>(iy * grid_.cells + ix)];
+  return node_[iy * grid_.cells + ix];
 }
 
 Stencil NodeGrid::stencil(double x, double y) const {
@@ -65,11 +65,10 @@ Stencil NodeGrid::stencil(double x, double y) const {
   double sum = 0;
   int any = -1;
   for (int k = 0; k < 4; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    s.node[i] = node_[static_cast<std::size_t>((iy + k / 2) * grid_.cells + ix + k % 2)];
-    s.weight[i] = s.node[i] < 0 ? 0 : weight[i];
-    sum += s.weight[i];
-    if (s.node[i] >= 0) any = s.node[i];
+    s.node[k] = node_[(iy + k / 2) * grid_.cells + ix + k % 2];
+    s.weight[k] = s.node[k] < 0 ? 0 : weight[k];
+    sum += s.weight[k];
+    if (s.node[k] >= 0) any = s.node[k];
   }
   for (std::size_t i = 0; i < 4; ++i) {
     if (s.node[i] < 0) s.node[i] = std::max(any, 0);

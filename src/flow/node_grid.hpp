@@ -1,5 +1,5 @@
 // The flow as values at cell centres with bilinear values between them, the measure of how rough
-// it is, and a coarser basis for the deviation.
+// it is, and a coarser basis for the standard deviation.
 #pragma once
 #include <Eigen/SparseCore>
 #include <array>
@@ -20,7 +20,7 @@ class NodeGrid {
  public:
   NodeGrid(const FlowGrid& grid, double tank_radius);
   int size() const { return static_cast<int>(cell_.size()); }
-  int cell(int node) const { return cell_[static_cast<std::size_t>(node)]; }
+  int cell(int node) const { return cell_[node]; }
   double x(int node) const { return grid_.centre(cell(node) % grid_.cells); }
   double y(int node) const { return grid_.centre(cell(node) / grid_.cells); }
   /// The node a step away, or -1.

@@ -5,11 +5,98 @@
 #include <limits>
 
 #include "flow/grid.hpp"
-#include "flow/thinning.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
+
+// Samples of all tracks, track by track, frame by frame.
+struct FlowSamples {
+  std::vector<int> track, frame, cell;
+  std::vector<float> x, y;  // m/s
+  int tracks = 0;
+  double rate = 0;  // frames per second
+  void add(int number, int at, int where, double vx, double vy) {
+    track.push_back(number), frame.push_back(at), cell.push_back(where);
+    x.push_back(static_cast<float>(vx)), y.push_back(static_cast<float>(vy));
+  }
+};
+
+// A cell's samples in order, and to which stay each belongs. Samples of one track less than the
+// thinning time apart belong to one stay.
+struct CellSamples {
+  std::vector<std::uint32_t> sample;
+  std::vector<int> stay;  // 0, 1, ..., rising
+  int stays = 0;
+};
+
+constexpr double kLongestInterval = 3;  // s
+constexpr double kUnrelated = 0.1;      // autocorrelation
+
+// The samples' differences from their cells' means.
+void centre(const FlowSamples& s, const std::vector<CellSamples>& cells, std::vector<float>& x,
+            std::vector<float>& y) {
+  x = s.x, y = s.y;
+  for (const CellSamples& cell : cells) {
+    double mx = 0, my = 0;
+    for (const std::uint32_t i : cell.sample)
+      mx += static_cast<double>(s.x[i]), my += static_cast<double>(s.y[i]);
+    const double n = static_cast<double>(cell.sample.size());
+    for (const std::uint32_t i : cell.sample) {
+      x[i] -= static_cast<float>(mx / n);
+      y[i] -= static_cast<float>(my / n);
+    }
+  }
+}
+
+double thinning_time(const FlowSamples& s, const std::vector<CellSamples>& cells) {
+  std::vector<float> x, y;
+  centre(s, cells, x, y);
+  const auto longest = static_cast<std::size_t>(kLongestInterval * s.rate);
+  const auto product = [&](std::size_t lag) {
+    double sum = 0;
+    std::int64_t pairs = 0;
+    for (std::size_t i = 0; i + lag < x.size(); ++i) {
+      const std::size_t j = i + lag;
+      // Frames between may be missing: only pairs that are exactly `lag` apart count.
+      if (s.track[i] != s.track[j] || s.frame[j] - s.frame[i] != static_cast<int>(lag)) continue;
+      sum += static_cast<double>(x[i] * x[j] + y[i] * y[j]);
+      ++pairs;
+    }
+    return pairs > 0 ? sum / static_cast<double>(pairs) : 0;
+  };
+  const double variance = product(0);
+  for (std::size_t lag = 1; lag < longest; ++lag) {
+    if (product(lag) < kUnrelated * variance) return static_cast<double>(lag) / s.rate;
+  }
+  return kLongestInterval;
+}
+
+void find_stays(const FlowSamples& s, double thinning, CellSamples& cell) {
+  const double apart = thinning * s.rate;
+  for (std::size_t k = 0; k < cell.sample.size(); ++k) {
+    const std::uint32_t i = cell.sample[k];
+    bool same = false;
+    if (k > 0) {
+      const std::uint32_t before = cell.sample[k - 1];
+      same = s.track[before] == s.track[i] && s.frame[i] - s.frame[before] < apart;
+    }
+    if (!same) ++cell.stays;
+    cell.stay.push_back(cell.stays - 1);
+  }
+}
+
+// Sorts samples into cells. `thinning` (s) becomes the lag at which the autocorrelation of the
+// samples' differences from their cells' means, along tracks, first falls below 0.1; at most 3 s.
+std::vector<CellSamples> by_cell(const FlowSamples& samples, int cells, double& thinning) {
+  std::vector<CellSamples> out(static_cast<std::size_t>(cells));
+  for (std::size_t i = 0; i < samples.cell.size(); ++i) {
+    out[samples.cell[i]].sample.push_back(static_cast<std::uint32_t>(i));
+  }
+  thinning = thinning_time(samples, out);
+  for (CellSamples& cell : out) find_stays(samples, thinning, cell);
+  return out;
+}
 
 // The water's velocity in every frame of a track in which it can be computed.
 void add_track(const SmoothTrack& track, double drag_rate, const FlowGrid& grid, int number,
@@ -43,8 +130,8 @@ Moments moments(const std::vector<double>& value, const std::vector<int>& stay, 
   std::vector<double> first(static_cast<std::size_t>(stays)), second(first.size());
   for (std::size_t i = 0; i < value.size(); ++i) {
     const double d = value[i] - m.mean;
-    first[static_cast<std::size_t>(stay[i])] += d;
-    second[static_cast<std::size_t>(stay[i])] += d * d - variance;
+    first[stay[i]] += d;
+    second[stay[i]] += d * d - variance;
   }
   double mean_sum = 0, variance_sum = 0;
   for (std::size_t s = 0; s < first.size(); ++s) {

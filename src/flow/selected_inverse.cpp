@@ -5,7 +5,7 @@
 namespace lilytank {
 namespace {
 
-// LowerTriangle of a strictly lower triangle.
+// Columns of a strictly lower triangle.
 struct LowerTriangle {
   const int *start, *row;
   int begin(int j) const { return start[j]; }
@@ -24,7 +24,7 @@ SelectedInverse::SelectedInverse(const SparseFactor& factor) {
   const Eigen::VectorXd d = factor.vectorD();
   place_ = factor.permutationP().indices();
   const int n = static_cast<int>(l.cols());
-  diagonal_.assign(static_cast<std::size_t>(n), 0);
+  diagonal_.assign(n, 0);
   const LowerTriangle c{l.outerIndexPtr(), l.innerIndexPtr()};
   const double* factor_value = l.valuePtr();
   double* z = lower_.valuePtr();
@@ -32,33 +32,33 @@ SelectedInverse::SelectedInverse(const SparseFactor& factor) {
   std::vector<double> sum;
   for (int j = n - 1; j >= 0; --j) {
     const int begin = c.begin(j), count = c.end(j) - begin;
-    sum.assign(static_cast<std::size_t>(count), 0);
-    for (int p = 0; p < count; ++p) where[static_cast<std::size_t>(c.row[begin + p])] = p;
+    sum.assign(count, 0);
+    for (int p = 0; p < count; ++p) where[c.row[begin + p]] = p;
     for (int p = 0; p < count; ++p) {
       const int k = c.row[begin + p];
       const double lk = factor_value[begin + p];
-      double own = lk * diagonal_[static_cast<std::size_t>(k)];
+      double own = lk * diagonal_[k];
       for (int r = c.begin(k); r < c.end(k); ++r) {
-        const int at = where[static_cast<std::size_t>(c.row[r])];
+        const int at = where[c.row[r]];
         if (at < 0) continue;
-        sum[static_cast<std::size_t>(at)] -= lk * z[r];
+        sum[at] -= lk * z[r];
         own += factor_value[begin + at] * z[r];
       }
-      sum[static_cast<std::size_t>(p)] -= own;
+      sum[p] -= own;
     }
     double diagonal = 1 / d[j];
     for (int p = 0; p < count; ++p) {
-      z[begin + p] = sum[static_cast<std::size_t>(p)];
+      z[begin + p] = sum[p];
       diagonal -= factor_value[begin + p] * z[begin + p];
-      where[static_cast<std::size_t>(c.row[begin + p])] = -1;
+      where[c.row[begin + p]] = -1;
     }
-    diagonal_[static_cast<std::size_t>(j)] = diagonal;
+    diagonal_[j] = diagonal;
   }
 }
 
 double SelectedInverse::operator()(Eigen::Index i, Eigen::Index j) const {
   int a = place_[i], b = place_[j];
-  if (a == b) return diagonal_[static_cast<std::size_t>(a)];
+  if (a == b) return diagonal_[a];
   if (a < b) std::swap(a, b);
   const int* rows = lower_.innerIndexPtr();
   const int *begin = rows + lower_.outerIndexPtr()[b], *end = rows + lower_.outerIndexPtr()[b + 1];

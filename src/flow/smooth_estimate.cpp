@@ -15,11 +15,11 @@ NoiseBudget noise_budget(const SmoothSolver& solver, std::span<const Recording> 
                          const BallPhysics& ball, const FlowEstimate& estimate) {
   NoiseBudget out;
   const Eigen::VectorXd& log_s2 = solver.now().log_s2;
-  // The mean deviation, and how it answers to log s^2 at each node.
+  // The mean standard deviation, and its derivative by log s^2 at each node.
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(log_s2.size());
   const double cells = estimate.measured();
   for (int n = 0; n < solver.nodes().size(); ++n) {
-    const FlowCell& cell = estimate.cell[static_cast<std::size_t>(solver.nodes().cell(n))];
+    const FlowCell& cell = estimate.cell[solver.nodes().cell(n)];
     if (!cell.measured) continue;
     out.gusts += cell.flow.sigma_x / cells;
     weight[n] = cell.flow.sigma_x / 2 / cells;
@@ -95,7 +95,7 @@ FlowCell cell_of(const SmoothSolver& solver, int node, const BallPhysics& ball) 
   return cell;
 }
 
-// Differences of deviations, as they cannot be negative, from what an estimate says of them.
+// A draw less the estimate. Standard deviations are scaled, as they cannot be negative.
 FlowDifference drawn(const SmoothSolver& solver, const FlowEstimate& estimate, int run) {
   FlowDifference out(estimate.cell.size());
   const SmoothSolver::Change change = solver.draw(run);

@@ -85,7 +85,7 @@ void SmoothFit::instrument(const Balance& b, const BalanceSet& set, const FlowUn
 void SmoothFit::inside(const Balance& b, const BalanceSet& set, const FlowUnknowns& now,
                        Work& w) const {
   const BalanceShape& shape = set.shape;
-  const Track& t = *set.tracks[static_cast<std::size_t>(b.track)];
+  const Track& t = *set.tracks[b.track];
   w.drag = {}, w.gusts = {};
   double mx = 0, my = 0;
   for (int j = 0; j <= shape.length; ++j) {
@@ -121,7 +121,7 @@ double SmoothFit::uncertainty(const Work& w, const MeanCovariance& covariance) c
       const double share = w.where.weight[a] * w.where.weight[b];
       if (share == 0) continue;
       const int at = neighbour(nodes_, grid_, w.where.node[a], w.where.node[b]);
-      const auto& p = covariance.block[static_cast<std::size_t>(w.where.node[a] * 9 + at)];
+      const auto& p = covariance.block[w.where.node[a] * 9 + at];
       xx += share * p[0], xy += share * p[1], yy += share * p[2];
     }
   }
@@ -196,7 +196,7 @@ void SmoothFit::scale(const BalanceSet& set, const FlowUnknowns& now, Work& w) c
 FlowSums SmoothFit::sum(const FlowUnknowns& now, int stride,
                         const MeanCovariance* covariance) const {
   FlowSums out(nodes_.size());
-  out.per_cell.assign(static_cast<std::size_t>(grid_.size()), 0);
+  out.per_cell.assign(grid_.size(), 0);
   Work w;
   for (const BalanceSet& set : sets_) {
     scale(set, now, w);
@@ -214,7 +214,7 @@ FlowSums SmoothFit::sum(const FlowUnknowns& now, int stride,
       out.pulls += w.pull / 2;
       ++out.count;
       const int cell = grid_.cell_at(b.x0, b.y0);
-      if (cell >= 0) ++out.per_cell[static_cast<std::size_t>(cell)];
+      if (cell >= 0) ++out.per_cell[cell];
     }
   }
   if (out.count > 0) out.pulls /= static_cast<double>(out.count);

@@ -27,7 +27,7 @@ struct FlowUnknowns {
   Eigen::VectorXd log_s2;  ///< log of the variance of a ball's gust, m^2/s^2
   double kick = 0;         ///< m^2/s^3, of random force and gusts together
   double random_kick = 0;  ///< m^2/s^3, of the random force alone
-  double outlier = 0;      ///< variances beyond which a squared difference is left out; 0: none
+  double outlier = 0;      ///< variances beyond which a squared difference is excluded; 0: none
 };
 
 /// Sums over balances for one Newton step. Blocks couple the three unknowns of a node with those of
@@ -36,7 +36,7 @@ class FlowSums {
  public:
   explicit FlowSums(int nodes);
   double& block(int node, int neighbour, int row, int column) {
-    return blocks_[static_cast<std::size_t>(((node * 9 + neighbour) * 3 + row) * 3 + column)];
+    return blocks_[((node * 9 + neighbour) * 3 + row) * 3 + column];
   }
   double block(int node, int neighbour, int row, int column) const {
     return const_cast<FlowSums*>(this)->block(node, neighbour, row, column);

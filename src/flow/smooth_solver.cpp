@@ -9,7 +9,7 @@
 namespace lilytank {
 namespace {
 
-constexpr double kGuess = 0.15;           // m/s, deviation of gusts before anything is known
+constexpr double kGuess = 0.15;           // m/s, prior standard deviation of gusts
 constexpr double kFirstSmoothness = 5e3;  // s^2/m^2, weight of squared second differences
 constexpr std::int64_t kSketch = 60000;   // balances of the first rounds
 constexpr int kFirstRounds = 5, kRounds = 7;
@@ -54,7 +54,7 @@ void SmoothSolver::solve(double kick) {
 }
 
 std::array<double, 2> SmoothSolver::mean_variance(int node) const {
-  const auto& own = covariance_.block[static_cast<std::size_t>(node * 9 + 4)];
+  const auto& own = covariance_.block[node * 9 + 4];
   const Eigen::RowVectorXd x = carried_.row(2 * node), y = carried_.row(2 * node + 1);
   return {own[0] + x * gusts_.covariance * x.transpose(),
           own[2] + y * gusts_.covariance * y.transpose()};
@@ -222,8 +222,8 @@ void SmoothSolver::find_covariance() {
     for (int o = 0; o < 9; ++o) {
       const int m = nodes_.beside(n, o % 3 - 1, o / 3 - 1);
       if (m < 0) continue;
-      covariance_.block[static_cast<std::size_t>(n * 9 + o)] = {
-          inverse(2 * n, 2 * m), inverse(2 * n, 2 * m + 1), inverse(2 * n + 1, 2 * m + 1)};
+      covariance_.block[n * 9 + o] = {inverse(2 * n, 2 * m), inverse(2 * n, 2 * m + 1),
+                                      inverse(2 * n + 1, 2 * m + 1)};
     }
   }
 }

@@ -60,7 +60,7 @@ class SmoothSolver {
   Eigen::MatrixXd carried_;  ///< what a spline coefficient changes in the mean flow
   MeanCovariance covariance_;
   SparseFactor factor_;
-  double start_ = 0;  ///< log s^2 before anything is known
+  double start_ = 0;  ///< prior mean of log s^2
   double smoothness_ = 0, free_values_ = 0;
   std::int64_t balances_ = 0;
   bool analysed_ = false;

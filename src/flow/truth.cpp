@@ -45,8 +45,8 @@ FlowTruth read_flow_truth(const std::string& file, int cells) {
   while (rows.next()) {
     const auto ix = rows.whole(0, 0, cells - 1), iy = rows.whole(1, 0, cells - 1);
     if (rows.header() == 1 && rows.whole(8, 0, 1) == 0) continue;
-    truth.sample[static_cast<std::size_t>(iy * cells + ix)] = {rows.number(4), rows.number(5),
-                                                               rows.number(6), rows.number(7)};
+    truth.sample[iy * cells + ix] = {rows.number(4), rows.number(5), rows.number(6),
+                                     rows.number(7)};
   }
   return truth;
 }

@@ -36,7 +36,6 @@ AppendFile::AppendFile(std::string file, std::int64_t keep_bytes) : file_(std::m
     ::close(std::exchange(descriptor_, -1));
     throw InputError("'" + file_ + "' is shorter than its checkpoint says: it was changed");
   }
-  length_ = keep_bytes;
 }
 
 AppendFile::AppendFile(std::string file, const FileDigest& keep)
@@ -48,14 +47,13 @@ AppendFile::AppendFile(AppendFile&& other) noexcept
     : file_(std::move(other.file_)),
       waiting_(std::move(other.waiting_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      length_(other.length_),
       digest_(std::move(other.digest_)) {}
 
 AppendFile::~AppendFile() {
   if (descriptor_ < 0) return;
   try {
     hand_over();
-  } catch (const InputError&) {  // a destructor has nobody to tell
+  } catch (const InputError&) {  // a destructor cannot report it
   }
   ::close(descriptor_);
 }
@@ -67,23 +65,17 @@ void AppendFile::append(std::string_view text) {
 
 void AppendFile::hand_over() {
   extend(digest_, waiting_);
-  std::string_view rest = waiting_;
-  while (!rest.empty()) {
-    const ssize_t n = ::write(descriptor_, rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw InputError(system_problem("cannot write", file_, errno));
-    rest.remove_prefix(static_cast<std::size_t>(n));
-    length_ += n;
-  }
+  const int problem = write_all(descriptor_, waiting_);
+  if (problem != 0) throw InputError(system_problem("cannot write", file_, problem));
   waiting_.clear();
 }
 
-std::int64_t AppendFile::flush() {
+const FileDigest& AppendFile::flush() {
   hand_over();
   if (::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) {
     throw InputError(system_problem("cannot write", file_, errno));
   }
-  return length_;
+  return digest_;
 }
 
 }  // namespace lilytank

@@ -25,17 +25,14 @@ class AppendFile {
 
   /// Throws InputError if the disk is full or fails.
   void append(std::string_view text);
-  /// Everything appended so far is on the disk on return; returns the file's length in bytes.
-  std::int64_t flush();
-  /// Of everything handed over: up to date after flush(). Of the second constructor's files and new
-  /// ones; a file that was cut to `keep_bytes` has none.
-  const FileDigest& digest() const { return digest_; }
+  /// Everything appended so far is on the disk on return; returns the digest of it. A file that was
+  /// cut to `keep_bytes` has none.
+  const FileDigest& flush();
 
  private:
   void hand_over();
   std::string file_, waiting_;
   int descriptor_ = -1;
-  std::int64_t length_ = 0;
   FileDigest digest_;
 };
 

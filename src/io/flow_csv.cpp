@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "io/enough_memory.hpp"
 #include "io/table.hpp"
 #include "lilytank/flow_field.hpp"
 #include "text/number.hpp"

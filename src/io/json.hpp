@@ -10,9 +10,15 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they ar
 
 /// A file's content: indented, null where a number is not finite. Bytes that are not UTF-8 become
 /// U+FFFD.
-std::string json_text(const Json& value);
+inline std::string json_text(const Json& value) {
+  return value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 /// The number at the top level under a key; nothing if the text is no JSON object or holds none.
-std::optional<double> json_number_of(const std::string& text, const std::string& key);
+inline std::optional<double> json_number_of(const std::string& text, const std::string& key) {
+  const Json all = Json::parse(text, nullptr, false);
+  if (!all.is_object() || !all.contains(key) || !all[key].is_number()) return std::nullopt;
+  return all[key].get<double>();
+}
 
 }  // namespace lilytank

@@ -3,7 +3,9 @@
 // \r\r\n or \r alone.
 #pragma once
 #include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -51,5 +53,16 @@ class LineSource {
   int line_ = 0;
   bool ended_ = false;
 };
+
+/// What `read` returns. Where there is not enough memory for it, throws InputError with the file.
+template <class Read>
+auto with_enough_memory(const std::string& file, Read&& read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError({file, 0, 0}, "there is not enough memory for what is in it");
+}
 
 }  // namespace lilytank

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "lilytank/report.hpp"
-#include "text/markup.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {

@@ -1,4 +1,4 @@
-// From files and --set to a Scenario: read, lay over each other, check, build the Model.
+// From files and --set to a Scenario: read, overlay, check, build the Model.
 #include "lilytank/scenario.hpp"
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 
 #include "io/atomic_file.hpp"
 #include "io/poses_csv.hpp"
-#include "io/scenario_build.hpp"
 #include "io/scenario_commands.hpp"
 #include "io/scenario_keys.hpp"
 #include "io/scenario_layers.hpp"
@@ -76,7 +75,7 @@ class Loader {
     places_[path] = value.place;
   }
 
-  // What a layer says without words: naming a file chooses it, naming a parameter of a force that
+  // What a layer implies: naming a file chooses it, naming a parameter of a force that
   // is not in the baseline switches it on.
   void imply(const Layer& layer) {
     std::map<std::string, SourcePlace> here;

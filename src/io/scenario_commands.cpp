@@ -23,12 +23,26 @@ constexpr double kLatest = 1e8;  // s
 class CommandReader {
  public:
   CommandReader(const CommandTable& table, int modules, std::vector<RulesetFile>& files)
-      : table_(&table), modules_(modules), files_(&files) {}
+      : table_(&table),
+        modules_(modules),
+        files_(&files),
+        at_(field("at")),
+        copies_(field("copies")),
+        file_(field("file")),
+        power_(field("power")) {}
 
   ScheduledCommand read() {
-    for (const Assignment& field : table_->fields) take(field);
+    check_names();
+    const Assignment *what = field("do"), *modules = field("modules");
+    if (what != nullptr) {
+      const std::size_t kind = index_of_word(*what, "command.do", command_words());
+      out_.command.kind = static_cast<CommandKind>(kind);
+    }
+    if (modules != nullptr) take_modules(*modules);
     take_when();
-    if (!has_do_) throw InputError(table_->place, "command.do is missing: what, as \"pause\"");
+    if (what == nullptr) {
+      throw InputError(table_->place, "command.do is missing: what, as \"pause\"");
+    }
     check_copies();
     goes_with(file_, CommandKind::replace_ruleset, "file", "the ruleset to go on with");
     goes_with(power_, CommandKind::pump_power, "power", "how much, as \"50 %\"");
@@ -38,22 +52,17 @@ class CommandReader {
   }
 
  private:
-  void take(const Assignment& field) {
+  const Assignment* field(const std::string& name) const {
+    const auto found = std::find_if(table_->fields.begin(), table_->fields.end(),
+                                    [&](const Assignment& f) { return f.path() == name; });
+    return found == table_->fields.end() ? nullptr : &*found;
+  }
+
+  void check_names() const {
     static const std::vector<std::string> names{"at", "copies", "do", "modules", "file", "power"};
-    const std::string name = field.path();
-    if (name == "at") {
-      at_ = &field;
-    } else if (name == "copies") {
-      copies_ = &field;
-    } else if (name == "power") {
-      power_ = &field;
-    } else if (name == "do") {
-      take_word(field);
-    } else if (name == "modules") {
-      take_modules(field);
-    } else if (name == "file") {
-      file_ = &field;
-    } else {
+    for (const Assignment& field : table_->fields) {
+      const std::string name = field.path();
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
       throw InputError(field.key_places.front(),
                        "unknown key 'command." + name + "'" + did_you_mean(name, names));
     }
@@ -106,15 +115,6 @@ class CommandReader {
                                       " is outside 0 .. " + shortest(high) + shown);
   }
 
-  void take_word(const Assignment& field) {
-    const auto& words = command_words();
-    const std::string word = text_of(field, "command.do");
-    const auto found = std::find(words.begin(), words.end(), word);
-    if (found == words.end()) throw unknown_word(field.place, "command.do", word, words);
-    out_.command.kind = static_cast<CommandKind>(found - words.begin());
-    has_do_ = true;
-  }
-
   void take_modules(const Assignment& field) {
     const auto* list = std::get_if<Numbers>(&field.value);
     if (list == nullptr) {
@@ -143,9 +143,8 @@ class CommandReader {
   const CommandTable* table_;
   int modules_;
   std::vector<RulesetFile>* files_;
+  const Assignment *at_, *copies_, *file_, *power_;
   ScheduledCommand out_;
-  const Assignment *at_ = nullptr, *copies_ = nullptr, *file_ = nullptr, *power_ = nullptr;
-  bool has_do_ = false;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct ForceDraft {
 };
 
 /// A scenario while it is put together: what files and --set assign, and what is not yet a Model.
-/// A fresh one holds every default; numbers that a Model or AnalyticTank knows have theirs there.
+/// A fresh one holds every default; numbers of a Model or AnalyticTank have theirs there.
 struct ScenarioDraft {
   ScenarioDraft();
   Scenario scenario;

@@ -7,6 +7,7 @@
 #include "io/scenario_resolve.hpp"
 #include "io/toml_text.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -183,9 +184,7 @@ std::string kind_of(const TomlValue& value) {
 }
 
 std::string Assignment::path() const {
-  std::string out;
-  for (const std::string& key : keys) out += (out.empty() ? "" : ".") + key;
-  return out;
+  return joined(keys, ".");
 }
 
 std::vector<Layer> read_layers(const std::vector<std::string>& files,

@@ -1,4 +1,4 @@
-// Scenario files as lists of assignments, in the order in which they are laid over each other.
+// Scenario files as lists of assignments, in the order in which they override each other.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -41,14 +41,14 @@ struct CommandTable {
   std::vector<Assignment> fields;
 };
 
-/// What one file, or all --set together, says. A layer with commands or recordings replaces those
-/// below it.
+/// The assignments of one file, or of all --set together. A layer with commands or recordings
+/// replaces those below it.
 struct Layer {
   std::vector<Assignment> values;
   std::vector<CommandTable> commands;
   bool has_commands = false;
   /// What makes a scenario an experiment; whoever simulates it passes over them.
-  std::vector<Assignment> experiment;  ///< of [experiment], its name left out of the paths
+  std::vector<Assignment> experiment;  ///< of [experiment], without its name in the paths
   std::vector<CommandTable> recordings;
   bool has_recordings = false;
 };
@@ -62,5 +62,9 @@ std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
 /// unreadable file, TOML syntax, circle of bases.
 std::vector<Layer> read_layers(const std::vector<std::string>& files,
                                const std::vector<std::string>& sets);
+
+struct Scenario;
+/// What load_scenario() does once everything is read. Throws InputError.
+Scenario build_scenario(std::vector<Layer> layers);
 
 }  // namespace lilytank

@@ -3,6 +3,7 @@
 #include "io/scenario_text.hpp"
 #include "io/scenario_values.hpp"
 #include "text/fnv.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -23,8 +24,8 @@ std::string comment_of(const ScenarioKey& key) {
 
 void add_command(const ScheduledCommand& scheduled, ScenarioText& out) {
   const Command& command = scheduled.command;
-  std::string modules;
-  for (const int m : command.modules) modules += (modules.empty() ? "" : ", ") + std::to_string(m);
+  const std::string modules =
+      joined(command.modules, ", ", [](int module) { return std::to_string(module); });
   out.table("[command]");
   if (command.copies > 0) {
     out.line("copies", std::to_string(command.copies), "finished");

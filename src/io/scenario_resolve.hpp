@@ -22,7 +22,7 @@ inline const std::string kResolvedFirst =
     "# Every value of a lilytank scenario; a last line \"# end\" closes it.";
 inline const std::string kResolvedLast = "\n# end\n";
 
-/// One entry a key; `places` tells what was set, and where.
+/// One entry a key; `places` holds what was set, and where.
 std::vector<ScenarioEntry> entries_of(const std::vector<ScenarioKey>& keys,
                                       const std::map<std::string, SourcePlace>& places);
 

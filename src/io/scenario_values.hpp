@@ -25,6 +25,9 @@ InputError unknown_word(const SourcePlace& place, const std::string& path, const
 
 /// The text of an assignment that must be text. Throws InputError.
 std::string text_of(const Assignment& from, const std::string& path);
+/// The place of its text among the words that it may be. Throws InputError, by unknown_word().
+std::size_t index_of_word(const Assignment& from, const std::string& path,
+                          const std::vector<std::string>& words);
 /// A number in SI units, given plainly or with a unit. Throws InputError if it is not finite.
 double number_of(const Assignment& from, const std::string& path, const std::string& unit);
 

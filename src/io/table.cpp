@@ -68,9 +68,7 @@ void Table::find_twins() {
   twins_.clear();
   std::vector<int> order(names().size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto name = [&](int column) -> const std::string& {
-    return names()[static_cast<std::size_t>(column)];
-  };
+  const auto name = [&](int column) -> const std::string& { return names()[column]; };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return name(a) < name(b); });
   for (std::size_t i = 0, first = 0; i < order.size(); ++i) {
     if (name(order[i]) != name(order[first])) first = i;
@@ -81,12 +79,11 @@ void Table::find_twins() {
 void Table::check_twins(int column) const {
   for (const Twins& twins : twins_) {
     if (twins.first != column) continue;
-    const std::string_view one = cells_[static_cast<std::size_t>(column)];
-    const std::string_view other = cells_[static_cast<std::size_t>(twins.other)];
+    const std::string_view one = cells_[column];
+    const std::string_view other = cells_[twins.other];
     const auto a = parse_number(one), b = parse_number(other);
     if (one == other || (a && a == b) || (is_not_seen(one) && is_not_seen(other))) continue;
-    throw InputError({file(), line(), 0}, "two columns are called '" +
-                                              names()[static_cast<std::size_t>(column)] + "' (" +
+    throw InputError({file(), line(), 0}, "two columns are called '" + names()[column] + "' (" +
                                               std::to_string(column + 1) + " and " +
                                               std::to_string(twins.other + 1) + "), and differ: '" +
                                               std::string(one) + "', '" + std::string(other) + "'");
@@ -213,7 +210,7 @@ std::optional<std::int64_t> Table::whole(int column) const {
 }
 
 SourcePlace Table::place(int column) const {
-  const char* at = cells_[static_cast<std::size_t>(column)].data();
+  const char* at = cells_[column].data();
   const bool inside = at >= row_.data() && at <= row_.data() + row_.size();
   return {file(), line(), inside ? static_cast<int>(at - row_.data()) + 1 : 0};
 }
@@ -223,8 +220,7 @@ void Table::refuse(int column, const std::string& message) const {
 }
 
 std::string Table::quoted(int column) const {
-  return names()[static_cast<std::size_t>(column)] + " '" +
-         std::string(cells_[static_cast<std::size_t>(column)].substr(0, 40)) + "'";
+  return names()[column] + " '" + std::string(cells_[column].substr(0, 40)) + "'";
 }
 
 }  // namespace lilytank

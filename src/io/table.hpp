@@ -48,7 +48,7 @@ class Table {
 
   std::string_view cell(int column) const {
     if (!twins_.empty()) check_twins(column);
-    return cells_[static_cast<std::size_t>(column)];
+    return cells_[column];
   }
   /// Whether the cell is empty or a word for "not seen".
   bool not_seen(int column) const { return is_not_seen(cell(column)); }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // A mark of our temporary files: the sticky bit has no effect on a file and nobody else sets it.
 constexpr mode_t kOurs = S_ISVTX;
-constexpr int kSwept = 8;          // names that are always looked at for leftovers
+constexpr int kSwept = 8;          // names that are always checked for leftovers
 constexpr int kMostNames = 10000;  // temporary files of one target at a time
 
 std::string hashed(const std::string& text) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/scenario_values.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 
@@ -23,9 +24,7 @@ void TomlFields::check_names(const std::vector<std::string>& names) const {
   if (first == nullptr) return;
   const std::string name(first->str());
   std::string help = did_you_mean(name, names);
-  if (help.empty()) {
-    for (const std::string& known : names) help += (help.empty() ? " - there are " : ", ") + known;
-  }
+  if (help.empty() && !names.empty()) help = " - there are " + joined(names, ", ");
   throw InputError(place_of(first->source(), file_), "unknown key '" + path(name) + "'" + help);
 }
 

@@ -16,12 +16,11 @@ class NoWriter final : public TrajectoryWriter {
 
 Markings markings_of(const World& world, int module, const std::vector<std::uint8_t>& complete) {
   const State& state = world.state();
-  const auto i = static_cast<std::size_t>(module);
   Markings out;
-  out.label = static_cast<std::int16_t>(state.firmware[i].label);
-  out.last = state.firmware[i].last;
+  out.label = static_cast<std::int16_t>(state.firmware[module].label);
+  out.last = state.firmware[module].last;
   for (std::size_t f = 0; f < 4; ++f) {
-    const FaceStatus status = state.faces[4 * i + f].status;
+    const FaceStatus status = state.faces[4 * module + f].status;
     const bool bonded = status == FaceStatus::bonded;
     const int bit = 1 << f;
     if (bonded) out.bonded = static_cast<std::uint8_t>(out.bonded | bit);
@@ -29,8 +28,20 @@ Markings markings_of(const World& world, int module, const std::vector<std::uint
       out.latched = static_cast<std::uint8_t>(out.latched | bit);
     }
   }
-  if (i < complete.size()) out.complete = complete[i];
+  if (static_cast<std::size_t>(module) < complete.size()) out.complete = complete[module];
   return out;
+}
+
+void append_poses(const World& world, Trajectory& trajectory) {
+  const Kinematics& k = world.kinematics();
+  trajectory.bodies = k.size();
+  trajectory.modules = k.modules;
+  trajectory.time.push_back(world.time());
+  for (int i = 0; i < k.size(); ++i) {
+    trajectory.x.push_back(static_cast<float>(k.x[i]));
+    trajectory.y.push_back(static_cast<float>(k.y[i]));
+    trajectory.theta.push_back(static_cast<float>(angle_of({k.c[i], k.s[i]})));
+  }
 }
 
 std::unique_ptr<TrajectoryWriter> open_trajectory(const std::string& file, TrajectoryFormat format,

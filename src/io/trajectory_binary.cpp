@@ -57,19 +57,15 @@ class BinaryWriter final : public TrajectoryWriter {
     frame_.clear();
     put(frame_, world.time());
     for (int b = 0; b < k.size(); ++b) {
-      const auto i = static_cast<std::size_t>(b);
-      put(frame_, static_cast<float>(k.x[i])), put(frame_, static_cast<float>(k.y[i]));
-      put(frame_, static_cast<float>(angle_of({k.c[i], k.s[i]})));
+      put(frame_, static_cast<float>(k.x[b])), put(frame_, static_cast<float>(k.y[b]));
+      put(frame_, static_cast<float>(angle_of({k.c[b], k.s[b]})));
       put_markings(frame_, b < k.modules ? markings_of(world, b, complete) : Markings{});
     }
     put(frame_, checksum_bits(frame_));
     out_.append(frame_);
   }
 
-  FileDigest flush() override {
-    out_.flush();
-    return out_.digest();
-  }
+  FileDigest flush() override { return out_.flush(); }
 
  private:
   AppendFile out_;

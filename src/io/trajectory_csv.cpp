@@ -36,10 +36,9 @@ class CsvWriter final : public TrajectoryWriter {
     const std::string begin = std::to_string(frame_++) + "," + without_rounding(world.time()) + ",";
     std::string rows;
     for (int b = 0; b < k.size(); ++b) {
-      const auto i = static_cast<std::size_t>(b);
       rows += begin + std::to_string(b);
       // As narrow as the binary format, so that both hold the same numbers.
-      for (const double v : {k.x[i], k.y[i], angle_of({k.c[i], k.s[i]})}) {
+      for (const double v : {k.x[b], k.y[b], angle_of({k.c[b], k.s[b]})}) {
         rows += "," + shortest(static_cast<float>(v));
       }
       rows += b < k.modules ? marked(markings_of(world, b, complete)) : ",,,,,";
@@ -48,10 +47,7 @@ class CsvWriter final : public TrajectoryWriter {
     out_.append(rows);
   }
 
-  FileDigest flush() override {
-    out_.flush();
-    return out_.digest();
-  }
+  FileDigest flush() override { return out_.flush(); }
 
  private:
   static std::string marked(const Markings& m) {

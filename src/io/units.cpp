@@ -72,12 +72,9 @@ std::string in_ascii(std::string_view text) {
   return out;
 }
 
-struct Prefix {
-  std::string_view name;
-  int ten;
-};
-constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"m", -3}, {"c", -2},
-                                {"d", -1}, {"k", 3},  {"M", 6}};
+/// With their powers of ten.
+constexpr std::pair<std::string_view, int> kPrefixes[] = {
+    {"n", -9}, {"u", -6}, {"m", -3}, {"c", -2}, {"d", -1}, {"k", 3}, {"M", 6}};
 
 std::optional<Unit> named_unit(std::string_view word) {
   for (const NamedUnit& known : kUnits) {
@@ -85,29 +82,23 @@ std::optional<Unit> named_unit(std::string_view word) {
   }
   for (const NamedUnit& known : kUnits) {
     if (!known.prefixes || !word.ends_with(known.name)) continue;
-    for (const Prefix& prefix : kPrefixes) {
-      if (word.substr(0, word.size() - known.name.size()) != prefix.name) continue;
+    for (const auto& [prefix, ten] : kPrefixes) {
+      if (word.substr(0, word.size() - known.name.size()) != prefix) continue;
       Unit unit = known.unit;
-      unit.ten += prefix.ten;
+      unit.ten += ten;
       return unit;
     }
   }
   return std::nullopt;
 }
 
-Unit power(const Unit& unit, int n) {
-  Unit out;
-  for (std::size_t i = 0; i < out.powers.size(); ++i) out.powers[i] = unit.powers[i] * n;
-  out.ten = unit.ten * n;
-  for (int i = 0; i < std::abs(n); ++i) out.scale *= unit.scale;
-  if (n < 0) out.scale = 1 / out.scale;
-  return out;
-}
-
-Unit product(const Unit& a, const Unit& b) {
-  Unit out;
-  for (std::size_t i = 0; i < out.powers.size(); ++i) out.powers[i] = a.powers[i] + b.powers[i];
-  out.ten = a.ten + b.ten, out.scale = a.scale * b.scale;
+/// out * unit^n.
+Unit times(Unit out, const Unit& unit, int n) {
+  for (std::size_t i = 0; i < out.powers.size(); ++i) out.powers[i] += n * unit.powers[i];
+  out.ten += n * unit.ten;
+  double scale = 1;
+  for (int i = 0; i < std::abs(n); ++i) scale *= unit.scale;
+  out.scale *= n < 0 ? 1 / scale : scale;
   return out;
 }
 
@@ -139,7 +130,7 @@ class UnitReader {
       }
       const auto next = factor(depth);
       if (!next) return std::nullopt;
-      out = product(out, power(*next, sign));
+      out = times(out, *next, sign);
       sign = 1;
     }
   }
@@ -162,7 +153,7 @@ class UnitReader {
     const auto [end, problem] = std::from_chars(begin, text_.data() + text_.size(), n);
     if (problem != std::errc() || std::abs(n) > 9) return std::nullopt;
     at_ = static_cast<std::size_t>(end - text_.data());
-    return power(*unit, n);
+    return times({}, *unit, n);
   }
 
   std::string_view text_;
@@ -181,10 +172,8 @@ std::optional<double> shifted(std::string_view digits, int shift) {
   return parse_number(std::string(digits.substr(0, e)) + "e" + std::to_string(exponent));
 }
 
-struct Dimension {
-  std::string_view unit, name;
-};
-constexpr Dimension kDimensions[] = {
+/// What is measured in a unit.
+constexpr std::pair<std::string_view, std::string_view> kDimensions[] = {
     {"m", "a length"},
     {"kg", "a mass"},
     {"s", "a time"},
@@ -204,8 +193,8 @@ constexpr Dimension kDimensions[] = {
 
 std::string_view dimension_name(std::string_view unit) {
   const auto wanted = parse_unit(unit);
-  for (const Dimension& dimension : kDimensions) {
-    if (wanted && wanted->same_dimension(*parse_unit(dimension.unit))) return dimension.name;
+  for (const auto& [known, name] : kDimensions) {
+    if (wanted && wanted->same_dimension(*parse_unit(known))) return name;
   }
   return "a value";
 }

@@ -111,8 +111,7 @@ void RunFiles::finish(const World& world, const AssemblyRecord& record) {
 }
 
 RunFileDigests RunFiles::flush() {
-  events_.flush(), metrics_.flush();
-  return {trajectory_->flush(), events_.digest(), metrics_.digest()};
+  return {trajectory_->flush(), events_.flush(), metrics_.flush()};
 }
 
 void RunFiles::events(const World& world, const AssemblyRecord& record) {

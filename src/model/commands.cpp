@@ -5,21 +5,18 @@ namespace lilytank {
 int last_command(const Model& model, CommandKind kind, int given, int copies) {
   int last = -1;
   for (int i = 0; i < given; ++i) {
-    if (model.commands[static_cast<std::size_t>(i)].kind == kind) last = i;
+    if (model.commands[i].kind == kind) last = i;
   }
   const int timed = static_cast<int>(model.commands.size());
   for (int i = 0; i < static_cast<int>(model.feedback.size()); ++i) {
-    const Command& command = model.feedback[static_cast<std::size_t>(i)];
+    const Command& command = model.feedback[i];
     if (command.kind == kind && command.copies <= copies) last = timed + i;
   }
   return last;
 }
 
 int said_by(const Model& model, int place, int Command::*what) {
-  if (place < 0) return 0;
-  const auto i = static_cast<std::size_t>(place);
-  const std::size_t timed = model.commands.size();
-  return i < timed ? model.commands[i].*what : model.feedback[i - timed].*what;
+  return place < 0 ? 0 : command_at(model, place).*what;
 }
 
 const Command& command_at(const Model& model, int index) {

@@ -8,7 +8,7 @@ namespace lilytank {
 /// and so many copies are finished; those of Model::feedback count after those of time. -1: none.
 int last_command(const Model& model, CommandKind kind, int given, int copies);
 
-/// What the command at such a place says; 0 where none was given.
+/// A number of the command at such a place; 0 where none was given.
 int said_by(const Model& model, int place, int Command::*what);
 
 }  // namespace lilytank

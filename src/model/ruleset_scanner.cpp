@@ -1,5 +1,6 @@
 #include "model/ruleset_scanner.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace lilytank {
@@ -14,7 +15,22 @@ bool ends_word(char c) {
   return blank(c) || std::string_view(":=(),-<>").find(c) != std::string_view::npos;
 }
 
+bool letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool name_letter(char c) {
+  return letter(c) || (c >= '0' && c <= '9') || c == '-';
+}
+
 }  // namespace
+
+bool is_name(std::string_view text) {
+  return !text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), name_letter);
+}
+
+std::string text_of(const Label& label) {
+  return "(" + std::to_string(label.state) + "," + std::to_string(label.hop) + ")";
+}
 
 bool RulesetScanner::at_end() {
   while (at_ < line_.size() && blank(line_[at_])) ++at_;
@@ -94,8 +110,7 @@ Label RulesetScanner::label() {
   expect(",", "between control state and hop");
   label.hop = whole_number("hop", 4);
   expect(")", "to end the label");
-  const std::string text =
-      "(" + std::to_string(label.state) + "," + std::to_string(label.hop) + ")";
+  const std::string text = text_of(label);
   if (label.state == 0 && label.hop != 0)
     throw InputError(start, text + " has a hop but no control state: an isolated module is (0,0)");
   if (label.state != 0 && label.hop == 0)

@@ -1,4 +1,4 @@
-// Reads one line of a ruleset file word by word and says what is wrong with it, and where.
+// Reads one line of a ruleset file word by word and reports what is wrong with it, and where.
 #pragma once
 #include <string>
 #include <string_view>
@@ -6,6 +6,14 @@
 #include "lilytank/ruleset.hpp"
 
 namespace lilytank {
+
+/// Whether a text is a name of a ruleset, rule or target, and how it is described in messages.
+bool is_name(std::string_view text);
+inline const std::string kNameForm = "expected a letter, then letters, digits, '_' or '-'";
+/// "(3,1)".
+std::string text_of(const Label& label);
+/// A rule's two sides, "(1,3) (0,0) -> (3,1)-(4,1)".
+std::string rule_text(const Rule& rule);
 
 /// A line with a reading position. All errors carry file, line and column.
 class RulesetScanner {

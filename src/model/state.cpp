@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "lilytank/error.hpp"
+#include "text/fnv.hpp"
 
 namespace lilytank {
 namespace {
@@ -29,11 +30,10 @@ void as_bytes(const Field& field, Use&& use) {
 }  // namespace
 
 std::uint64_t fingerprint(const State& state) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
+  std::uint64_t hash = fnv_bytes({});
   for_each_field(state, [&](const char*, const auto& field) {
     as_bytes(field, [&](const void* data, std::size_t size) {
-      const auto* bytes = static_cast<const unsigned char*>(data);
-      for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3ull;
+      hash = fnv_bytes({static_cast<const char*>(data), size}, hash);
     });
   });
   return hash;

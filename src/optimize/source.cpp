@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/scenario_build.hpp"
+#include "io/scenario_layers.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/random.hpp"
 #include "optimize/assignments.hpp"

@@ -70,14 +70,14 @@ class Filming {
     out_.frames = 1 + static_cast<int>(std::floor(length * camera.rate + 1e-6));
     headings_ = camera.headings && !balls;
     tilt_ = rotation(camera.tilt), lean_ = rotation(camera.tilt_direction);
-    shown_.resize(static_cast<std::size_t>(count_));
+    shown_.resize(count_);
     std::iota(shown_.begin(), shown_.end(), 0);
   }
 
   Recording film() {
     const double none = std::numeric_limits<double>::quiet_NaN();
     const auto frames = static_cast<std::size_t>(out_.frames);
-    out_.tracks.resize(static_cast<std::size_t>(count_));
+    out_.tracks.resize(count_);
     for (std::size_t b = 0; b < out_.tracks.size(); ++b) {
       Track& track = out_.tracks[b];
       track.id = static_cast<std::int64_t>(b);
@@ -123,19 +123,18 @@ class Filming {
   }
 
   void see(int f, int id) {
-    Track& track = out_.tracks[static_cast<std::size_t>(id)];
-    const int body = first_ + shown_[static_cast<std::size_t>(id)];
-    const auto i = static_cast<std::size_t>(f);
+    Track& track = out_.tracks[id];
+    const int body = first_ + shown_[id];
     const Vec2 place = image_of({scene_.x(body), scene_.y(body)});
-    track.x[i] = place.x() + camera_.position_noise * noise(id, kNoiseX);
-    track.y[i] = place.y() + camera_.position_noise * noise(id, kNoiseY);
+    track.x[f] = place.x() + camera_.position_noise * noise(id, kNoiseX);
+    track.y[f] = place.y() + camera_.position_noise * noise(id, kNoiseY);
     if (!headings_) return;
     const double seen = scene_.theta(body) + camera_.heading_noise * noise(id, kNoiseHeading);
     // Continued from the last one.
-    std::size_t before = i;
+    std::size_t before = f;
     while (before > 0 && std::isnan(track.theta[before - 1])) --before;
     const double last = before > 0 ? track.theta[before - 1] : seen;
-    track.theta[i] = seen - kTurn * std::floor((seen - last) / kTurn + 0.5);
+    track.theta[f] = seen - kTurn * std::floor((seen - last) / kTurn + 0.5);
   }
 
   // Every pair that is near takes its chance in every frame; from then on each has the other's id.
@@ -144,8 +143,8 @@ class Filming {
     const double near = camera_.swap_distance * camera_.swap_distance;
     for (int a = 0; a < count_; ++a) {
       for (int b = a + 1; b < count_; ++b) {
-        int& first = shown_[static_cast<std::size_t>(a)];
-        int& second = shown_[static_cast<std::size_t>(b)];
+        int& first = shown_[a];
+        int& second = shown_[b];
         const double dx = scene_.x(first_ + first) - scene_.x(first_ + second);
         const double dy = scene_.y(first_ + first) - scene_.y(first_ + second);
         if (dx * dx + dy * dy > near) continue;

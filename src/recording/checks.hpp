@@ -1,4 +1,4 @@
-// From rows as a file has them to tracks, and everything that is looked for on the way.
+// From the rows of a file to tracks, and the checks on the way.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ void to_metres(Sightings& sightings, const RecordingOptions& options, Report& re
 /// the tracker held, frames that were written twice, and 0, 0 for what was not seen.
 void check_repeats(Sightings& sightings, Report& report);
 
-/// Looks for lengths in another unit than said, in a tank.
+/// Looks for lengths in another unit than the options name, in a tank.
 void check_lengths(const Sightings& sightings, const RecordingOptions& options, Report& report);
 
 /// Frames at even times.
@@ -69,9 +69,7 @@ struct CheckContext {
   const FrameClock& clock;
   const RecordingOptions& options;
   Report& report;
-  SourcePlace place(const Point& point) const {
-    return sightings.place(sightings.rows[static_cast<std::size_t>(point.row)]);
-  }
+  SourcePlace place(const Point& point) const { return sightings.place(sightings.rows[point.row]); }
   std::int64_t frame(const Point& point) const { return clock.number(point.frame); }
 };
 

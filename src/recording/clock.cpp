@@ -77,7 +77,7 @@ class ClockFinder {
     instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
   }
 
-  // Times that are rounded to seconds tell nothing about frames that follow each other faster.
+  // Times that are rounded to seconds do not determine a higher frame rate.
   void refuse_whole_seconds() const {
     const double unit = options_->time_unit.value_or(1);
     std::set<double> times;

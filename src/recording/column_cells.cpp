@@ -27,8 +27,8 @@ void refuse_missing(const Table& table, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (near.empty()) near = nearest(name, table);
   }
-  std::string wanted = "'" + names.front() + "'";
-  for (std::size_t i = 1; i < names.size(); ++i) wanted += " or '" + names[i] + "'";
+  const std::string wanted =
+      joined(names, " or ", [](const std::string& name) { return "'" + name + "'"; });
   throw InputError(
       {table.file(), table.header_line(), 1},
       "there is no column " + wanted + near + "; there are " + short_list(table.names()));
@@ -47,6 +47,11 @@ int find_column(const Table& table, const std::string& own, const std::vector<st
   return -1;
 }
 
+int find_frame(const Table& table, const std::string& own, RecordingFormat format) {
+  const int found = find_column(table, own, columns_of(format).frame);
+  return found < 0 && own.empty() ? find_role(table.names(), ColumnRole::frame) : found;
+}
+
 double bounded(const Table& table, int column) {
   const double value = table.number(column);
   if (std::fabs(value) > kLargest) table.refuse(column, table.quoted(column) + " is too large");
@@ -63,7 +68,7 @@ void list_unused(const Table& table, const std::vector<int>& used, Sightings& ou
   out.unused.clear();
   const auto& names = table.names();
   for (int c = 0; c < static_cast<int>(names.size()); ++c) {
-    const std::string& name = names[static_cast<std::size_t>(c)];
+    const std::string& name = names[c];
     if (std::find(used.begin(), used.end(), c) == used.end() && !name.empty()) {
       out.unused.push_back(name);
     }

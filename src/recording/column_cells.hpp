@@ -13,6 +13,8 @@ namespace lilytank {
 /// The column that the user names (`own`), or the first one that has one of the format's names; -1
 /// if there is none or `own` is "-". Throws InputError where the user's column is not there.
 int find_column(const Table& table, const std::string& own, const std::vector<std::string>& names);
+/// The column of frames: the user's, the format's, or one that is called so; -1 if there is none.
+int find_frame(const Table& table, const std::string& own, RecordingFormat format);
 /// Throws InputError: there is no column of these names.
 [[noreturn]] void refuse_missing(const Table& table, const std::vector<std::string>& names);
 

@@ -19,15 +19,16 @@ std::string plain(std::string_view name) {
   return out;
 }
 
-const std::vector<std::string_view>& words_of(ColumnRole role) {
-  static const std::vector<std::string_view> frame{
-      "frame",    "frames",  "frameno",  "framenr",     "framenumber", "frameindex",
-      "frameidx", "frameid", "framenum", "imagenumber", "imageindex"};
-  static const std::vector<std::string_view> time{
-      "time",    "times",     "timestamp", "timestamps", "timestampms", "timems", "timesec",
-      "seconds", "positiont", "datetime",  "date",       "msec",        "t"};
-  static const std::vector<std::string_view> identity{
-      "id",         "ids",          "trackid",    "track",       "trackno",      "tracknumber",
+/// The words of each role, by plain(), most wanted first. Roles are tried in this order.
+const std::pair<ColumnRole, std::vector<std::string_view>> kWords[] = {
+    {ColumnRole::frame,
+     {"frame", "frames", "frameno", "framenr", "framenumber", "frameindex", "frameidx", "frameid",
+      "framenum", "imagenumber", "imageindex"}},
+    {ColumnRole::time,
+     {"time", "times", "timestamp", "timestamps", "timestampms", "timems", "timesec", "seconds",
+      "positiont", "datetime", "date", "msec", "t"}},
+    {ColumnRole::identity,
+     {"id",         "ids",          "trackid",    "track",       "trackno",      "tracknumber",
       "trackindex", "tracklet",     "trackletid", "trackerid",   "particle",     "particleid",
       "individual", "individualid", "label",      "labelid",     "object",       "objectid",
       "objid",      "obj",          "identity",   "identityid",  "animal",       "animalid",
@@ -36,41 +37,19 @@ const std::vector<std::string_view>& words_of(ColumnRole role) {
       "markerid",   "tag",          "tagid",      "trajectory",  "trajectoryid", "fish",
       "fishid",     "fly",          "flyid",      "ant",         "antid",        "bee",
       "beeid",      "subject",      "subjectid",  "instance",    "instanceid",   "blob",
-      "blobid",     "spotid",       "detection",  "detectionid", "name"};
-  static const std::vector<std::string_view> x{
-      "x",       "xpos",    "posx",    "positionx", "xposition", "cx",     "xc",     "xcenter",
+      "blobid",     "spotid",       "detection",  "detectionid", "name"}},
+    {ColumnRole::x,
+     {"x",       "xpos",    "posx",    "positionx", "xposition", "cx",     "xc",     "xcenter",
       "xcentre", "centerx", "centrex", "centroidx", "xcentroid", "xbody",  "xpx",    "xpixel",
-      "pixelx",  "px",      "xmm",     "xcm",       "xworld",    "worldx", "xcoord", "coordx"};
-  static const std::vector<std::string_view> y{
-      "y",       "ypos",    "posy",    "positiony", "yposition", "cy",     "yc",     "ycenter",
+      "pixelx",  "px",      "xmm",     "xcm",       "xworld",    "worldx", "xcoord", "coordx"}},
+    {ColumnRole::y,
+     {"y",       "ypos",    "posy",    "positiony", "yposition", "cy",     "yc",     "ycenter",
       "ycentre", "centery", "centrey", "centroidy", "ycentroid", "ybody",  "ypx",    "ypixel",
-      "pixely",  "py",      "ymm",     "ycm",       "yworld",    "worldy", "ycoord", "coordy"};
-  static const std::vector<std::string_view> score{
-      "conf",    "confidence", "score",      "cls",     "class",      "classid",   "classname",
-      "classes", "category",   "categoryid", "detconf", "visibility", "objectness"};
-  static const std::vector<std::string_view> none;
-  switch (role) {
-    case ColumnRole::frame:
-      return frame;
-    case ColumnRole::time:
-      return time;
-    case ColumnRole::identity:
-      return identity;
-    case ColumnRole::x:
-      return x;
-    case ColumnRole::y:
-      return y;
-    case ColumnRole::score:
-      return score;
-    default:
-      return none;
-  }
-}
-
-bool is_word_of(const std::string& word, ColumnRole role) {
-  const auto& words = words_of(role);
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
+      "pixely",  "py",      "ymm",     "ycm",       "yworld",    "worldy", "ycoord", "coordy"}},
+    {ColumnRole::score,
+     {"conf", "confidence", "score", "cls", "class", "classid", "classname", "classes", "category",
+      "categoryid", "detconf", "visibility", "objectness"}},
+};
 
 /// A plain name without the "bbox", "bb" or "box" before it.
 std::string without_box(const std::string& word) {
@@ -115,17 +94,19 @@ FormatColumns columns_of(RecordingFormat format) {
 
 ColumnRole role_of(std::string_view name) {
   const std::string word = plain(name);
-  for (const ColumnRole role : {ColumnRole::frame, ColumnRole::time, ColumnRole::identity,
-                                ColumnRole::x, ColumnRole::y, ColumnRole::score}) {
-    if (is_word_of(word, role)) return role;
+  for (const auto& [role, words] : kWords) {
+    if (std::find(words.begin(), words.end(), word) != words.end()) return role;
   }
   return ColumnRole::other;
 }
 
-int find_role(const std::vector<std::string>& names, ColumnRole role) {
-  for (const std::string_view word : words_of(role)) {
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      if (plain(names[c]) == word) return static_cast<int>(c);
+int find_role(const std::vector<std::string>& names, ColumnRole wanted) {
+  for (const auto& [role, words] : kWords) {
+    if (role != wanted) continue;
+    for (const std::string_view word : words) {
+      const auto found = std::find_if(names.begin(), names.end(),
+                                      [&](const std::string& name) { return plain(name) == word; });
+      if (found != names.end()) return static_cast<int>(found - names.begin());
     }
   }
   return -1;
@@ -176,18 +157,15 @@ std::optional<BoxColumns> find_box(const std::vector<std::string>& names) {
 }
 
 bool has_ambiguous_box(const std::vector<std::string>& names) {
-  std::vector<std::string> words;
-  for (const std::string& name : names) words.push_back(without_box(plain(name)));
   const auto has = [&](std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return without_box(plain(name)) == word; });
   };
   return has("x") && has("y") && (has("w") || has("width")) && (has("h") || has("height"));
 }
 
 std::string quoted_names(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "'" : ", '") + name + "'";
-  return out;
+  return joined(names, ", ", [](const std::string& name) { return "'" + name + "'"; });
 }
 
 std::string short_list(const std::vector<std::string>& names) {
@@ -203,9 +181,9 @@ std::string suggested_keys(const std::vector<std::string>& names) {
                                        {"x", ColumnRole::x, "x"},
                                        {"y", ColumnRole::y, "y"}}) {
     const int found = find_role(names, role);
-    if (found < 0 || names[static_cast<std::size_t>(found)] == own) continue;
+    if (found < 0 || names[found] == own) continue;
     out += std::string(out.empty() ? "; perhaps " : ", ") + "columns." + key + " = \"" +
-           names[static_cast<std::size_t>(found)] + "\"";
+           names[found] + "\"";
   }
   return out;
 }

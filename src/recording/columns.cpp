@@ -1,11 +1,8 @@
-#include "recording/columns.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "io/table.hpp"
 #include "recording/column_cells.hpp"
-#include "recording/wide.hpp"
+#include "recording/formats.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -88,7 +85,7 @@ class ColumnFinder {
       at_.id = likely;
       return;
     }
-    const std::string& name = table_->names()[static_cast<std::size_t>(likely)];
+    const std::string& name = table_->names()[likely];
     throw InputError({table_->file(), table_->header_line(), 1},
                      "no column 'id', but '" + name + "' looks like identities: columns.id = \"" +
                          name +
@@ -130,8 +127,7 @@ class ColumnReader {
     const std::int64_t nobody = out_->counts.without_identity - before;
     if (nobody == 0 || out_->rows.size() > rows) return;
     throw InputError({table_->file(), 0, 0},
-                     "no row has an identity in column '" +
-                         table_->names()[static_cast<std::size_t>(at_.id)] +
+                     "no row has an identity in column '" + table_->names()[at_.id] +
                          "': columns.id = \"-\" links rows by their positions");
   }
 
@@ -140,7 +136,7 @@ class ColumnReader {
     if (!options_->columns.id.empty() || at_.id < 0 || is_own_trajectory(*table_)) return;
     const auto others = names_of_role(out_->unused, ColumnRole::identity);
     if (others.empty()) return;
-    const std::string& used = table_->names()[static_cast<std::size_t>(at_.id)];
+    const std::string& used = table_->names()[at_.id];
     add_hint("identities are read from '" + used + "'; " + quoted_names(others) +
                  " may be identities, too: columns.id says which to read",
              *out_);
@@ -155,7 +151,7 @@ class ColumnReader {
     place(s);
     const bool missing = at_.missing >= 0 && table_->number(at_.missing) != 0;
     const bool nowhere = std::isnan(s.x) || std::isnan(s.y);
-    if (missing || nowhere) {  // a gap, which is looked for later
+    if (missing || nowhere) {  // a gap, which check_gaps() reports
       ++out_->counts.not_seen;
       return;
     }

@@ -4,21 +4,73 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "io/scenario_build.hpp"
-#include "recording/experiment_file.hpp"
+#include "io/scenario_layers.hpp"
+#include "io/scenario_values.hpp"
+#include "recording/recording_keys.hpp"
 
 namespace lilytank {
 namespace {
 
-/// A message about a missing file should point to who asked for it.
+namespace fs = std::filesystem;
+
+RecordingSource source_of(const CommandTable& table, const RecordingOptions& defaults) {
+  RecordingSource out;
+  out.options = defaults;
+  out.place = table.place;
+  for (const Assignment& field : table.fields) {
+    if (field.path() != "file") {
+      assign_recording_option(field, "recording", out.options);
+      continue;
+    }
+    const std::string name = text_of(field, "recording.file");
+    if (name.empty()) throw InputError(field.place, "recording.file is empty");
+    out.file = (fs::path(field.directory) / name).lexically_normal().string();
+    out.place = field.place;
+  }
+  if (out.file.empty()) {
+    throw InputError(table.place, "recording.file is missing: the file of the tracks");
+  }
+  return out;
+}
+
+/// Name and sources of an experiment whose base is known; nothing is read. Keys of [experiment]
+/// other than its name hold for all recordings that do not say otherwise.
+void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experiment) {
+  RecordingOptions defaults;
+  const std::vector<CommandTable>* recordings = nullptr;
+  for (const Layer& layer : layers) {
+    for (const Assignment& field : layer.experiment) {
+      if (field.path() == "name") {
+        experiment.name = text_of(field, "experiment.name");
+      } else {
+        assign_recording_option(field, "experiment", defaults);
+      }
+    }
+    if (layer.has_recordings) recordings = &layer.recordings;
+  }
+  if (recordings == nullptr) return;
+  for (const CommandTable& table : *recordings) {
+    experiment.sources.push_back(source_of(table, defaults));
+    take_sizes(experiment.base.model, experiment.sources.back().options);
+  }
+}
+
+/// A message about a missing file should point to the place that names it.
 void check_there(const RecordingSource& source) {
   std::error_code ignored;
   const bool pattern = source.file.find('*') != std::string::npos;
-  if (pattern || std::filesystem::exists(source.file, ignored)) return;
+  if (pattern || fs::exists(source.file, ignored)) return;
   throw InputError(source.place, system_problem("cannot read", source.file, ENOENT));
 }
 
 }  // namespace
+
+void take_sizes(const Model& model, RecordingOptions& options) {
+  options.tank_radius = model.tank.radius;
+  options.body_radius = options.body == BodyKind::lily   ? model.module.side / 2
+                        : options.body == BodyKind::ball ? model.ball.radius
+                                                         : 0;
+}
 
 Experiment load_experiment(const std::vector<std::string>& files,
                            const std::vector<std::string>& sets,
@@ -31,7 +83,7 @@ Experiment load_experiment(const std::vector<std::string>& files,
     throw InputError({files.empty() ? "" : files.back(), 0, 0},
                      "there is no [[recording]] in it: this is a scenario, not an experiment");
   }
-  if (out.name.empty()) out.name = std::filesystem::path(files.back()).stem().string();
+  if (out.name.empty()) out.name = fs::path(files.back()).stem().string();
   for (const RecordingSource& source : out.sources) {
     if (wanted && !wanted(source)) continue;
     check_there(source);

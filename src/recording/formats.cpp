@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "io/table.hpp"
 #include "recording/column_names.hpp"
-#include "recording/columns.hpp"
-#include "recording/wide.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -20,6 +17,12 @@ bool has(const Names& names, std::string_view name) {
 
 bool all_of(const Names& names, std::initializer_list<std::string_view> wanted) {
   return std::all_of(wanted.begin(), wanted.end(), [&](auto name) { return has(names, name); });
+}
+
+/// Whether there is a column of identities or of scores, as in tables of bounding boxes: then rows
+/// are detections, not frames.
+bool has_detections(const Names& names) {
+  return find_role(names, ColumnRole::identity) >= 0 || find_role(names, ColumnRole::score) >= 0;
 }
 
 /// Whether there are columns "X", "X (cm)", "X#wcentroid", ...

@@ -13,7 +13,7 @@ struct Open {
   double x = 0, y = 0, vx = 0, vy = 0;  ///< m, m per frame
 };
 
-/// More cannot be told apart, and would take long.
+/// More cannot be distinguished, and would take long.
 constexpr std::size_t kMostInFrame = 1000;
 
 class Linker {

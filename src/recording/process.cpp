@@ -1,5 +1,3 @@
-#include "recording/process.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,7 +5,7 @@
 
 #include "recording/checks.hpp"
 #include "recording/column_names.hpp"
-#include "recording/columns.hpp"
+#include "recording/formats.hpp"
 
 namespace lilytank {
 namespace {

@@ -74,7 +74,7 @@ class Value {
     throw InputError(from_->place, path_ + " is \"on\" or \"off\", or true or false");
   }
 
-  /// An enum by its words, in the order of its values; empty words cannot be said.
+  /// An enum by its words, in the order of its values; empty words cannot be given.
   template <class Enum>
   void word(const std::vector<std::string>& words, Enum& target) const {
     const std::string value = text();

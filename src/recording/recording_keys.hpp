@@ -5,6 +5,7 @@
 
 #include "io/scenario_layers.hpp"
 #include "lilytank/camera.hpp"
+#include "lilytank/model.hpp"
 #include "lilytank/recording_io.hpp"
 
 namespace lilytank {
@@ -15,6 +16,8 @@ void assign_recording_option(const Assignment& from, const std::string& prefix,
                              RecordingOptions& options);
 /// The same for a camera; the prefix is "camera".
 void assign_camera_option(const Assignment& from, Camera& camera);
+/// Sets the tank's radius and the body's from the model's bodies of the options' kind.
+void take_sizes(const Model& model, RecordingOptions& options);
 
 /// The format of a word, which stands at `place`, of those that can be written. Throws InputError
 /// with the nearest right one.

@@ -1,4 +1,4 @@
-// What a file says, row by row, before it is checked and made into tracks.
+// The rows of a file, before they are checked and made into tracks.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -60,9 +60,7 @@ struct Sightings {
     }
     rows.push_back(row);
   }
-  SourcePlace place(const Sighting& row) const {
-    return {files[static_cast<std::size_t>(row.file)], row.line, 0};
-  }
+  SourcePlace place(const Sighting& row) const { return {files[row.file], row.line, 0}; }
 };
 
 }  // namespace lilytank

@@ -1,9 +1,8 @@
-#include "recording/wide.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "recording/column_cells.hpp"
+#include "recording/formats.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -41,7 +40,7 @@ std::vector<WideBody> wide_bodies(const Table& table) {
 }
 
 /// Bodies are columns, so a body's column cannot be named; a column of identities beside them is a
-/// contradiction, unless the user says that it is not to be used.
+/// contradiction, unless the user excludes it.
 void refuse_other_layouts(const Table& table, const ColumnNames& own) {
   for (const auto& [role, name] :
        {std::pair{"id", &own.id}, {"x", &own.x}, {"y", &own.y}, {"theta", &own.theta}}) {
@@ -98,10 +97,7 @@ class WideReader {
     refuse_other_layouts(table, options.columns);
     bodies_ = wide_bodies(table);
     const FormatColumns names = columns_of(RecordingFormat::idtracker_wide);
-    frame_ = find_column(table, options.columns.frame, names.frame);
-    if (frame_ < 0 && options.columns.frame.empty()) {
-      frame_ = find_role(table.names(), ColumnRole::frame);
-    }
+    frame_ = find_frame(table, options.columns.frame, RecordingFormat::idtracker_wide);
     time_ = find_column(table, options.columns.time, names.time);
     std::vector<int> used{frame_, time_};
     for (const WideBody& body : bodies_) used.push_back(body.x), used.push_back(body.y);
@@ -153,10 +149,6 @@ class WideReader {
 };
 
 }  // namespace
-
-bool has_detections(const std::vector<std::string>& names) {
-  return find_role(names, ColumnRole::identity) >= 0 || find_role(names, ColumnRole::score) >= 0;
-}
 
 void read_wide(Table& table, const RecordingOptions& options, Sightings& out) {
   WideReader(table, options, out).read();

@@ -7,7 +7,7 @@
 #include "io/atomic_file.hpp"
 #include "lilytank/math.hpp"
 #include "lilytank/recording_io.hpp"
-#include "recording/columns.hpp"
+#include "recording/formats.hpp"
 #include "recording/gzip.hpp"
 
 namespace lilytank {

@@ -27,7 +27,7 @@ struct Axes {
   bool seen(std::size_t f) const { return first[f] == first[f]; }
 };
 
-/// Estimates of one coordinate, and their deviations, which all coordinates share.
+/// Estimates of one coordinate, and their standard deviations, which all coordinates share.
 struct AxisEstimate {
   std::vector<double> value, velocity, acceleration;
 };

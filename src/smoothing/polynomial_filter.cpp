@@ -48,13 +48,13 @@ class Window {
   MotionState estimate(std::span<const double> z, std::size_t f) const {
     MotionState sum = MotionState::Zero();
     for (std::size_t i = 0; i < frames_.size(); ++i) {
-      const double v = z[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(f) + frames_[i])];
+      const double v = z[static_cast<std::ptrdiff_t>(f) + frames_[i]];
       sum += v * weights_[i].head<3>();
     }
     sum[2] *= 2;
     return sum;
   }
-  // Their deviations where each measurement has deviation 1.
+  // Their standard deviations where each measurement has standard deviation 1.
   MotionState deviation() const {
     return {std::sqrt(inverse_(0, 0)), std::sqrt(inverse_(1, 1)), 2 * std::sqrt(inverse_(2, 2))};
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "io/scenario_build.hpp"
+#include "io/scenario_layers.hpp"
 #include "study/axes.hpp"
 #include "study/study_file.hpp"
 #include "study/study_inputs.hpp"

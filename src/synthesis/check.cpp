@@ -4,6 +4,7 @@
 
 #include "lilytank/lattice.hpp"
 #include "lilytank/random.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -37,11 +38,8 @@ void judge_species(const Ruleset& rules, RulesetCheck& check) {
   if (!check.target_reached) check.faults.push_back("the rules cannot build the target");
   if (!check.other_finals.empty())
     check.faults.push_back(
-        "the rules build " +
-        many(static_cast<std::int64_t>(check.other_finals.size()), "other assembly",
-             "other assemblies") +
-        " of the target's size or more, as " +
-        network.species[static_cast<std::size_t>(check.other_finals.front())].drawing);
+        "the rules build " + many(check.other_finals.size(), "other assembly", "other assemblies") +
+        " of the target's size or more, as " + network.species[check.other_finals.front()].drawing);
   if (check.target_reached && !check.target_stable)
     check.notes.push_back("finished copies can fall apart again");
 }
@@ -56,7 +54,7 @@ void judge_rules(const Ruleset& rules, RulesetCheck& check) {
   }
   std::set<std::string> lost;
   for (const Reaction& reaction : check.network.blocked)
-    lost.insert(rules.rules[static_cast<std::size_t>(reaction.rule)].name);
+    lost.insert(rules.rules[reaction.rule].name);
   for (const std::string& name : lost)
     check.notes.push_back("some joins of " + name + " have no straight way in and are left out");
 }
@@ -74,9 +72,8 @@ void judge_population(const Ruleset& rules, const std::atomic<bool>* stop, Rules
   }
   const auto deadlocks = graph.deadlocks();
   if (!deadlocks.empty())
-    check.faults.push_back(
-        many(static_cast<std::int64_t>(deadlocks.size()), "deadlock", "deadlocks") +
-        ": states that are never left and miss a copy");
+    check.faults.push_back(counted(deadlocks.size(), "deadlock") +
+                           ": states that are never left and miss a copy");
   const bool wavering = std::any_of(graph.ends.begin(), graph.ends.end(), [&](const EndState& end) {
     return end.fewest_copies < graph.possible && end.copies == graph.possible;
   });
@@ -103,72 +100,56 @@ void judge_lattice(const Ruleset& rules, const CheckOptions& options, RulesetChe
     check.faults.push_back(many(illegal, "assembly", "assemblies") +
                            " in the lattice simulations that the rules cannot make one at a time");
   if (unrestored > 0)
-    check.faults.push_back(many(unrestored, "join", "joins") +
+    check.faults.push_back(counted(unrestored, "join") +
                            " in the lattice simulations that reverse rules did not undo");
 }
 
-/// A text's lines.
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = text.find('\n', at);
-    lines.push_back(text.substr(at, end - at));
-    at += lines.back().size() + 1;
-  }
-  return lines;
-}
-
 std::string contents(const ReactionNetwork& network, const std::vector<int>& counts) {
-  std::string out;
+  std::vector<std::string> out;
   for (std::size_t k = 0; k < counts.size(); ++k)
     if (counts[k] > 0)
-      out += (out.empty() ? "" : ", ") + std::to_string(counts[k]) + " x " +
-             network.species[k].drawing;
-  return out;
+      out.push_back(std::to_string(counts[k]) + " x " + network.species[k].drawing);
+  return joined(out, ", ");
 }
 
 std::string species_text(const RulesetCheck& check) {
   std::map<int, int> sizes;
   for (const Species& species : check.network.species) ++sizes[species.size];
-  std::string out = many(static_cast<std::int64_t>(check.network.species.size()),
-                         "kind of assembly", "kinds of assembly");
-  std::string list;
-  for (const auto& [size, number] : sizes)
-    list += (list.empty() ? "" : ", ") + std::to_string(number) + " of " + std::to_string(size);
+  std::string out = many(check.network.species.size(), "kind of assembly", "kinds of assembly");
+  const std::string list = joined(sizes, ", ", [](const auto& of) {
+    return std::to_string(of.second) + " of " + std::to_string(of.first);
+  });
   out += " (" + list + (sizes.size() == 1 && sizes.begin()->first == 1 ? " module)" : " modules)");
-  const std::size_t joins = static_cast<std::size_t>(
-      std::count_if(check.network.reactions.begin(), check.network.reactions.end(),
-                    [](const Reaction& r) { return r.kind == RuleKind::link; }));
+  const std::vector<Reaction>& reactions = check.network.reactions;
+  const auto joins = std::count_if(reactions.begin(), reactions.end(),
+                                   [](const Reaction& r) { return r.kind == RuleKind::link; });
   return out + ", " + std::to_string(joins) + " ways to join, " +
-         std::to_string(check.network.reactions.size() - joins) + " to change or fall apart\n";
+         std::to_string(reactions.size() - joins) + " to change or fall apart";
 }
 
-std::string population_text(const RulesetCheck& check) {
+void add_population(const RulesetCheck& check, std::vector<std::string>& lines) {
   const PopulationGraph& graph = check.population;
-  if (check.modules <= 0 || !graph.complete) return "";
-  std::string out = std::to_string(check.modules) + " modules have " +
-                    many(graph.states, "state", "states") + " and end in " +
-                    many(static_cast<std::int64_t>(graph.ends.size()), "way", "ways") + "\n";
+  if (check.modules <= 0 || !graph.complete) return;
+  lines.push_back(std::to_string(check.modules) + " modules have " +
+                  counted(graph.states, "state") + " and end in " +
+                  counted(graph.ends.size(), "way"));
   constexpr std::size_t kShown = 5;
   for (std::size_t k = 0; k < graph.ends.size() && k < kShown; ++k) {
     const EndState& end = graph.ends[k];
     const std::string range =
-        end.fewest_copies == end.copies
-            ? std::to_string(end.copies)
-            : std::to_string(end.fewest_copies) + " .. " + std::to_string(end.copies);
-    out += "  " + range + " of " + std::to_string(graph.possible) + " copies" +
-           (end.copies < graph.possible ? ", a deadlock" : "") + ": " +
-           contents(check.network, end.counts) +
-           (end.states > 1 ? " and " + std::to_string(end.states - 1) + " other states" : "") +
-           "\n";
+        (end.fewest_copies == end.copies ? "" : std::to_string(end.fewest_copies) + " .. ") +
+        std::to_string(end.copies);
+    lines.push_back(
+        "  " + range + " of " + std::to_string(graph.possible) + " copies" +
+        (end.copies < graph.possible ? ", a deadlock" : "") + ": " +
+        contents(check.network, end.counts) +
+        (end.states > 1 ? " and " + std::to_string(end.states - 1) + " other states" : ""));
   }
   if (graph.ends.size() > kShown)
-    out += "  ... and " + std::to_string(graph.ends.size() - kShown) + " more\n";
-  return out;
+    lines.push_back("  ... and " + std::to_string(graph.ends.size() - kShown) + " more");
 }
 
 std::string lattice_text(const RulesetCheck& check) {
-  if (check.lattice.empty()) return "";
   std::int64_t attempts = 0, links = 0, unlinks = 0, illegal = 0, restored = 0, full = 0,
                blocked = 0;
   for (const LatticeResult& r : check.lattice) {
@@ -176,13 +157,11 @@ std::string lattice_text(const RulesetCheck& check) {
     restored += r.restored, blocked += r.blocked;
     full += r.possible > 0 && r.copies == r.possible ? 1 : 0;
   }
-  return many(static_cast<std::int64_t>(check.lattice.size()), "lattice simulation",
-              "lattice simulations") +
-         ": " + std::to_string(attempts) + " meetings, " + std::to_string(links) + " joins, " +
-         std::to_string(unlinks) + " undone, " + std::to_string(blocked) + " without a way in; " +
-         std::to_string(illegal) + " illegal assemblies; " + std::to_string(restored) +
-         " joins undone on a copy and found as before; full yield in " + std::to_string(full) +
-         "\n";
+  return counted(check.lattice.size(), "lattice simulation") + ": " + std::to_string(attempts) +
+         " meetings, " + std::to_string(links) + " joins, " + std::to_string(unlinks) +
+         " undone, " + std::to_string(blocked) + " without a way in; " + std::to_string(illegal) +
+         " illegal assemblies; " + std::to_string(restored) +
+         " joins undone on a copy and found as before; full yield in " + std::to_string(full);
 }
 
 }  // namespace
@@ -208,20 +187,18 @@ RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options) {
 ReportDocument check_report(const Ruleset& rules, const RulesetCheck& check) {
   ReportDocument report;
   report.title = "Check of ruleset " + rules.name;
-  report.subtitle = many(static_cast<std::int64_t>(rules.rules.size()), "rule", "rules");
+  report.subtitle = counted(rules.rules.size(), "rule");
   const bool sound = check.faults.empty();
   report.card.tone = sound ? ReportTone::good : ReportTone::fault;
-  report.card.verdict =
-      sound ? "no fault found"
-            : many(static_cast<std::int64_t>(check.faults.size()), "fault", "faults") + " found";
-  ReportSection proofs{
-      "Proofs", lines_of(species_text(check) + population_text(check)), {}, {}, false};
+  report.card.verdict = sound ? "no fault found" : counted(check.faults.size(), "fault") + " found";
+  ReportSection proofs{"Proofs", {species_text(check)}};
+  add_population(check, proofs.above);
   if (check.unrestored.empty()) {
     proofs.above.push_back("every reverse rule gives back the states that its join found");
   }
   if (check.irreversible_size > 0 && check.modules > 0 && check.target_size > 0) {
     const int s = check.irreversible_size, n = check.target_size, m = check.modules;
-    proofs.above.push_back("assemblies from " + many(s, "module", "modules") +
+    proofs.above.push_back("assemblies from " + counted(s, "module") +
                            " on may last: floor(M/s) = " + std::to_string(m / s) +
                            (deadlock_risk(m, s, n) ? " > " : " <= ") + std::to_string(m / n) +
                            " = floor(M/n)" +
@@ -231,8 +208,7 @@ ReportDocument check_report(const Ruleset& rules, const RulesetCheck& check) {
   for (const std::string& fault : check.faults) proofs.above.push_back("fault: " + fault);
   report.sections.push_back(std::move(proofs));
   if (!check.lattice.empty()) {
-    report.sections.push_back(
-        {"Lattice simulations", lines_of(lattice_text(check)), {}, {}, false});
+    report.sections.push_back({"Lattice simulations", {lattice_text(check)}});
   }
   return report;
 }

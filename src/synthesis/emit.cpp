@@ -2,13 +2,14 @@
 #include <algorithm>
 
 #include "lilytank/synthesis.hpp"
+#include "model/ruleset_scanner.hpp"
 #include "synthesis/tree.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-// What a cell's module knows while the plan is carried out.
+// State of a cell's module while the plan is carried out.
 struct Engaged {
   int label = 0;
   int last = -1;  // direction of l_n, -1: isolated
@@ -17,13 +18,30 @@ struct Engaged {
 class Emitter {
  public:
   explicit Emitter(const Target& target) : target_(target), cells_(target.cells.size()) {}
-  void join(const Contact& contact, const std::string& name);
+
+  void join(const Contact& contact, const std::string& name) {
+    const int out = direction_of(target_, contact.a, contact.b), back = (out + 2) & 3;
+    const Label first = before(contact.a, out), second = before(contact.b, back);
+    const Label after_a{++labels_, 1}, after_b{++labels_, 1};
+    if (labels_ > 255)
+      throw InputError("the rules of " + target_.name +
+                       " need more than the 255 control states that there are");
+    forward.push_back({name, RuleKind::link, {first, second}, {after_a, after_b}});
+    const auto undone = [](const Label& l) { return Label{l.state, reverse_hop(l.hop)}; };
+    reverse.push_back({name + "_reverse",
+                       RuleKind::unlink,
+                       {after_a, after_b},
+                       {undone(first), undone(second)},
+                       0});
+    cells_[contact.a] = {after_a.state, out};
+    cells_[contact.b] = {after_b.state, back};
+  }
 
   std::vector<Rule> forward, reverse;
 
  private:
   Label before(int cell, int direction) const {
-    const Engaged& engaged = cells_[static_cast<std::size_t>(cell)];
+    const Engaged& engaged = cells_[cell];
     return {engaged.label, hop_of(engaged.last, direction)};
   }
   const Target& target_;
@@ -31,32 +49,12 @@ class Emitter {
   int labels_ = 0;  // control states used so far
 };
 
-void Emitter::join(const Contact& contact, const std::string& name) {
-  const int out = direction_of(target_, contact.a, contact.b), back = (out + 2) & 3;
-  const Label first = before(contact.a, out), second = before(contact.b, back);
-  const Label after_a{++labels_, 1}, after_b{++labels_, 1};
-  if (labels_ > 255)
-    throw InputError("the rules of " + target_.name +
-                     " need more than the 255 control states that there are");
-  forward.push_back({name, RuleKind::link, {first, second}, {after_a, after_b}, 1, {}});
-  const auto undone = [](const Label& l) { return Label{l.state, reverse_hop(l.hop)}; };
-  reverse.push_back({name + "_reverse",
-                     RuleKind::unlink,
-                     {after_a, after_b},
-                     {undone(first), undone(second)},
-                     0,
-                     {}});
-  cells_[static_cast<std::size_t>(contact.a)] = {after_a.state, out};
-  cells_[static_cast<std::size_t>(contact.b)] = {after_b.state, back};
-}
-
 // Contacts that close a loop once `a` and `b` have both made their last join, at most one a cell:
 // a second one would need to know whether the first has been made.
 std::vector<Contact> closable(const Target& target, const Plan& plan) {
   std::vector<int> last(target.cells.size(), -1);
   for (std::size_t k = 0; k < plan.joins.size(); ++k)
-    for (const int cell : {plan.joins[k].a, plan.joins[k].b})
-      last[static_cast<std::size_t>(cell)] = static_cast<int>(k);
+    for (const int cell : {plan.joins[k].a, plan.joins[k].b}) last[cell] = static_cast<int>(k);
   std::vector<bool> used(target.cells.size(), false);
   std::vector<Contact> found;
   for (const Contact& contact : open_contacts(target, plan)) {
@@ -123,17 +121,6 @@ Ruleset emit(const Target& target, const Plan& plan, const EmitOptions& options)
   return rules;
 }
 
-std::string rule_text(const Rule& rule) {
-  const auto side = [](const std::array<Label, 2>& labels, bool held) {
-    const auto text = [](const Label& l) {
-      return "(" + std::to_string(l.state) + "," + std::to_string(l.hop) + ")";
-    };
-    return text(labels[0]) + (held ? "-" : " ") + text(labels[1]);
-  };
-  return side(rule.before, rule.kind != RuleKind::link) + " -> " +
-         side(rule.after, rule.kind != RuleKind::unlink);
-}
-
 std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
   check_plan(target, plan);
   const Ruleset rules = emit(target, plan);
@@ -148,7 +135,7 @@ std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
       if (placed[k]) stage.modules.push_back(all[k]);
     stages.push_back(std::move(stage));
   };
-  placed[static_cast<std::size_t>(plan.joins.front().a)] = true;
+  placed[plan.joins.front().a] = true;
   take(nullptr);
   for (std::size_t k = 0; k < plan.joins.size(); ++k) {
     for (StageModule& module : all) module.engaged = false;
@@ -158,7 +145,7 @@ std::vector<Stage> stages_of(const Target& target, const Plan& plan) {
       const auto cell = static_cast<std::size_t>(side == 0 ? join.a : join.b);
       const int direction = side == 0 ? out : (out + 2) & 3;
       StageModule& module = all[cell];
-      module.label = rules.rules[k].after[static_cast<std::size_t>(side)].state;
+      module.label = rules.rules[k].after[side].state;
       module.last = direction;
       module.bonds |= 1u << direction;
       module.engaged = placed[cell] = true;

@@ -11,14 +11,14 @@ namespace lilytank {
 namespace {
 
 double share_of(const Ruleset& rules, const Reaction& reaction) {
-  return docking_share(rules, rules.rules[static_cast<std::size_t>(reaction.rule)]);
+  return docking_share(rules, rules.rules[reaction.rule]);
 }
 
 const RateTable::Meeting* meeting_of(const RateTable& table, const ReactionNetwork& network,
                                      const Reaction& reaction) {
   if (reaction.from.size() < 2) return nullptr;
-  std::string a = network.species[static_cast<std::size_t>(reaction.from[0])].key;
-  std::string b = network.species[static_cast<std::size_t>(reaction.from[1])].key;
+  std::string a = network.species[reaction.from[0]].key;
+  std::string b = network.species[reaction.from[1]].key;
   if (b < a) std::swap(a, b);
   const auto found = table.meetings.find({a, b});
   return found == table.meetings.end() ? nullptr : &found->second;
@@ -39,38 +39,32 @@ ReactionNetwork network_for(const Ruleset& rules, int modules) {
   return network;
 }
 
-// Evaluations of standing bonds per second. How often rules fired would tell them only with the p
-// of the worlds in which they did.
+// Evaluations of standing bonds per second. How often rules fired would determine them only with
+// the p of the worlds in which they did.
 double evaluation_rate_of(const RateTable& table) {
   const bool counted = table.evaluations > 0 && table.bond_seconds > 0;
   return counted ? static_cast<double>(table.evaluations) / table.bond_seconds
                  : kStandardEvaluationRate;
 }
 
-std::string three_digits(double value) {
-  return significant(value, 3);
-}
-
 }  // namespace
 
 std::string kinetics_text(const Ruleset& rules, const Kinetics& kinetics) {
-  std::string out = "a pair of faces that fit docks " + three_digits(kinetics.face_rate) +
+  std::string out = "a pair of faces that fit docks " + significant(kinetics.face_rate, 3) +
                     " times a second; a bond is evaluated " +
-                    three_digits(kinetics.evaluation_rate) + " times a second\n";
+                    significant(kinetics.evaluation_rate, 3) + " times a second\n";
   for (std::size_t k = 0; k < kinetics.rate.size(); ++k) {
     const Reaction& reaction = kinetics.network.reactions[k];
     const auto side = [&](const std::vector<int>& list) {
       std::string text;
       for (const int species : list)
-        text += (text.empty() ? "" : " + ") +
-                kinetics.network.species[static_cast<std::size_t>(species)].drawing;
+        text += (text.empty() ? "" : " + ") + kinetics.network.species[species].drawing;
       return text;
     };
-    out += "  " + rules.rules[static_cast<std::size_t>(reaction.rule)].name + ": " +
-           side(reaction.from) + " -> " + side(reaction.to) + "  " +
-           three_digits(kinetics.rate[k]) + "/s";
+    out += "  " + rules.rules[reaction.rule].name + ": " + side(reaction.from) + " -> " +
+           side(reaction.to) + "  " + significant(kinetics.rate[k], 3) + "/s";
     if (reaction.kind == RuleKind::link)
-      out += ", " + three_digits(kinetics.rate[k] / reaction.places) + "/s for each of " +
+      out += ", " + significant(kinetics.rate[k] / reaction.places, 3) + "/s for each of " +
              shortest(reaction.places) + " pairs of faces, seen " +
              std::to_string(kinetics.seen[k]) + " times";
     out += "\n";
@@ -86,7 +80,7 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) 
   double links = 0, chances = 0;
   for (const Reaction& reaction : network.reactions) {
     const RateTable::Meeting* meeting = meeting_of(table, network, reaction);
-    const Rule& rule = rules.rules[static_cast<std::size_t>(reaction.rule)];
+    const Rule& rule = rules.rules[reaction.rule];
     const std::int64_t seen = links_of(meeting, rule.name);
     kinetics.seen.push_back(seen);
     if (meeting == nullptr || reaction.kind != RuleKind::link) continue;
@@ -99,7 +93,7 @@ Kinetics kinetics_of(const Ruleset& rules, const RateTable& table, int modules) 
   kinetics.face_rate = links / chances;
   for (std::size_t k = 0; k < network.reactions.size(); ++k) {
     const Reaction& reaction = network.reactions[k];
-    const Rule& rule = rules.rules[static_cast<std::size_t>(reaction.rule)];
+    const Rule& rule = rules.rules[reaction.rule];
     if (reaction.kind != RuleKind::link || reaction.from.size() < 2) {
       // A contact inside an assembly is evaluated at once: let it be as fast as a bond's
       // evaluation.
@@ -121,7 +115,7 @@ Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_r
   kinetics.evaluation_rate = evaluation_rate;
   for (const Reaction& reaction : kinetics.network.reactions) {
     const bool meets = reaction.kind == RuleKind::link && reaction.from.size() == 2;
-    const Rule& rule = rules.rules[static_cast<std::size_t>(reaction.rule)];
+    const Rule& rule = rules.rules[reaction.rule];
     kinetics.rate.push_back(reaction.places * (meets ? face_rate * share_of(rules, reaction)
                                                      : evaluation_rate * rule.p));
     kinetics.seen.push_back(0);
@@ -134,9 +128,7 @@ GillespieResult run_gillespie(const Kinetics& kinetics, const GillespieOptions& 
   GillespieResult result;
   result.counts.assign(network.species.size(), 0);
   result.counts[0] = options.modules;
-  const auto count = [&](int species) {
-    return static_cast<double>(result.counts[static_cast<std::size_t>(species)]);
-  };
+  const auto count = [&](int species) { return static_cast<double>(result.counts[species]); };
   std::vector<double> propensity(network.reactions.size(), 0);
   for (double time = 0;;) {
     double total = 0;
@@ -159,8 +151,8 @@ GillespieResult run_gillespie(const Kinetics& kinetics, const GillespieOptions& 
       left -= propensity[chosen++];
     while (propensity[chosen] == 0) --chosen;  // rounding at the end of the sum
     const Reaction& reaction = network.reactions[chosen];
-    for (const int species : reaction.from) --result.counts[static_cast<std::size_t>(species)];
-    for (const int species : reaction.to) ++result.counts[static_cast<std::size_t>(species)];
+    for (const int species : reaction.from) --result.counts[species];
+    for (const int species : reaction.to) ++result.counts[species];
     ++result.reactions;
     result.copies = 0;
     for (std::size_t s = 0; s < network.species.size(); ++s)

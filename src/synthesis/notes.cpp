@@ -14,7 +14,7 @@ std::string rule(int join, const std::string& suffix = "") {
 
 std::string drawn(const Target& target, const Contact& contact) {
   const auto cell = [&](int k) {
-    const Cell c = target.cells[static_cast<std::size_t>(k)];
+    const Cell c = target.cells[k];
     return "(" + std::to_string(c.x) + "," + std::to_string(c.y) + ")";
   };
   return cell(contact.a) + "-" + cell(contact.b);

@@ -10,11 +10,11 @@ namespace lilytank {
 namespace {
 
 bool is_leaf(const Neighbours& tree, int node) {
-  return tree[static_cast<std::size_t>(node)].size() == 1;
+  return tree[node].size() == 1;
 }
 
 int inner_neighbours(const Neighbours& tree, int node) {
-  const auto& list = tree[static_cast<std::size_t>(node)];
+  const auto& list = tree[node];
   return static_cast<int>(
       std::count_if(list.begin(), list.end(), [&](int other) { return !is_leaf(tree, other); }));
 }
@@ -22,7 +22,7 @@ int inner_neighbours(const Neighbours& tree, int node) {
 void grow(const Neighbours& tree, int node, int from, std::vector<Contact>& joins) {
   std::vector<int> inner;
   for (const bool leaves : {true, false}) {
-    for (const int other : tree[static_cast<std::size_t>(node)]) {
+    for (const int other : tree[node]) {
       if (other == from || is_leaf(tree, other) != leaves) continue;
       joins.push_back({node, other});
       if (!leaves) inner.push_back(other);
@@ -32,7 +32,7 @@ void grow(const Neighbours& tree, int node, int from, std::vector<Contact>& join
 }
 
 void gather(const Neighbours& tree, int node, int parent, std::vector<Contact>& joins) {
-  for (const int other : tree[static_cast<std::size_t>(node)]) {
+  for (const int other : tree[node]) {
     if (other == parent) continue;
     gather(tree, other, node, joins);
     joins.push_back({node, other});
@@ -45,14 +45,13 @@ std::vector<int> end_leaves(const Neighbours& tree) {
   std::vector<int> found;
   for (int node = 0; node < static_cast<int>(tree.size()); ++node) {
     if (!is_leaf(tree, node)) continue;
-    if (inner_neighbours(tree, tree[static_cast<std::size_t>(node)].front()) <= 1)
-      found.push_back(node);
+    if (inner_neighbours(tree, tree[node].front()) <= 1) found.push_back(node);
   }
   return found;
 }
 
 std::vector<Contact> growth_from(const Neighbours& tree, int leaf) {
-  const int parent = tree[static_cast<std::size_t>(leaf)].front();
+  const int parent = tree[leaf].front();
   std::vector<Contact> joins = {{parent, leaf}};
   grow(tree, parent, leaf, joins);
   return joins;
@@ -91,7 +90,7 @@ std::vector<Contact> larger_part_first(int nodes, std::vector<Contact> joins) {
 std::vector<Contact> balanced_order(int nodes, const std::vector<Contact>& edges) {
   if (edges.empty()) return {};
   const auto tree = neighbours_of(nodes, edges);
-  const Contact cut = edges[static_cast<std::size_t>(most_equal_edges(tree, edges).front())];
+  const Contact cut = edges[most_equal_edges(tree, edges).front()];
   std::vector<Contact> joins;
   for (const auto& [near, far] : {std::pair{cut.a, cut.b}, std::pair{cut.b, cut.a}}) {
     const std::vector<int> part = side_of(tree, near, far);

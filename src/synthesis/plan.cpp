@@ -8,6 +8,30 @@
 #include "synthesis/tree.hpp"
 
 namespace lilytank {
+namespace {
+
+// Fewer maximal joins are better, then fewer blocked ones.
+std::pair<std::size_t, std::size_t> faults(const Target& target, const Plan& plan) {
+  return {maximal_joins(target, plan).size(), blocked_joins(target, plan).size()};
+}
+
+using Planner = std::function<Plan(const std::vector<Contact>&)>;
+
+Plan best_over_trees(const Target& target, const Planner& planner) {
+  constexpr std::size_t kTrees = 300;
+  Plan best = planner(spanning_tree(target));
+  auto least = faults(target, best);
+  if (least == std::pair<std::size_t, std::size_t>{1, 0}) return best;
+  for (const std::vector<Contact>& tree : spanning_trees(target, kTrees)) {
+    Plan plan = planner(tree);
+    const auto found = faults(target, plan);
+    if (found < least) best = std::move(plan), least = found;
+    if (least == std::pair<std::size_t, std::size_t>{1, 0}) break;
+  }
+  return best;
+}
+
+}  // namespace
 
 const std::vector<std::string>& algorithm_names() {
   static const std::vector<std::string> names{"singleton", "linchpin", "balanced", "plan"};
@@ -26,12 +50,10 @@ Algorithm algorithm_of(const std::string& name) {
 std::vector<int> maximal_joins(const Target& target, const Plan& plan) {
   std::vector<int> last(target.cells.size(), -1), found;
   for (std::size_t k = 0; k < plan.joins.size(); ++k)
-    last[static_cast<std::size_t>(plan.joins[k].a)] =
-        last[static_cast<std::size_t>(plan.joins[k].b)] = static_cast<int>(k);
+    last[plan.joins[k].a] = last[plan.joins[k].b] = static_cast<int>(k);
   for (int k = 0; k < static_cast<int>(plan.joins.size()); ++k) {
-    const Contact& join = plan.joins[static_cast<std::size_t>(k)];
-    if (last[static_cast<std::size_t>(join.a)] == k && last[static_cast<std::size_t>(join.b)] == k)
-      found.push_back(k);
+    const Contact& join = plan.joins[k];
+    if (last[join.a] == k && last[join.b] == k) found.push_back(k);
   }
   return found;
 }
@@ -39,7 +61,7 @@ std::vector<int> maximal_joins(const Target& target, const Plan& plan) {
 std::vector<int> blocked_joins(const Target& target, const Plan& plan) {
   const auto cells = [&](const std::vector<int>& members) {
     std::vector<Cell> found;
-    for (const int k : members) found.push_back(target.cells[static_cast<std::size_t>(k)]);
+    for (const int k : members) found.push_back(target.cells[k]);
     return found;
   };
   Parts parts(static_cast<int>(target.cells.size()));
@@ -47,8 +69,7 @@ std::vector<int> blocked_joins(const Target& target, const Plan& plan) {
   for (std::size_t k = 0; k < plan.joins.size(); ++k) {
     const Contact& join = plan.joins[k];
     if (!can_approach(cells(parts.members(join.a)), cells(parts.members(join.b)),
-                      target.cells[static_cast<std::size_t>(join.a)],
-                      direction_of(target, join.a, join.b)))
+                      target.cells[join.a], direction_of(target, join.a, join.b)))
       blocked.push_back(static_cast<int>(k));
     parts.join(join.a, join.b);
   }
@@ -83,31 +104,6 @@ void check_plan(const Target& target, const Plan& plan) {
                      std::to_string(plan.joins.size()));
 }
 
-namespace {
-
-// Fewer maximal joins are better, then fewer blocked ones.
-std::pair<std::size_t, std::size_t> faults(const Target& target, const Plan& plan) {
-  return {maximal_joins(target, plan).size(), blocked_joins(target, plan).size()};
-}
-
-using Planner = std::function<Plan(const std::vector<Contact>&)>;
-
-Plan best_over_trees(const Target& target, const Planner& planner) {
-  constexpr std::size_t kTrees = 300;
-  Plan best = planner(spanning_tree(target));
-  auto least = faults(target, best);
-  if (least == std::pair<std::size_t, std::size_t>{1, 0}) return best;
-  for (const std::vector<Contact>& tree : spanning_trees(target, kTrees)) {
-    Plan plan = planner(tree);
-    const auto found = faults(target, plan);
-    if (found < least) best = std::move(plan), least = found;
-    if (least == std::pair<std::size_t, std::size_t>{1, 0}) break;
-  }
-  return best;
-}
-
-}  // namespace
-
 Plan singleton_plan(const Target& target, const std::vector<Contact>& tree) {
   const auto next_to = neighbours_of(static_cast<int>(target.cells.size()), tree);
   Plan best;
@@ -123,7 +119,7 @@ Plan singleton_plan(const Target& target, const std::vector<Contact>& tree) {
 Plan linchpin_plan(const Target& target, const std::vector<Contact>& tree, int linchpin) {
   const auto next_to = neighbours_of(static_cast<int>(target.cells.size()), tree);
   if (linchpin < 0) linchpin = most_equal_edges(next_to, tree).front();
-  return {Algorithm::linchpin, linchpin_order(next_to, tree[static_cast<std::size_t>(linchpin)])};
+  return {Algorithm::linchpin, linchpin_order(next_to, tree[linchpin])};
 }
 
 Plan balanced_plan(const Target& target, const std::vector<Contact>& tree) {

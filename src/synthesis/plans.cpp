@@ -30,7 +30,7 @@ Orders balanced_orders(int nodes, const std::vector<Contact>& edges, std::size_t
   const auto tree = neighbours_of(nodes, edges);
   Orders found;
   for (const int index : most_equal_edges(tree, edges)) {
-    const Contact cut = edges[static_cast<std::size_t>(index)];
+    const Contact cut = edges[index];
     const std::vector<int> near = side_of(tree, cut.a, cut.b);
     std::vector<Contact> part[2];
     for (const Contact& edge : edges) {
@@ -57,8 +57,46 @@ Orders balanced_orders(int nodes, const std::vector<Contact>& edges, std::size_t
 class Collector {
  public:
   Collector(const Target& target, const PlanLimits& limits) : target_(target), limits_(limits) {}
-  void tree(const std::vector<Contact>& edges);
-  PlanList take();
+
+  void tree(const std::vector<Contact>& edges) {
+    const int nodes = static_cast<int>(target_.cells.size());
+    const auto next_to = neighbours_of(nodes, edges);
+    Neighbours turned = next_to;
+    for_each_order(turned, 0, [&] {
+      for (const int leaf : end_leaves(next_to))
+        if (!add(Algorithm::singleton, growth_from(turned, leaf))) return false;
+      return true;
+    });
+    keep_best();
+    turned = next_to;
+    for_each_order(turned, 0, [&] {
+      for (const Contact& edge : edges)
+        if (!add(Algorithm::linchpin, linchpin_order(turned, edge))) return false;
+      return true;
+    });
+    keep_best();
+    for (auto& joins : balanced_orders(nodes, edges, limits_.orders))
+      add(Algorithm::balanced, std::move(joins));
+    keep_best();
+  }
+
+  PlanList take() {
+    PlanList list;
+    list.complete = complete_;
+    const bool any_free =
+        std::any_of(found_.begin(), found_.end(), [](const Found& f) { return !f.blocked; });
+    for (Found& found : found_)
+      if (!any_free || !found.blocked) list.plans.push_back(std::move(found.plan));
+    // The same rules under two algorithms' names are one plan, that of the first.
+    std::set<std::uint64_t> known;
+    std::stable_sort(list.plans.begin(), list.plans.end(),
+                     [](const Plan& a, const Plan& b) { return a.algorithm < b.algorithm; });
+    std::erase_if(list.plans, [&](const Plan& plan) {
+      return !known.insert(structure_of(emit(target_, plan))).second;
+    });
+    return list;
+  }
+
   bool full() const { return found_.size() >= limits_.plans; }
   void cut() { complete_ = false; }
 
@@ -67,8 +105,32 @@ class Collector {
     Plan plan;
     bool blocked = false;
   };
-  bool add(Algorithm algorithm, std::vector<Contact> joins);
-  void keep_best();
+
+  // False once a tree and algorithm have as many orders as are allowed.
+  bool add(Algorithm algorithm, std::vector<Contact> joins) {
+    if (!tried_.insert(joins).second) return true;
+    if (candidates_.size() >= limits_.orders) return complete_ = false;
+    candidates_.push_back({algorithm, std::move(joins)});
+    return true;
+  }
+
+  void keep_best() {
+    std::size_t least = target_.cells.size();
+    for (const Plan& plan : candidates_)
+      least = std::min(least, maximal_joins(target_, plan).size());
+    for (Plan& plan : candidates_) {
+      if (maximal_joins(target_, plan).size() > least) continue;
+      if (!known_.insert({plan.algorithm, structure_of(emit(target_, plan))}).second) continue;
+      if (full()) {
+        complete_ = false;
+        break;
+      }
+      const bool blocked = !blocked_joins(target_, plan).empty();
+      found_.push_back({std::move(plan), blocked});
+    }
+    candidates_.clear();
+    tried_.clear();
+  }
 
   const Target& target_;
   const PlanLimits& limits_;
@@ -78,70 +140,6 @@ class Collector {
   std::set<std::vector<Contact>> tried_;
   bool complete_ = true;
 };
-
-// False once a tree and algorithm have as many orders as are allowed.
-bool Collector::add(Algorithm algorithm, std::vector<Contact> joins) {
-  if (!tried_.insert(joins).second) return true;
-  if (candidates_.size() >= limits_.orders) return complete_ = false;
-  candidates_.push_back({algorithm, std::move(joins)});
-  return true;
-}
-
-void Collector::keep_best() {
-  std::size_t least = target_.cells.size();
-  for (const Plan& plan : candidates_) least = std::min(least, maximal_joins(target_, plan).size());
-  for (Plan& plan : candidates_) {
-    if (maximal_joins(target_, plan).size() > least) continue;
-    if (!known_.insert({plan.algorithm, structure_of(emit(target_, plan))}).second) continue;
-    if (full()) {
-      complete_ = false;
-      break;
-    }
-    const bool blocked = !blocked_joins(target_, plan).empty();
-    found_.push_back({std::move(plan), blocked});
-  }
-  candidates_.clear();
-  tried_.clear();
-}
-
-void Collector::tree(const std::vector<Contact>& edges) {
-  const int nodes = static_cast<int>(target_.cells.size());
-  const auto next_to = neighbours_of(nodes, edges);
-  Neighbours turned = next_to;
-  for_each_order(turned, 0, [&] {
-    for (const int leaf : end_leaves(next_to))
-      if (!add(Algorithm::singleton, growth_from(turned, leaf))) return false;
-    return true;
-  });
-  keep_best();
-  turned = next_to;
-  for_each_order(turned, 0, [&] {
-    for (const Contact& edge : edges)
-      if (!add(Algorithm::linchpin, linchpin_order(turned, edge))) return false;
-    return true;
-  });
-  keep_best();
-  for (auto& joins : balanced_orders(nodes, edges, limits_.orders))
-    add(Algorithm::balanced, std::move(joins));
-  keep_best();
-}
-
-PlanList Collector::take() {
-  PlanList list;
-  list.complete = complete_;
-  const bool any_free =
-      std::any_of(found_.begin(), found_.end(), [](const Found& f) { return !f.blocked; });
-  for (Found& found : found_)
-    if (!any_free || !found.blocked) list.plans.push_back(std::move(found.plan));
-  // The same rules under two algorithms' names are one plan, that of the first.
-  std::set<std::uint64_t> known;
-  std::stable_sort(list.plans.begin(), list.plans.end(),
-                   [](const Plan& a, const Plan& b) { return a.algorithm < b.algorithm; });
-  std::erase_if(list.plans, [&](const Plan& plan) {
-    return !known.insert(structure_of(emit(target_, plan))).second;
-  });
-  return list;
-}
 
 }  // namespace
 
@@ -159,8 +157,8 @@ PlanList all_plans(const Target& target, const PlanLimits& limits) {
   return collector.take();
 }
 
-// Colours of control states and rules are refined by each other until they tell all apart that can
-// be told apart [Weisfeiler and Leman, 1968]; names and order do not enter.
+// Colours of control states and rules are refined by each other until they distinguish all that can
+// be distinguished [Weisfeiler and Leman, 1968]; names and order do not enter.
 std::uint64_t structure_of(const Ruleset& rules) {
   std::map<int, std::uint64_t> colour = {{0, 1}};
   for (const Rule& rule : rules.rules) {

@@ -14,7 +14,7 @@ RateRecord::RateRecord(const Ruleset& rules, int modules)
   count_ = {modules};
   seconds_ = {0};
   species_.assign(modules_.size(), 0);
-  for (int k = 0; k < modules; ++k) modules_[static_cast<std::size_t>(k)].assembly = k;
+  for (int k = 0; k < modules; ++k) modules_[k].assembly = k;
 }
 
 void RateRecord::pass(double time) {
@@ -39,7 +39,7 @@ int RateRecord::species_of_parts(int first, std::vector<int>& members) {
   std::map<int, std::pair<Cell, int>> at = {{first, {Cell{}, 0}}};  // cell, quarter turns
   Pattern pattern;
   for (std::size_t k = 0; k < members.size(); ++k) {
-    const Module& module = modules_[static_cast<std::size_t>(members[k])];
+    const Module& module = modules_[members[k]];
     const auto [cell, turn] = at.at(members[k]);
     PatternModule m;
     m.cell = cell;
@@ -71,13 +71,13 @@ void RateRecord::regroup(int module) {
   std::vector<int> members;
   const int species = species_of_parts(module, members);
   const int slot = *std::min_element(members.begin(), members.end());
-  for (const int member : members) modules_[static_cast<std::size_t>(member)].assembly = slot;
-  species_[static_cast<std::size_t>(slot)] = species;
-  ++count_[static_cast<std::size_t>(species)];
+  for (const int member : members) modules_[member].assembly = slot;
+  species_[slot] = species;
+  ++count_[species];
 }
 
 void RateRecord::end_contact(const Event& event) {
-  double& since = modules_[static_cast<std::size_t>(event.a)].latched_at[event.face_a];
+  double& since = modules_[event.a].latched_at[event.face_a];
   if (since < 0) return;
   ++contacts_;
   contact_seconds_ += time_ - since;
@@ -85,12 +85,11 @@ void RateRecord::end_contact(const Event& event) {
 }
 
 void RateRecord::enter(const Event& event) {
-  Module& a = modules_[static_cast<std::size_t>(event.a)];
-  Module& b = modules_[static_cast<std::size_t>(event.b)];
+  Module& a = modules_[event.a];
+  Module& b = modules_[event.b];
   const int slot_a = a.assembly, slot_b = b.assembly;
-  --count_[static_cast<std::size_t>(species_[static_cast<std::size_t>(slot_a)])];
-  if (slot_b != slot_a)
-    --count_[static_cast<std::size_t>(species_[static_cast<std::size_t>(slot_b)])];
+  --count_[species_[slot_a]];
+  if (slot_b != slot_a) --count_[species_[slot_b]];
   a.label = event.label_a, a.last = event.last_a;
   b.label = event.label_b, b.last = event.last_b;
   if (event.kind == EventKind::link) {
@@ -112,18 +111,18 @@ void RateRecord::enter(const Event& event) {
 void RateRecord::observe(const Event& event, double time) {
   pass(time);
   if (event.b < 0 || event.kind == EventKind::command || event.kind == EventKind::report) return;
-  const Module& a = modules_[static_cast<std::size_t>(event.a)];
-  const Module& b = modules_[static_cast<std::size_t>(event.b)];
-  const int of_a = species_[static_cast<std::size_t>(a.assembly)];
-  const int of_b = species_[static_cast<std::size_t>(b.assembly)];
+  const Module& a = modules_[event.a];
+  const Module& b = modules_[event.b];
+  const int of_a = species_[a.assembly];
+  const int of_b = species_[b.assembly];
   const bool apart = a.assembly != b.assembly;
-  const auto name = [&] { return rules_->rules[static_cast<std::size_t>(event.rule)].name; };
+  const auto name = [&] { return rules_->rules[event.rule].name; };
   RateTable::Meeting* meeting =
       apart ? &meetings_[{std::min(of_a, of_b), std::max(of_a, of_b)}] : nullptr;
   switch (event.kind) {
     case EventKind::latch:
       if (meeting != nullptr) ++meeting->dockings;
-      modules_[static_cast<std::size_t>(event.a)].latched_at[event.face_a] = time;
+      modules_[event.a].latched_at[event.face_a] = time;
       return;
     case EventKind::unlatch:
       ++decisions_;
@@ -159,14 +158,13 @@ RateTable RateRecord::table(double time) const {
   for (const auto& [pair, seconds] : now.pair_seconds_)
     if (seconds > 0) now.meetings_[pair].exposure = seconds;
   for (auto& [pair, meeting] : now.meetings_) {
-    const std::string &a = now.keys_[static_cast<std::size_t>(pair.first)],
-                      &b = now.keys_[static_cast<std::size_t>(pair.second)];
+    const std::string &a = now.keys_[pair.first], &b = now.keys_[pair.second];
     table.meetings[{std::min(a, b), std::max(a, b)}] = meeting;
   }
   for (std::size_t s = 0; s < now.keys_.size(); ++s)
     table.standing[now.keys_[s]].exposure = now.seconds_[s];
   for (const auto& [species, changes] : now.changes_)
-    table.standing[now.keys_[static_cast<std::size_t>(species)]].changes = changes;
+    table.standing[now.keys_[species]].changes = changes;
   table.evaluations = now.evaluations_ < 0 ? -1 : now.evaluations_ - now.decisions_;
   table.bond_seconds = now.bond_seconds_;
   table.contacts = now.contacts_;

@@ -97,4 +97,10 @@ bool can_approach(const std::vector<Cell>& host, const std::vector<Cell>& guest,
   return false;
 }
 
+bool free_to_meet(const Pattern& whole, std::size_t host, const Site& ours) {
+  std::vector<Cell> cells[2];
+  for (std::size_t k = 0; k < whole.size(); ++k) cells[k < host ? 0 : 1].push_back(whole[k].cell);
+  return can_approach(cells[0], cells[1], whole[ours.module].cell, ours.direction);
+}
+
 }  // namespace lilytank

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "lilytank/ruleset.hpp"
+#include "assemblies/pattern.hpp"
 
 namespace lilytank {
 
@@ -21,5 +21,7 @@ struct Approach {
 /// turning between modules is not found. The two must not share cells.
 bool can_approach(const std::vector<Cell>& host, const std::vector<Cell>& guest, Cell at,
                   int direction, const Approach& room = {});
+/// Whether the modules from index `host` on can come to the others' face `ours` in the plane.
+bool free_to_meet(const Pattern& whole, std::size_t host, const Site& ours);
 
 }  // namespace lilytank

@@ -6,12 +6,19 @@
 #include "lilytank/synthesis.hpp"
 
 namespace lilytank {
+namespace {
+
+std::vector<Contact> edges_of(const Target& target) {
+  return target.bonds.empty() ? contacts_of(target) : target.bonds;
+}
+
+}  // namespace
 
 std::vector<std::vector<int>> neighbours_of(int nodes, const std::vector<Contact>& edges) {
   std::vector<std::vector<int>> found(static_cast<std::size_t>(nodes));
   for (const Contact& edge : edges) {
-    found[static_cast<std::size_t>(edge.a)].push_back(edge.b);
-    found[static_cast<std::size_t>(edge.b)].push_back(edge.a);
+    found[edge.a].push_back(edge.b);
+    found[edge.b].push_back(edge.a);
   }
   for (std::vector<int>& list : found) std::sort(list.begin(), list.end());
   return found;
@@ -23,17 +30,16 @@ Parts::Parts(int nodes)
 }
 
 int Parts::find(int node) {
-  while (parent_[static_cast<std::size_t>(node)] != node)
-    node = parent_[static_cast<std::size_t>(node)];
+  while (parent_[node] != node) node = parent_[node];
   return node;
 }
 
 bool Parts::join(int a, int b) {
   a = find(a), b = find(b);
   if (a == b) return false;
-  if (size_[static_cast<std::size_t>(a)] < size_[static_cast<std::size_t>(b)]) std::swap(a, b);
-  parent_[static_cast<std::size_t>(b)] = a;
-  size_[static_cast<std::size_t>(a)] += size_[static_cast<std::size_t>(b)];
+  if (size_[a] < size_[b]) std::swap(a, b);
+  parent_[b] = a;
+  size_[a] += size_[b];
   return true;
 }
 
@@ -55,24 +61,16 @@ bool hangs_together(int nodes, const std::vector<Contact>& edges) {
 std::vector<int> side_of(const std::vector<std::vector<int>>& tree, int from, int across) {
   std::vector<int> found = {from};
   std::vector<bool> seen(tree.size(), false);
-  seen[static_cast<std::size_t>(from)] = seen[static_cast<std::size_t>(across)] = true;
+  seen[from] = seen[across] = true;
   for (std::size_t k = 0; k < found.size(); ++k) {
-    for (const int next : tree[static_cast<std::size_t>(found[k])]) {
-      if (seen[static_cast<std::size_t>(next)]) continue;
-      seen[static_cast<std::size_t>(next)] = true;
+    for (const int next : tree[found[k]]) {
+      if (seen[next]) continue;
+      seen[next] = true;
       found.push_back(next);
     }
   }
   return found;
 }
-
-namespace {
-
-std::vector<Contact> edges_of(const Target& target) {
-  return target.bonds.empty() ? contacts_of(target) : target.bonds;
-}
-
-}  // namespace
 
 std::vector<Contact> spanning_tree(const Target& target) {
   const int nodes = static_cast<int>(target.cells.size());
@@ -82,9 +80,9 @@ std::vector<Contact> spanning_tree(const Target& target) {
   std::vector<int> queue = {0};
   seen[0] = true;
   for (std::size_t k = 0; k < queue.size(); ++k) {
-    for (const int other : next_to[static_cast<std::size_t>(queue[k])]) {
-      if (seen[static_cast<std::size_t>(other)]) continue;
-      seen[static_cast<std::size_t>(other)] = true;
+    for (const int other : next_to[queue[k]]) {
+      if (seen[other]) continue;
+      seen[other] = true;
       queue.push_back(other);
       tree.push_back({std::min(queue[k], other), std::max(queue[k], other)});
     }
@@ -122,9 +120,8 @@ std::vector<std::vector<Contact>> spanning_trees(const Target& target, std::size
 bool is_caterpillar(int cells, const std::vector<Contact>& tree) {
   const auto next_to = neighbours_of(cells, tree);
   for (const std::vector<int>& list : next_to) {
-    const auto inner = std::count_if(list.begin(), list.end(), [&](int other) {
-      return next_to[static_cast<std::size_t>(other)].size() > 1;
-    });
+    const auto inner = std::count_if(list.begin(), list.end(),
+                                     [&](int other) { return next_to[other].size() > 1; });
     if (list.size() > 1 && inner > 2) return false;
   }
   return true;

@@ -21,7 +21,7 @@ class Parts {
   int find(int node);
   /// False if they were one set already.
   bool join(int a, int b);
-  int size(int node) { return size_[static_cast<std::size_t>(find(node))]; }
+  int size(int node) { return size_[find(node)]; }
   /// Nodes of the set, rising.
   std::vector<int> members(int node);
 

@@ -62,6 +62,25 @@ std::string joined(const List& list, std::string_view between, Text&& text = {})
   return out;
 }
 
+/// Text as the content of XML and HTML, also in attributes: <, >, & and " as entities.
+inline std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
 /// A text with spaces up to a width.
 inline std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.resize(width, ' ');

@@ -107,8 +107,16 @@ class Analyser {
     return s;
   }
 
+  // A coordinate of a curve.
+  struct Axis {
+    std::string name, unit;
+    Values values = {};
+  };
+
   // Adds a set of curves, one a source that has bodies in it.
-  void add(AnalysisCurves set, const std::vector<BodySums>& sums, bool relative = false) {
+  void add(const std::string& name, const std::string& title, const Axis& x, const Axis& y,
+           const std::vector<BodySums>& sums, bool relative = false) {
+    AnalysisCurves set{name, title, x.name, x.unit, y.name, y.unit, x.values, {}, {}};
     Bootstrap bootstrap = out_.options.bootstrap;
     bootstrap.relative = relative;
     for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -142,54 +150,39 @@ class Analyser {
   }
 
   std::vector<BodySums> displacements() {
-    std::vector<BodySums> all;
-    for (const Origins origins : {Origins::first, Origins::all}) {
-      all = of_raw([&](const Recording& r) { return squared_displacements(r, lags_, origins); });
-      const bool first = origins == Origins::first;
-      add({first ? "msd_first" : "msd_all",
-           std::string("mean squared displacement, ") + (first ? "from the begin" : "all origins"),
-           "lag",
-           "s",
-           "msd",
-           "m^2",
-           lags_,
-           {},
-           {}},
-          all);
-    }
+    const auto from = [&](Origins origins) {
+      return of_raw([&](const Recording& r) { return squared_displacements(r, lags_, origins); });
+    };
+    const Axis lag{"lag", "s", lags_}, msd{"msd", "m^2"};
+    add("msd_first", "mean squared displacement, from the begin", lag, msd, from(Origins::first));
+    const std::vector<BodySums> all = from(Origins::all);
+    add("msd_all", "mean squared displacement, all origins", lag, msd, all);
     return all;
   }
 
   std::vector<BodySums> turns() {
     auto all = of_raw([&](const Recording& r) { return squared_turns(r, lags_, Origins::all); });
-    add({"turn_msd", "mean squared turn, all origins", "lag", "s", "msd", "rad^2", lags_, {}, {}},
-        all);
+    add("turn_msd", "mean squared turn, all origins", {"lag", "s", lags_}, {"msd", "rad^2"}, all);
     return all;
   }
 
   void velocities() {
-    Values lags = lags_;
-    lags.insert(lags.begin(), 0.0);
-    add({"velocity_acf",
-         "autocorrelation of velocity",
-         "lag",
-         "s",
-         "correlation",
-         "1",
-         lags,
-         {},
-         {}},
+    Axis lag{"lag", "s", lags_}, correlation{"correlation", "1"};
+    lag.values.insert(lag.values.begin(), 0.0);
+    const Values& lags = lag.values;
+    add("velocity_acf", "autocorrelation of velocity", lag, correlation,
         of_smooth([&](const SmoothRecording& r) { return velocity_products(r, lags); }), true);
-    add({"spin_acf", "autocorrelation of spin", "lag", "s", "correlation", "1", lags, {}, {}},
+    add("spin_acf", "autocorrelation of spin", lag, correlation,
         of_smooth([&](const SmoothRecording& r) { return spin_products(r, lags); }), true);
     const double fastest = most(Quantity::speed);
+    const Bins signed_speeds{-fastest, fastest, 60};
     spread("speed", "speed", Quantity::speed, {0, fastest, 50}, "m/s");
-    spread("velocity_x", "velocity along x", Quantity::velocity_x, {-fastest, fastest, 60}, "m/s");
-    spread("velocity_y", "velocity along y", Quantity::velocity_y, {-fastest, fastest, 60}, "m/s");
-    spread("velocity_out", "velocity away from the centre", Quantity::velocity_out,
-           {-fastest, fastest, 60}, "m/s");
-    spread("velocity_around", "velocity about the centre", Quantity::velocity_around,
-           {-fastest, fastest, 60}, "m/s");
+    spread("velocity_x", "velocity along x", Quantity::velocity_x, signed_speeds, "m/s");
+    spread("velocity_y", "velocity along y", Quantity::velocity_y, signed_speeds, "m/s");
+    spread("velocity_out", "velocity away from the centre", Quantity::velocity_out, signed_speeds,
+           "m/s");
+    spread("velocity_around", "velocity about the centre", Quantity::velocity_around, signed_speeds,
+           "m/s");
     const double quickest = most(Quantity::spin);
     if (quickest > 0) spread("spin", "spin", Quantity::spin, {-quickest, quickest, 60}, "rad/s");
   }
@@ -205,16 +198,8 @@ class Analyser {
   }
   void spread(const std::string& name, const std::string& what, Quantity quantity, const Bins& bins,
               const std::string& unit) {
-    const std::string inverse = unit == "m/s" ? "s/m" : "s/rad";
-    add({name,
-         "distribution of the " + what,
-         what,
-         unit,
-         "density",
-         inverse,
-         middles(bins),
-         {},
-         {}},
+    add(name, "distribution of the " + what, {what, unit, middles(bins)},
+        {"density", unit == "m/s" ? "s/m" : "s/rad"},
         of_smooth([&](const SmoothRecording& r) { return distribution(r, quantity, bins); }));
   }
   static Values middles(const Bins& bins) {
@@ -232,39 +217,16 @@ class Analyser {
       }));
       out_.maps.push_back(velocity_map(s.recordings, out_.options.map_cells, out_.tank_radius));
     }
-    add({"density",
-         "density over an even spread",
-         "distance from the centre",
-         "m",
-         "relative density",
-         "1",
-         middles(rings),
-         {},
-         {}},
-        density);
+    add("density", "density over an even spread", {"distance from the centre", "m", middles(rings)},
+        {"relative density", "1"}, density);
   }
 
   void neighbours() {
     const Bins bins{0, 0.2, 100};
-    add({"pair_correlation",
-         "pair correlation",
-         "distance of centres",
-         "m",
-         "g",
-         "1",
-         middles(bins),
-         {},
-         {}},
-        of_smooth([&](const SmoothRecording& r) { return pair_correlation(r, bins); }));
-    add({"nearest",
-         "distribution of the distance to the nearest neighbour",
-         "distance",
-         "m",
-         "density",
-         "1/m",
-         middles(bins),
-         {},
-         {}},
+    add("pair_correlation", "pair correlation", {"distance of centres", "m", middles(bins)},
+        {"g", "1"}, of_smooth([&](const SmoothRecording& r) { return pair_correlation(r, bins); }));
+    add("nearest", "distribution of the distance to the nearest neighbour",
+        {"distance", "m", middles(bins)}, {"density", "1/m"},
         of_smooth([&](const SmoothRecording& r) { return nearest_neighbours(r, bins); }));
   }
 

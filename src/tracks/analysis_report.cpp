@@ -98,7 +98,7 @@ ReportSection tracks_section(const Analysis& analysis) {
   table.add("frames/s", [](const SourceSummary& s) { return three(s.rate); });
   table.add("sightings", [](const SourceSummary& s) { return std::to_string(s.sightings); });
   table.add("missing (%)", [](const SourceSummary& s) { return fixed(100 * s.missing, 2); });
-  return {"Tracks", {}, table.made(), {}, false};
+  return {"Tracks", {}, table.made()};
 }
 
 double mean_of(const std::vector<MotionModel>& models, double MotionModel::*member) {
@@ -170,8 +170,7 @@ ReportSection smoothing_section(const Analysis& analysis) {
   return {"Smoothing",
           {how + "; kept: amplitude above 1/sqrt(2)"},
           table.made(),
-          kalman ? std::vector<std::string>{} : wide_windows(analysis),
-          false};
+          kalman ? std::vector<std::string>{} : wide_windows(analysis)};
 }
 
 ReportSection displacements_section(const Analysis& analysis) {
@@ -198,8 +197,7 @@ ReportSection displacements_section(const Analysis& analysis) {
   return {"Mean squared displacement up to " + three(lags.back()) + " s, all origins",
           {},
           table.made(),
-          std::move(note),
-          false};
+          std::move(note)};
 }
 
 ReportSection motion_section(const Analysis& analysis) {
@@ -214,7 +212,7 @@ ReportSection motion_section(const Analysis& analysis) {
   table.add("independent samples", [](const SourceSummary& s) {
     return s.motion.empty() ? "-" : fixed(s.independent_samples, 0);
   });
-  return {"Velocities", {}, table.made(), {}, false};
+  return {"Velocities", {}, table.made()};
 }
 
 ReportSection neighbours_section(const Analysis& analysis) {
@@ -231,9 +229,7 @@ ReportSection neighbours_section(const Analysis& analysis) {
   table.add("mean duration (s)", [](const SourceSummary& s) { return or_dash(s.contacts.mean); });
   return {"Neighbours",
           {"Contact: gap below " + three(analysis.options.touching, 1e-3) + " mm"},
-          table.made(),
-          {},
-          false};
+          table.made()};
 }
 
 ReportSection comparison_section(const Analysis& analysis) {

@@ -16,7 +16,7 @@ using Values = std::vector<double>;
 // Curves of the bodies and of resamples of them.
 class Resampler {
  public:
-  // `draw` tells independent sources apart.
+  // `draw`: another one for each independent source.
   Resampler(const BodySums& sums, const Bootstrap& bootstrap, std::uint32_t draw)
       : sums_(sums),
         bootstrap_(bootstrap),
@@ -75,7 +75,7 @@ double quantile_of(Values& values, double q) {
   const double place = q * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::ptrdiff_t>(place);
   std::nth_element(values.begin(), values.begin() + below, values.end());
-  const double low = values[static_cast<std::size_t>(below)];
+  const double low = values[below];
   if (static_cast<std::size_t>(below) + 1 == values.size()) return low;
   const double high = *std::min_element(values.begin() + below + 1, values.end());
   return low + (place - static_cast<double>(below)) * (high - low);
@@ -86,7 +86,7 @@ double widening(int n, double level) {
   return std::sqrt(n / (n - 1.0)) * student_half_width(n - 1.0, level) / normal_half_width(level);
 }
 
-// The interval about `value` from its resamples, of which those that are NaN are left out.
+// The interval about `value` from its resamples, of which those that are NaN are excluded.
 Estimate interval(double value, Values& resamples, double level, double wider) {
   resamples.erase(
       std::remove_if(resamples.begin(), resamples.end(), [](double v) { return std::isnan(v); }),

@@ -1,16 +1,95 @@
 // Squared displacements and autocorrelations of a recording's tracks.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
+#include <unsupported/Eigen/FFT>
 
 #include "lilytank/metrics.hpp"
 #include "statistics/undefined.hpp"
-#include "tracks/lagged_sums.hpp"
 
 namespace lilytank {
 namespace {
 
-using Signal = std::vector<std::complex<double>>;
+using Complex = std::complex<double>;
+using Signal = std::vector<Complex>;
+
+// The least number of 2, 3 and 5 alone that is at least n: transforms of such lengths are fast.
+std::size_t fast_length(std::size_t n) {
+  for (std::size_t m = std::max<std::size_t>(n, 2);; ++m) {
+    std::size_t rest = m;
+    for (const std::size_t factor : {2, 3, 5}) {
+      while (rest % factor == 0) rest /= factor;
+    }
+    if (rest == 1) return m;
+  }
+}
+
+Complex mean_of(const std::vector<Complex>& z) {
+  Complex sum = 0;
+  double n = 0;
+  for (const Complex& v : z) {
+    if (!std::isnan(v.real())) sum += v, ++n;
+  }
+  return n > 0 ? sum / n : 0;
+}
+
+// What to sum of a signal z, over pairs of frames that both were seen.
+enum class LaggedKind {
+  product,  // Re(z(f + lag) conj z(f))
+  square,   // |z(f + lag) - z(f)|^2
+};
+
+// Sums at lags 0 .. most, and the number of pairs in each.
+struct LaggedSums {
+  std::vector<double> sum, count;
+};
+
+// By fast Fourier transforms. Keeps tables and memory, so that many tracks of one length cost
+// little.
+class LaggedSummer {
+ public:
+  // The signal has NaN (real part) where nothing was seen. Lags of its length or more get 0.
+  LaggedSums operator()(const std::vector<Complex>& signal, std::size_t most, LaggedKind kind) {
+    LaggedSums out{std::vector<double>(most + 1, 0.0), std::vector<double>(most + 1, 0.0)};
+    if (signal.empty()) return out;
+    const std::size_t reach = std::min(most, signal.size() - 1);
+    const std::size_t n = fast_length(signal.size() + reach);  // no lag wraps around into another
+    // Squares do not change with the origin; near it they lose least to rounding.
+    const Complex origin = kind == LaggedKind::square ? mean_of(signal) : 0;
+    z_.assign(n, 0), w_.assign(n, 0);
+    for (std::size_t f = 0; f < signal.size(); ++f) {
+      if (std::isnan(signal[f].real())) continue;
+      z_[f] = signal[f] - origin;
+      w_[f] = {1, std::norm(z_[f])};
+    }
+    fft_.fwd(Z_, z_);
+    fft_.fwd(W_, w_);
+    // Of a pair of real signals in one complex transform, the spectra of both: M of what was seen,
+    // S of the squares. The sum of |z' - z|^2 is that of S' M + M' S - 2 z' z.
+    z_[0] = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t mirror = k == 0 ? 0 : n - k;
+      const Complex M = 0.5 * (W_[k] + std::conj(W_[mirror]));
+      const Complex S = Complex(0, -0.5) * (W_[k] - std::conj(W_[mirror]));
+      const double product = 0.5 * (std::norm(Z_[k]) + std::norm(Z_[mirror]));
+      const double square = 2 * (S * std::conj(M)).real() - 2 * product;
+      z_[k] = {std::norm(M), kind == LaggedKind::square ? square : product};
+    }
+    fft_.inv(Z_, z_);
+    for (std::size_t lag = 0; lag <= reach; ++lag) {
+      out.count[lag] = std::round(Z_[lag].real());
+      if (out.count[lag] > 0) out.sum[lag] = Z_[lag].imag();
+      if (kind == LaggedKind::square) out.sum[lag] = std::max(0.0, out.sum[lag]);
+    }
+    if (kind == LaggedKind::square) out.sum[0] = 0;
+    return out;
+  }
+
+ private:
+  Eigen::FFT<double> fft_;
+  std::vector<Complex> z_, w_, Z_, W_;
+};
 
 // A lag in frames, or three neighbouring ones with the weights of the parabola through them.
 struct LagPlace {
@@ -24,7 +103,7 @@ LagPlace place_of(double lag, double rate) {
   LagPlace place;
   place.frame[0] = place.frame[1] = place.frame[2] = static_cast<std::size_t>(nearest);
   if (std::fabs(frames - nearest) <= 1e-6 * std::max(1.0, frames)) return place;
-  // Frame 0 is left out: noise does not show there.
+  // Frame 0 is excluded: noise does not show there.
   const double middle = std::max(2.0, nearest), u = frames - middle;
   for (int i = 0; i < 3; ++i) place.frame[i] = static_cast<std::size_t>(middle) + i - 1;
   place.share[0] = u * (u - 1) / 2, place.share[1] = 1 - u * u, place.share[2] = u * (u + 1) / 2;
@@ -146,23 +225,6 @@ BodySums spin_products(const SmoothRecording& recording, const std::vector<doubl
     z.resize(track.spin.size());
     for (std::size_t f = 0; f < z.size(); ++f) z[f] = track.seen[f] ? track.spin[f] : kUndefined;
   });
-}
-
-MsdCurve mean_squared_displacement(const Recording& recording, const std::vector<int>& lags,
-                                   Origins origins) {
-  MsdCurve curve;
-  for (const int lag : lags) curve.lag.push_back(lag / recording.rate);
-  const BodySums sums = squared_displacements(recording, curve.lag, origins);
-  for (std::size_t i = 0; i < lags.size(); ++i) {
-    double sum = 0, count = 0;
-    for (std::size_t at = i; at < sums.sum.size(); at += lags.size()) {
-      sum += sums.sum[at], count += sums.weight[at];
-    }
-    curve.msd.push_back(count > 0 ? sum / count : 0);
-    curve.count.push_back(std::llround(count));
-  }
-  curve.tracks = sums.tracks;
-  return curve;
 }
 
 }  // namespace lilytank

@@ -52,8 +52,32 @@ BodySums sums_for(const SmoothRecording& recording, int bins, Quantity quantity)
   sums.bins = bins;
   sums.sum.assign(bodies * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
-  sums.tracks.assign(static_cast<std::size_t>(bins), tracks);
+  sums.tracks.assign(bins, tracks);
   return sums;
+}
+
+// What one body did in one cell.
+struct Passage {
+  std::size_t cell = 0;
+  double n = 0, vx = 0, vy = 0;
+};
+
+void add_passages(const SmoothRecording& recording, const Bins& bins,
+                  std::vector<Passage>& passages) {
+  const auto count = static_cast<std::size_t>(bins.count) * static_cast<std::size_t>(bins.count);
+  std::vector<Passage> own(BodyNumbers(recording).count() * count);
+  for_each_seen(recording, Quantity::speed,
+                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
+                  const int ix = bins.of(t.x[f]), iy = bins.of(t.y[f]);
+                  if (ix < 0 || iy < 0) return;
+                  const auto cell = static_cast<std::size_t>(iy * bins.count + ix);
+                  Passage& p = own[body * count + cell];
+                  p.cell = cell;
+                  ++p.n, p.vx += t.vx[f], p.vy += t.vy[f];
+                });
+  for (const Passage& p : own) {
+    if (p.n > 0) passages.push_back(p);
+  }
 }
 
 }  // namespace
@@ -66,13 +90,12 @@ int Bins::of(double value) const {
 BodySums distribution(const SmoothRecording& recording, Quantity quantity, const Bins& bins) {
   BodySums sums = sums_for(recording, bins.count, quantity);
   std::vector<double> samples(BodyNumbers(recording).count(), 0.0);
-  const auto n = static_cast<std::size_t>(bins.count);
   for_each_seen(recording, quantity, [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
     ++samples[body];
     const int bin = bins.of(value_of(t, f, quantity));
-    if (bin >= 0) sums.sum[body * n + static_cast<std::size_t>(bin)] += 1 / bins.width();
+    if (bin >= 0) sums.sum[body * bins.count + bin] += 1 / bins.width();
   });
-  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / n];
+  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
 }
 
@@ -110,53 +133,22 @@ BodySums circulation(const SmoothRecording& recording) {
 
 BodySums radial_density(const SmoothRecording& recording, double tank_radius, const Bins& bins) {
   BodySums sums = sums_for(recording, bins.count, Quantity::speed);
-  const auto n = static_cast<std::size_t>(bins.count);
   std::vector<double> samples(BodyNumbers(recording).count(), 0.0);
   const auto edge = [&](int i) { return bins.low + i * bins.width(); };
-  std::vector<double> share(n);  // of the tank's area
+  std::vector<double> share(bins.count);  // of the tank's area
   for (int i = 0; i < bins.count; ++i) {
-    share[static_cast<std::size_t>(i)] =
-        (edge(i + 1) * edge(i + 1) - edge(i) * edge(i)) / (tank_radius * tank_radius);
+    share[i] = (edge(i + 1) * edge(i + 1) - edge(i) * edge(i)) / (tank_radius * tank_radius);
   }
   for_each_seen(recording, Quantity::speed,
                 [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
                   ++samples[body];
                   const int bin = bins.of(std::sqrt(t.x[f] * t.x[f] + t.y[f] * t.y[f]));
                   if (bin < 0) return;
-                  const auto i = static_cast<std::size_t>(bin);
-                  sums.sum[body * n + i] += 1 / share[i];
+                  sums.sum[body * bins.count + bin] += 1 / share[bin];
                 });
-  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / n];
+  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
 }
-
-namespace {
-
-// What one body did in one cell.
-struct Passage {
-  std::size_t cell = 0;
-  double n = 0, vx = 0, vy = 0;
-};
-
-void add_passages(const SmoothRecording& recording, const Bins& bins,
-                  std::vector<Passage>& passages) {
-  const auto count = static_cast<std::size_t>(bins.count) * static_cast<std::size_t>(bins.count);
-  std::vector<Passage> own(BodyNumbers(recording).count() * count);
-  for_each_seen(recording, Quantity::speed,
-                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
-                  const int ix = bins.of(t.x[f]), iy = bins.of(t.y[f]);
-                  if (ix < 0 || iy < 0) return;
-                  const auto cell = static_cast<std::size_t>(iy * bins.count + ix);
-                  Passage& p = own[body * count + cell];
-                  p.cell = cell;
-                  ++p.n, p.vx += t.vx[f], p.vy += t.vy[f];
-                });
-  for (const Passage& p : own) {
-    if (p.n > 0) passages.push_back(p);
-  }
-}
-
-}  // namespace
 
 VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent) {
   const auto count = static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells);

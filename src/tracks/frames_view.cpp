@@ -6,7 +6,7 @@
 namespace lilytank {
 namespace {
 
-// Whether a body was seen there, and the smoother says where it was: at a track's ends and beside
+// Whether a body was seen there, and the smoother estimated its pose: at a track's ends and beside
 // holes a polynomial may have too few frames.
 bool placed(const SmoothTrack& t, int i) {
   return t.seen[i] && !std::isnan(t.x[i]) && (t.theta.empty() || !std::isnan(t.theta[i]));

@@ -1,4 +1,5 @@
-// A smoothed recording frame by frame: who was seen where, frames without an estimate left out.
+// A smoothed recording frame by frame: bodies with their poses, without frames that have no
+// estimate.
 #pragma once
 #include <map>
 #include <vector>

@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kEq9Steps = 2400;  // N_s of the paper
 
-std::vector<std::unique_ptr<SummaryPart>> parts_of(const MotionSummary& summary) {
-  std::vector<std::unique_ptr<SummaryPart>> parts;
-  parts.push_back(displacement_part(summary));
-  parts.push_back(velocity_part(summary));
-  parts.push_back(place_part(summary));
-  parts.push_back(kicks_part(summary));
-  if (summary.field) parts.push_back(balance_part(summary));
-  if (summary.headings) {
-    parts.push_back(turning_part(summary));
-    parts.push_back(turning_kicks_part(summary));
+SummaryValues values_of(const std::vector<Recording>& recordings, const MotionSummary& summary) {
+  SummaryParts parts;
+  add_motion_parts(summary, parts);
+  add_balance_parts(summary, parts);
+  SummaryValues values;
+  for (const auto& part : parts) {
+    for (const Recording& recording : recordings) {
+      part->add(recording);
+      for (const Track& track : recording.tracks) part->add(track);
+    }
+    part->report(values);
   }
-  parts.push_back(neighbours_part(summary));
-  return parts;
+  return values;
 }
 
 // Adds one track's squared displacements at every lag; those that are no whole number of frames
@@ -59,24 +59,15 @@ double log_of(double value) {
 
 std::vector<SummaryEntry> summary_entries(const MotionSummary& summary) {
   std::vector<SummaryEntry> entries;
-  for (const auto& part : parts_of(summary)) {
-    for (SummaryEntry& entry : part->entries()) entries.push_back(std::move(entry));
-  }
+  for (const SummaryValue& v : values_of({}, summary)) entries.push_back({v.group, v.name});
   return entries;
 }
 
 std::vector<double> summarise(const std::vector<Recording>& recordings,
                               const MotionSummary& summary) {
   std::vector<double> values;
-  for (const auto& part : parts_of(summary)) {
-    for (const Recording& recording : recordings) {
-      part->add(recording);
-      for (const Track& track : recording.tracks) part->add(track);
-    }
-    part->tell(values);
-  }
-  for (double& value : values) {
-    if (!std::isfinite(value)) value = 0;
+  for (const SummaryValue& v : values_of(recordings, summary)) {
+    values.push_back(std::isfinite(v.value) ? v.value : 0);
   }
   return values;
 }

@@ -20,8 +20,7 @@ BodySums empty_sums(const SmoothRecording& recording, const FramesView& frames, 
   sums.bins = bins;
   sums.sum.assign(frames.bodies() * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
-  sums.tracks.assign(static_cast<std::size_t>(bins),
-                     static_cast<std::int64_t>(recording.tracks.size()));
+  sums.tracks.assign(bins, static_cast<std::int64_t>(recording.tracks.size()));
   return sums;
 }
 
@@ -33,7 +32,6 @@ struct PairCounts {
 void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, const SeenBody* b_end,
                  const Bins& bins, PairCounts& counts) {
   const double reach = bins.high * bins.high;
-  const auto n = static_cast<std::size_t>(bins.count);
   for (; a != a_end; ++a) {
     for (const SeenBody* p = b; p != b_end; ++p) {
       if (p->body == a->body) continue;
@@ -41,12 +39,12 @@ void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, co
       const double dx = a->x - p->x, dy = a->y - p->y;
       if (dx * dx + dy * dy > reach) continue;
       const int bin = bins.of(std::sqrt(dx * dx + dy * dy));
-      if (bin >= 0) ++counts.by_bin[a->body * n + static_cast<std::size_t>(bin)];
+      if (bin >= 0) ++counts.by_bin[a->body * bins.count + bin];
     }
   }
 }
 
-// Every how many frames one is looked at, for ten a second.
+// Frames from one that is evaluated to the next, for ten a second.
 std::size_t stride_of(const SmoothRecording& recording) {
   return static_cast<std::size_t>(std::max(1.0, std::round(recording.rate / 10)));
 }
@@ -81,7 +79,7 @@ double gap_along(const SeenBody& a, const SeenBody& b, double side) {
 
 double gap(const SeenBody& a, const SeenBody& b, const ContactRule& rule) {
   const double apart = distance(a, b);
-  // Beyond their corners' reach no axes need to be looked at.
+  // Beyond their corners' reach no axes need to be tested.
   if (!rule.squares || apart > 1.4142135623730951 * rule.size + rule.apart) {
     return apart - rule.size;
   }
@@ -201,14 +199,13 @@ BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
 BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins) {
   const FramesView frames(recording);
   BodySums sums = empty_sums(recording, frames, bins.count);
-  const auto n = static_cast<std::size_t>(bins.count);
   std::vector<double> samples(frames.bodies(), 0.0);
   for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
     ++samples[body];
     const int bin = bins.of(nearest);
-    if (bin >= 0) sums.sum[body * n + static_cast<std::size_t>(bin)] += 1 / bins.width();
+    if (bin >= 0) sums.sum[body * bins.count + bin] += 1 / bins.width();
   });
-  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / n];
+  for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
 }
 

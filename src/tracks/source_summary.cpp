@@ -28,12 +28,11 @@ struct Peak {
 Peak first_peak(const Values& lags, const Values& curve) {
   const int at = first_maximum(curve);
   if (at < 0) return {};
-  const auto i = static_cast<std::size_t>(at);
-  const double h = lags[i] - lags[i - 1], bend = curve[i - 1] - 2 * curve[i] + curve[i + 1];
-  const bool even = std::fabs(lags[i + 1] - lags[i] - h) < 1e-6 * h;
-  if (!even || !(bend < 0)) return {lags[i], curve[i]};
-  const double slope = (curve[i + 1] - curve[i - 1]) / 2, shift = -slope / bend;
-  return {lags[i] + shift * h, curve[i] + 0.5 * slope * shift};
+  const double h = lags[at] - lags[at - 1], bend = curve[at - 1] - 2 * curve[at] + curve[at + 1];
+  const bool even = std::fabs(lags[at + 1] - lags[at] - h) < 1e-6 * h;
+  if (!even || !(bend < 0)) return {lags[at], curve[at]};
+  const double slope = (curve[at + 1] - curve[at - 1]) / 2, shift = -slope / bend;
+  return {lags[at] + shift * h, curve[at] + 0.5 * slope * shift};
 }
 
 // Mean over the second half of the lags.

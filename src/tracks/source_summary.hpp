@@ -7,7 +7,7 @@ namespace lilytank {
 /// A source with all that its numbers are made from.
 struct SmoothSource {
   const AnalysisSource* source = nullptr;
-  std::vector<SmoothRecording> recordings;  ///< empty if only displacements are asked for
+  std::vector<SmoothRecording> recordings;  ///< empty if only displacements are analysed
   std::vector<Contacts> contacts;           ///< a recording; empty for points
 };
 

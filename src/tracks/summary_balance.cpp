@@ -1,6 +1,6 @@
-// The balance of momentum and spin, turning and neighbours of a motion summary.
+// Process noise, the balance of momentum and spin, turning and neighbours of a motion summary.
 //
-// The balance asks what a change of velocity goes with: the water's velocity relative to the body,
+// The balance correlates changes of velocity with the water's velocity relative to the body,
 // its own velocity, their squares. Its terms are those that drag, damping and random force differ
 // in, and they know a parameter from seconds of motion, where displacements need minutes.
 #include <algorithm>
@@ -13,41 +13,68 @@
 namespace lilytank {
 namespace {
 
+// Second differences over a few frames: noise, and forces that change from tick to tick.
+class Kicks final : public SummaryPart {
+ public:
+  explicit Kicks(bool turning) : turning_(turning) {}
+  void add(const Track& track) override {
+    if (turning_) {
+      add(track.theta);
+    } else {
+      add(track.x), add(track.y);
+    }
+  }
+  void report(SummaryValues& out) const override {
+    for (std::size_t k = 0; k < kLags.size(); ++k) {
+      const std::string lag = std::to_string(kLags[k]) + " frames";
+      out.push_back({turning_ ? "turning" : "kicks",
+                     (turning_ ? "turning noise " : "process noise ") + lag,
+                     log_of(sums_[k].mean())});
+    }
+  }
+
+ private:
+  static constexpr std::array<int, 6> kLags{1, 2, 3, 4, 6, 9};
+  void add(const std::vector<double>& of) {
+    for (std::size_t k = 0; k < kLags.size(); ++k) {
+      const auto lag = static_cast<std::size_t>(kLags[k]);
+      MeanSum sum = sums_[k];  // a copy, as memory would be slower
+      for (std::size_t i = lag; i + lag < of.size(); ++i) {
+        const double d = of[i + lag] - 2 * of[i] + of[i - lag];
+        sum.add(d * d);
+      }
+      sums_[k] = sum;
+    }
+  }
+  bool turning_;
+  std::array<MeanSum, 6> sums_;
+};
+
 class Balance final : public SummaryPart {
  public:
   explicit Balance(const MotionSummary& s)
       : span_(frames_of(0.1, s.rate)), rate_(s.rate), field_(s.field), turns_(s.headings) {}
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const char* name :
-         {"along slip", "along slip, quadratic", "along velocity", "along water", "across water",
-          "velocity and water", "process noise in slow water", "process noise in fast water"}) {
-      out.push_back({"balance", name});
-    }
-    if (!turns_) return out;
-    for (const char* name : {"spin lost", "spin lost by slip", "spin and water"}) {
-      out.push_back({"balance", name});
-    }
-    return out;
-  }
   void add(const Track& track) override {
     const int n = static_cast<int>(track.x.size());
     for (int i = span_; i + 2 * span_ < n; i += span_) add(track, static_cast<std::size_t>(i));
   }
-  void tell(std::vector<double>& values) const override {
+  void report(SummaryValues& out) const override {
     // By the mean squares of what they go with: then they are rates, whatever the speeds.
     const double w2 = square(0), v2 = square(1), u2 = square(2), w4 = square(3);
-    for (const double v :
-         {along_[0].mean() / w2, along_[1].mean() / std::sqrt(w4 * w2), along_[2].mean() / v2,
-          along_[3].mean() / u2, along_[4].mean() / u2, along_[5].mean() / std::sqrt(u2 * v2),
-          log_of(kicks_[0].mean()), log_of(kicks_[1].mean())}) {
-      values.push_back(v);
-    }
+    out.insert(out.end(),
+               {{"balance", "along slip", along_[0].mean() / w2},
+                {"balance", "along slip, quadratic", along_[1].mean() / std::sqrt(w4 * w2)},
+                {"balance", "along velocity", along_[2].mean() / v2},
+                {"balance", "along water", along_[3].mean() / u2},
+                {"balance", "across water", along_[4].mean() / u2},
+                {"balance", "velocity and water", along_[5].mean() / std::sqrt(u2 * v2)},
+                {"balance", "process noise in slow water", log_of(kicks_[0].mean())},
+                {"balance", "process noise in fast water", log_of(kicks_[1].mean())}});
     if (!turns_) return;
     const double s2 = std::max(spin_square_.mean(), 1e-12);
-    values.push_back(spin_[0].mean() / s2);
-    values.push_back(spin_[1].mean() / (s2 * std::sqrt(w2)));
-    values.push_back(spin_[2].mean() / std::sqrt(s2 * u2));
+    out.insert(out.end(), {{"balance", "spin lost", spin_[0].mean() / s2},
+                           {"balance", "spin lost by slip", spin_[1].mean() / (s2 * std::sqrt(w2))},
+                           {"balance", "spin and water", spin_[2].mean() / std::sqrt(s2 * u2)}});
   }
 
  private:
@@ -97,32 +124,19 @@ class Turning final : public SummaryPart {
  public:
   explicit Turning(const MotionSummary& s)
       : half_(frames_of(0.05, s.rate)), stride_(frames_of(0.1, s.rate)), rate_(s.rate) {}
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const double s : kLags) out.push_back({"turning", "turns " + shortest(s) + " s"});
-    for (const double s : kMemory) {
-      out.push_back({"turning", "memory of spin " + shortest(s) + " s"});
-    }
-    for (const char* name : {"mean square spin", "mean size of spin", "mean spin"}) {
-      out.push_back({"turning", name});
-    }
-    return out;
-  }
   void add(const Track& track) override {
     const auto& t = track.theta;
     const auto n = static_cast<int>(t.size());
     for (std::size_t k = 0; k < kLags.size(); ++k) {
       const int lag = frames_of(kLags[k], rate_);
       for (int i = 0; i + lag < n; i += stride_) {
-        const double d = t[static_cast<std::size_t>(i + lag)] - t[static_cast<std::size_t>(i)];
+        const double d = t[i + lag] - t[i];
         turns_[k].add(d * d);
       }
     }
     std::vector<double> spin;
     for (int i = half_; i + half_ < n; i += stride_) {
-      spin.push_back(
-          rate_ / (2 * half_) *
-          (t[static_cast<std::size_t>(i + half_)] - t[static_cast<std::size_t>(i - half_)]));
+      spin.push_back(rate_ / (2 * half_) * (t[i + half_] - t[i - half_]));
       square_.add(spin.back() * spin.back());
       size_.add(std::fabs(spin.back())), mean_.add(spin.back());
     }
@@ -131,13 +145,18 @@ class Turning final : public SummaryPart {
       for (std::size_t i = 0; i + lag < spin.size(); ++i) products_[k].add(spin[i] * spin[i + lag]);
     }
   }
-  void tell(std::vector<double>& values) const override {
-    for (const MeanSum& t : turns_) values.push_back(log_of(t.mean()));
+  void report(SummaryValues& out) const override {
+    for (std::size_t k = 0; k < kLags.size(); ++k) {
+      out.push_back({"turning", "turns " + shortest(kLags[k]) + " s", log_of(turns_[k].mean())});
+    }
     const double s2 = std::max(square_.mean(), 1e-12);
-    for (const MeanSum& p : products_) values.push_back(p.mean() / s2);
-    values.push_back(log_of(square_.mean()));
-    values.push_back(log_of(size_.mean()));
-    values.push_back(mean_.mean());
+    for (std::size_t k = 0; k < kMemory.size(); ++k) {
+      const std::string lag = shortest(kMemory[k]) + " s";
+      out.push_back({"turning", "memory of spin " + lag, products_[k].mean() / s2});
+    }
+    out.insert(out.end(), {{"turning", "mean square spin", log_of(square_.mean())},
+                           {"turning", "mean size of spin", log_of(size_.mean())},
+                           {"turning", "mean spin", mean_.mean()}});
   }
 
  private:
@@ -155,13 +174,6 @@ class Neighbours final : public SummaryPart {
  public:
   explicit Neighbours(const MotionSummary& s)
       : stride_(frames_of(0.2, s.rate)), size_(s.body_size) {}
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const double d : kDistances) {
-      out.push_back({"neighbours", "nearer than " + shortest(d) + " sizes"});
-    }
-    return out;
-  }
   void add(const Track&) override {}
   void add(const Recording& recording) override {
     for (int f = 0; f < recording.frames; f += stride_) {
@@ -169,14 +181,16 @@ class Neighbours final : public SummaryPart {
       for (const Track& track : recording.tracks) {
         const int k = f - track.first;
         if (k < 0 || k >= static_cast<int>(track.x.size())) continue;
-        const auto i = static_cast<std::size_t>(k);
-        if (!std::isnan(track.x[i])) x_.push_back(track.x[i]), y_.push_back(track.y[i]);
+        if (!std::isnan(track.x[k])) x_.push_back(track.x[k]), y_.push_back(track.y[k]);
       }
       count();
     }
   }
-  void tell(std::vector<double>& values) const override {
-    for (const double v : near_) values.push_back(std::sqrt(v / std::max(all_, 1.0)));
+  void report(SummaryValues& out) const override {
+    for (std::size_t k = 0; k < kDistances.size(); ++k) {
+      out.push_back({"neighbours", "nearer than " + shortest(kDistances[k]) + " sizes",
+                     std::sqrt(near_[k] / std::max(all_, 1.0))});
+    }
   }
 
  private:
@@ -203,14 +217,14 @@ class Neighbours final : public SummaryPart {
 
 }  // namespace
 
-std::unique_ptr<SummaryPart> balance_part(const MotionSummary& summary) {
-  return std::make_unique<Balance>(summary);
-}
-std::unique_ptr<SummaryPart> turning_part(const MotionSummary& summary) {
-  return std::make_unique<Turning>(summary);
-}
-std::unique_ptr<SummaryPart> neighbours_part(const MotionSummary& summary) {
-  return std::make_unique<Neighbours>(summary);
+void add_balance_parts(const MotionSummary& summary, SummaryParts& out) {
+  out.push_back(std::make_unique<Kicks>(false));
+  if (summary.field) out.push_back(std::make_unique<Balance>(summary));
+  if (summary.headings) {
+    out.push_back(std::make_unique<Turning>(summary));
+    out.push_back(std::make_unique<Kicks>(true));
+  }
+  out.push_back(std::make_unique<Neighbours>(summary));
 }
 
 }  // namespace lilytank

@@ -1,4 +1,4 @@
-// Displacements, velocities, places and kicks of a motion summary.
+// Displacements, velocities and places of a motion summary.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,11 +20,6 @@ class Displacement final : public SummaryPart {
     }
     sums_.resize(lags_.size());
   }
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const double s : seconds_) out.push_back({"displacement", "msd " + shortest(s) + " s"});
-    return out;
-  }
   void add(const Track& track) override {
     const auto n = static_cast<int>(track.x.size());
     for (std::size_t k = 0; k < lags_.size(); ++k) {
@@ -37,8 +32,11 @@ class Displacement final : public SummaryPart {
       sums_[k] = sum;
     }
   }
-  void tell(std::vector<double>& values) const override {
-    for (const MeanSum& sum : sums_) values.push_back(log_of(sum.mean()));
+  void report(SummaryValues& out) const override {
+    for (std::size_t k = 0; k < lags_.size(); ++k) {
+      out.push_back(
+          {"displacement", "msd " + shortest(seconds_[k]) + " s", log_of(sums_[k].mean())});
+    }
   }
 
  private:
@@ -53,12 +51,6 @@ class Velocity final : public SummaryPart {
  public:
   explicit Velocity(const MotionSummary& s)
       : half_(frames_of(0.05, s.rate)), stride_(frames_of(0.1, s.rate)), rate_(s.rate) {}
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out{{"velocity", "mean square"}};
-    for (const double s : kLags) out.push_back({"velocity", "memory " + shortest(s) + " s"});
-    for (const double q : kQuantiles) out.push_back({"velocity", "speed " + shortest(q)});
-    return out;
-  }
   void add(const Track& track) override {
     std::vector<double> vx, vy;
     const double scale = rate_ / (2 * half_);
@@ -77,12 +69,15 @@ class Velocity final : public SummaryPart {
       }
     }
   }
-  void tell(std::vector<double>& values) const override {
-    values.push_back(log_of(square_.mean()));
-    for (const MeanSum& p : products_) {
-      values.push_back(p.mean() / std::max(square_.mean(), 1e-12));
+  void report(SummaryValues& out) const override {
+    out.push_back({"velocity", "mean square", log_of(square_.mean())});
+    const double v2 = std::max(square_.mean(), 1e-12);
+    for (std::size_t k = 0; k < kLags.size(); ++k) {
+      out.push_back({"velocity", "memory " + shortest(kLags[k]) + " s", products_[k].mean() / v2});
     }
-    for (const double q : kQuantiles) values.push_back(log_of(quantile(q)));
+    for (const double q : kQuantiles) {
+      out.push_back({"velocity", "speed " + shortest(q), log_of(quantile(q))});
+    }
   }
 
  private:
@@ -98,7 +93,7 @@ class Velocity final : public SummaryPart {
     const double wanted = share * square_.weight;
     double below = 0;
     for (int i = 0; i < kBins; ++i) {
-      const double here = histogram_[static_cast<std::size_t>(i)];
+      const double here = histogram_[i];
       if (below + here >= wanted && here > 0) return kWidth * (i + (wanted - below) / here);
       below += here;
     }
@@ -119,21 +114,11 @@ class Place final : public SummaryPart {
         stride_(frames_of(0.1, s.rate)),
         rate_(s.rate),
         width_(s.tank_radius / kRings) {}
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const char* what : {"share", "around", "outwards"}) {
-      for (int r = 0; r < kRings; ++r) {
-        out.push_back({"place", std::string(what) + " ring " + std::to_string(r + 1)});
-      }
-    }
-    return out;
-  }
   void add(const Track& track) override {
     const double scale = rate_ / (2 * half_);
     for (int i = half_; i + half_ < static_cast<int>(track.x.size()); i += stride_) {
       const auto a = static_cast<std::size_t>(i - half_), b = static_cast<std::size_t>(i + half_);
-      const auto m = static_cast<std::size_t>(i);
-      const double x = track.x[m], y = track.y[m], r = std::sqrt(x * x + y * y);
+      const double x = track.x[i], y = track.y[i], r = std::sqrt(x * x + y * y);
       const double vx = scale * (track.x[b] - track.x[a]), vy = scale * (track.y[b] - track.y[a]);
       const double out = (x * vx + y * vy) / r, around = (x * vy - y * vx) / r;
       if (out - out != 0 || around - around != 0) continue;
@@ -141,12 +126,17 @@ class Place final : public SummaryPart {
       share_[ring] += 1, around_[ring] += around, out_[ring] += out, all_ += 1;
     }
   }
-  void tell(std::vector<double>& values) const override {
+  void report(SummaryValues& out) const override {
     const double all = std::max(all_, 1.0);
+    const auto rings = [&](const std::string& what, auto value_of) {
+      for (std::size_t r = 0; r < kRings; ++r) {
+        out.push_back({"place", what + " ring " + std::to_string(r + 1), value_of(r)});
+      }
+    };
     // Products with the share: defined also where no body came.
-    for (const double v : share_) values.push_back(std::sqrt(v / all));
-    for (const double v : around_) values.push_back(v / all);
-    for (const double v : out_) values.push_back(v / all);
+    rings("share", [&](std::size_t r) { return std::sqrt(share_[r] / all); });
+    rings("around", [&](std::size_t r) { return around_[r] / all; });
+    rings("outwards", [&](std::size_t r) { return out_[r] / all; });
   }
 
  private:
@@ -155,63 +145,12 @@ class Place final : public SummaryPart {
   std::array<double, kRings> share_{}, around_{}, out_{};
 };
 
-// Second differences over a few frames: noise, and forces that change from tick to tick.
-class Kicks final : public SummaryPart {
- public:
-  Kicks(const MotionSummary& s, bool turning) : turning_(turning) { static_cast<void>(s); }
-  std::vector<SummaryEntry> entries() const override {
-    std::vector<SummaryEntry> out;
-    for (const int lag : kLags) {
-      out.push_back(
-          {turning_ ? "turning" : "kicks",
-           (turning_ ? "turning noise " : "process noise ") + std::to_string(lag) + " frames"});
-    }
-    return out;
-  }
-  void add(const Track& track) override {
-    if (turning_) {
-      add(track.theta);
-    } else {
-      add(track.x), add(track.y);
-    }
-  }
-  void tell(std::vector<double>& values) const override {
-    for (const MeanSum& sum : sums_) values.push_back(log_of(sum.mean()));
-  }
-
- private:
-  static constexpr std::array<int, 6> kLags{1, 2, 3, 4, 6, 9};
-  void add(const std::vector<double>& of) {
-    for (std::size_t k = 0; k < kLags.size(); ++k) {
-      const auto lag = static_cast<std::size_t>(kLags[k]);
-      MeanSum sum = sums_[k];  // a copy, as memory would be slower
-      for (std::size_t i = lag; i + lag < of.size(); ++i) {
-        const double d = of[i + lag] - 2 * of[i] + of[i - lag];
-        sum.add(d * d);
-      }
-      sums_[k] = sum;
-    }
-  }
-  bool turning_;
-  std::array<MeanSum, 6> sums_;
-};
-
 }  // namespace
 
-std::unique_ptr<SummaryPart> displacement_part(const MotionSummary& summary) {
-  return std::make_unique<Displacement>(summary);
-}
-std::unique_ptr<SummaryPart> velocity_part(const MotionSummary& summary) {
-  return std::make_unique<Velocity>(summary);
-}
-std::unique_ptr<SummaryPart> place_part(const MotionSummary& summary) {
-  return std::make_unique<Place>(summary);
-}
-std::unique_ptr<SummaryPart> kicks_part(const MotionSummary& summary) {
-  return std::make_unique<Kicks>(summary, false);
-}
-std::unique_ptr<SummaryPart> turning_kicks_part(const MotionSummary& summary) {
-  return std::make_unique<Kicks>(summary, true);
+void add_motion_parts(const MotionSummary& summary, SummaryParts& out) {
+  out.push_back(std::make_unique<Displacement>(summary));
+  out.push_back(std::make_unique<Velocity>(summary));
+  out.push_back(std::make_unique<Place>(summary));
 }
 
 }  // namespace lilytank

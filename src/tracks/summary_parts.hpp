@@ -1,4 +1,4 @@
-// The groups of numbers that make up a motion summary. Each adds up tracks and then tells values.
+// The groups of numbers that make up a motion summary. Each sums over tracks.
 #pragma once
 #include <memory>
 #include <string>
@@ -18,29 +18,30 @@ struct MeanSum {
   double mean() const { return weight > 0 ? sum / weight : 0; }
 };
 
+/// A statistic with its entry.
+struct SummaryValue {
+  std::string group, name;
+  double value = 0;
+};
+using SummaryValues = std::vector<SummaryValue>;
+
 class SummaryPart {
  public:
   virtual ~SummaryPart() = default;
-  virtual std::vector<SummaryEntry> entries() const = 0;
   virtual void add(const Track& track) = 0;
-  /// Of all tracks together, once these were added; for what happens between bodies.
-  virtual void add(const Recording& recording) { static_cast<void>(recording); }
-  /// One value an entry.
-  virtual void tell(std::vector<double>& values) const = 0;
+  /// Of all tracks together, before each of them; for what happens between bodies.
+  virtual void add(const Recording&) {}
+  /// Appends the statistics of what was added. Their entries do not depend on it.
+  virtual void report(SummaryValues& out) const = 0;
 };
+using SummaryParts = std::vector<std::unique_ptr<SummaryPart>>;
 
 /// Seconds as whole frames, at least one.
 int frames_of(double seconds, double rate);
 /// Logarithm of something positive; of nothing, that of 1e-12.
 double log_of(double value);
 
-std::unique_ptr<SummaryPart> displacement_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> velocity_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> place_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> kicks_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> balance_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> turning_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> turning_kicks_part(const MotionSummary& summary);
-std::unique_ptr<SummaryPart> neighbours_part(const MotionSummary& summary);
+void add_motion_parts(const MotionSummary& summary, SummaryParts& out);
+void add_balance_parts(const MotionSummary& summary, SummaryParts& out);
 
 }  // namespace lilytank

@@ -6,7 +6,6 @@
 #include "io/toml_text.hpp"
 #include "recording/formats.hpp"
 #include "recording/gzip.hpp"
-#include "recording/process.hpp"
 #include "recording/recording_keys.hpp"
 
 namespace lilytank::fuzz {

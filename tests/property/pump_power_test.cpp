@@ -2,9 +2,9 @@
 // gives a faster oscillation of the MSD and a lower plateau.
 #include <gtest/gtest.h>
 
-#include "lilytank/metrics.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "support/msd.hpp"
 #include "support/worlds.hpp"
 
 namespace lilytank {

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "lilytank/metrics.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "support/msd.hpp"
 #include "support/worlds.hpp"
 
 namespace lilytank {

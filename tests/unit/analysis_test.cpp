@@ -11,6 +11,10 @@
 namespace lilytank {
 namespace {
 
+std::string analysis_text(const Analysis& analysis) {
+  return report_text(analysis_report(analysis));
+}
+
 // Bodies that go round at radii about 0.12 m with 1.5 rad/s, each at its own pace.
 Recording orbits(std::uint64_t seed, int bodies, int frames, double rate, double spread = 0.1) {
   Recording r = test::recording_of(bodies, frames, rate, [=](int b, int f) {

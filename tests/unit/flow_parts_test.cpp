@@ -43,7 +43,7 @@ TEST(gustedDrag, meanAndCovarianceAreThoseOfASum) {
   for (const double u : {0.0, 0.003, 0.04, 0.13, 0.5, 0.81}) {
     const Sum expected = by_summing(u, s);
     const auto mean = drag.mean(u, 0, s * s);
-    const auto spread = drag.covariance(u, 0, s * s);
+    const auto spread = drag.moments(u, 0, s * s).covariance;
     EXPECT_NEAR(mean.x, expected.x, 1e-6 * (u * u + s * s)) << u;
     EXPECT_NEAR(spread.xx, expected.xx, 1e-5 * expected.xx) << u;
     EXPECT_NEAR(spread.yy, expected.yy, 1e-5 * expected.yy) << u;
@@ -61,7 +61,8 @@ TEST(gustedDrag, derivativesAreThose) {
     EXPECT_NEAR(at.xx, (right.x - left.x) / (2 * e), 2e-5) << u;
     EXPECT_NEAR(at.xy, (right.y - left.y) / (2 * e), 2e-5) << u;
     EXPECT_NEAR(at.sy, (more.y - less.y) / (2 * e), 2e-5) << u;
-    const auto c = drag.covariance(ux, uy, s2), d = drag.covariance(ux, uy, s2 * std::exp(e));
+    const auto c = drag.moments(ux, uy, s2).covariance,
+               d = drag.moments(ux, uy, s2 * std::exp(e)).covariance;
     EXPECT_NEAR(c.sxy, (d.xy - c.xy) / e, 1e-3 * std::fabs(c.xy)) << u;
     EXPECT_NEAR(c.syy, (d.yy - c.yy) / e, 1e-3 * c.yy) << u;
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "lilytank/metrics.hpp"
+#include "support/msd.hpp"
 #include "support/tracks.hpp"
 
 namespace lilytank {
