@@ -1,5 +1,6 @@
 // The normal distribution that CMA-ES samples from, and how it learns.
 #pragma once
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -21,12 +22,13 @@ struct CmaConstants {
 class CmaDistribution {
  public:
   CmaDistribution() = default;
-  CmaDistribution(std::vector<double> mean, double sigma, int lambda);
+  CmaDistribution(const std::vector<double>& mean, double sigma, int lambda);
   CmaDistribution(StateReader& in, int axes, int most_lambda);
 
   const CmaConstants& constants() const { return constants_; }
-  const std::vector<double>& mean() const { return mean_; }
-  /// mean + sigma B D z: the sample that belongs to standard normals.
+  std::vector<double> mean() const { return {mean_.begin(), mean_.end()}; }
+  /// mean + sigma C^(1/2) z: the sample that belongs to standard normals. The symmetric root of the
+  /// covariance C does not depend on the order and the signs of the eigenvectors.
   std::vector<double> sample(std::span<const double> z) const;
   /// One generation's update from the normals of its samples, best first.
   void update(const std::vector<std::vector<double>>& ranked);
@@ -39,18 +41,17 @@ class CmaDistribution {
   void save(StateWriter& out) const;
 
  private:
-  std::vector<double> stretched(std::span<const double> z) const;  ///< B D z
-  std::vector<double> turned(std::span<const double> v) const;     ///< B v
   void update_covariance(const std::vector<std::vector<double>>& ranked, double h_sigma);
   void decompose();
 
   CmaConstants constants_;
-  std::vector<double> mean_, path_sigma_, path_c_;
-  std::vector<double> covariance_;  ///< row by row
+  Eigen::VectorXd mean_, path_sigma_, path_c_;
+  Eigen::MatrixXd covariance_;
   double sigma_ = 0;
   double decay_ = 1;  ///< (1 - c_sigma)^(2 generations)
-  /// Derived: eigenvectors as columns, row by row, and roots of eigenvalues.
-  std::vector<double> basis_, scale_;
+  /// Derived: the covariance's symmetric root and the roots of its eigenvalues.
+  Eigen::MatrixXd root_;
+  Eigen::VectorXd scale_;
 };
 
 }  // namespace lilytank
