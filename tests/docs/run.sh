@@ -29,7 +29,7 @@ commands() {
 # shortened <command>: placeholders filled in, and options that make it short.
 shortened() {
   local line=$1
-  [[ $line != *calibrate* ]] || line=${line//EXPERIMENT.toml/scenarios/experiments/tour.toml}
+  [[ $line != *calibrate* && $line != *diagnose* ]] || line=${line//EXPERIMENT.toml/scenarios/experiments/tour.toml}
   line=${line//EXPERIMENT.toml/scenarios/experiments/tank.toml}
   line=${line//experiment.toml/scenarios/experiments/tank.toml}
   line=${line//GRID.csv/out/flow-tank/flow_smooth.csv}
