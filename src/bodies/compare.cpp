@@ -2,24 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
-#include <set>
 #include <tuple>
 
 #include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::bodies {
 
 std::string Candidate::name() const {
-  std::string out;
-  for (const Law* law : laws) out += (out.empty() ? "" : " + ") + std::string(law->name());
-  return out;
+  return joined(laws, " + ", [](const Law* law) { return std::string(law->name); });
 }
 
 bool Candidate::curve() const {
-  return std::any_of(laws.begin(), laws.end(), [](const Law* l) { return l->curve(); });
+  return std::any_of(laws.begin(), laws.end(), [](const Law* l) { return l->curve; });
 }
 
 std::vector<Group> groups_of(const BodyExperiment& e) {
@@ -27,9 +26,7 @@ std::vector<Group> groups_of(const BodyExperiment& e) {
   std::vector<std::vector<const BodyRun*>> runs;
   for (const BodyRun& run : e.runs) {
     std::string name;
-    if (e.different) {
-      for (const std::string& body : run.bodies) name += (name.empty() ? "" : " and ") + body;
-    }
+    if (e.different) name = joined(run.bodies, " and ");
     const auto at =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     if (at == names.size()) names.push_back(name), runs.emplace_back();
@@ -66,13 +63,6 @@ double sum(const std::vector<double>& v) {
 // motion.
 constexpr double kLittleNoise = 0.02;
 
-// Why a fit failed.
-std::string unusable(const std::string& what, const Group& g) {
-  return what + " gives no finite predictions from any start" +
-         (g.name.empty() ? "" : " for " + g.name) + ": samples are " + significant(g.step, 3) +
-         " s apart, which may be too far for it";
-}
-
 BodyModel baseline_model(const BodyExperiment& e, Group& g) {
   BodyModel m = first_model(e, g);
   g.penalty_at = packed(m);
@@ -82,7 +72,7 @@ BodyModel baseline_model(const BodyExperiment& e, Group& g) {
       continue;
     }
     const Law& law = *find_law(one.law);
-    if (law.variable() == "turn" && g.typical.dimensions != 2)
+    if (law.variable == "turn" && g.typical.dimensions != 2)
       throw InputError(one.place, one.law + " turns velocities, which takes two dimensions");
     std::vector<double> start = law.starts(g.typical).front();
     Term t = term_of(law, g.typical, start, g.runs, m.push);
@@ -120,37 +110,45 @@ std::vector<BodyModel> starts_of(const Group& g, const BodyModel& base, const La
   return out;
 }
 
-// The best fit over several starts; nothing where none gives finite predictions.
-std::optional<Fitted> best_fit(const Group& g, const BodyModel& base, const Law& law) {
-  constexpr int kFirst = 4;  // steps after which only the best start goes on
+// The best of fits from several starts, after a few rounds each; nothing where none gives finite
+// predictions.
+std::optional<Fitted> best_of(const Group& g, const std::vector<BodyModel>& starts, int rounds) {
   std::optional<Fitted> best;
-  for (const BodyModel& start : starts_of(g, base, law)) {
-    Fitted f = fit_group(g, start, false, kFirst);
+  for (const BodyModel& start : starts) {
+    Fitted f = fit_group(g, start, false, rounds);
     if (f.usable() && (!best || f.likelihood > best->likelihood)) best = std::move(f);
   }
-  if (!best) return std::nullopt;
-  Fitted f = fit_group(g, best->model);
+  return best;
+}
+
+// The fit with its score on held-out samples, if all predictions are finite.
+std::optional<Fitted> scored(const Group& g, Fitted f) {
   leave_folds_out(g, f);
   return f.usable() && std::isfinite(f.held_out_sum()) ? std::optional(std::move(f)) : std::nullopt;
 }
 
+std::optional<Fitted> fit_law(const Group& g, const BodyModel& base, const Law& law) {
+  constexpr int kFirst = 4;  // steps after which only the best start goes on
+  const std::optional<Fitted> best = best_of(g, starts_of(g, base, law), kFirst);
+  return best ? scored(g, fit_group(g, best->model)) : std::nullopt;
+}
+
 // The baseline from several sizes of pushes and noise: in a local optimum, any law would look
-// better. Nothing where no start gives finite predictions.
+// better.
 std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
-  std::optional<Fitted> best;
+  std::vector<BodyModel> starts;
   for (const auto& [pushes, memory, noise] : {std::tuple{1.0, 1.0, 1.0},
                                               {0.03, 1.0, 1.0},
                                               {0.1, 0.2, 1.0},
                                               {10.0, 0.2, 1.0},
                                               {1.0, 0.2, kLittleNoise}}) {
     if (noise < 1 && !first.noise_fitted) continue;
-    BodyModel m = first;
+    BodyModel& m = starts.emplace_back(first);
     m.push = std::clamp(m.push * pushes, m.least_push, m.most_push);
     m.memory = std::clamp(m.memory * memory, m.least_memory, m.most_memory);
     if (m.noise_fitted) m.noise = std::max(m.noise * noise, m.least_noise);
-    Fitted one = fit_group(g, m, false, 6);
-    if (one.usable() && (!best || one.likelihood > best->likelihood)) best = std::move(one);
   }
+  std::optional<Fitted> best = best_of(g, starts, 6);
   if (!best) return std::nullopt;
   // Laws' fits start here: an unconverged baseline would add to their gain.
   for (int again = 0; again < 6; ++again) {
@@ -158,24 +156,33 @@ std::optional<Fitted> fit_from_sizes(const Group& g, const BodyModel& first) {
     best = fit_group(g, best->model);
     if (best->likelihood < before + 0.02) break;
   }
-  leave_folds_out(g, *best);
-  return best->usable() && std::isfinite(best->held_out_sum()) ? best : std::nullopt;
+  return scored(g, std::move(*best));
 }
 
-}  // namespace
-
-LawTrial fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
+// All groups, each by `fit`. Where one has no fit, `failure` says why.
+LawTrial fit_all(const std::vector<Group>& groups, const std::string& what,
+                 const std::function<std::optional<Fitted>(std::size_t)>& fit) {
   LawTrial out;
-  for (Group& g : groups) {
-    std::optional<Fitted> f = fit_from_sizes(g, baseline_model(e, g));
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    std::optional<Fitted> f = fit(i);
     if (!f) {
-      out.failure = unusable("the baseline", g);
+      out.failure = what + " gives no finite predictions from any start" +
+                    (groups[i].name.empty() ? "" : " for " + groups[i].name) + ": samples are " +
+                    significant(groups[i].step, 3) + " s apart, which may be too far for it";
       return out;
     }
     out.fits.push_back(std::move(*f));
   }
   gather(out);
   return out;
+}
+
+}  // namespace
+
+LawTrial fit_baseline(const BodyExperiment& e, std::vector<Group>& groups) {
+  return fit_all(groups, "the baseline", [&](std::size_t i) {
+    return fit_from_sizes(groups[i], baseline_model(e, groups[i]));
+  });
 }
 
 LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
@@ -197,32 +204,24 @@ LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& 
 
 std::vector<Candidate> single_laws(const BodyExperiment& e, const std::vector<Group>& groups) {
   std::vector<Candidate> out;
-  for (const Law* law : law_library()) {
+  for (const Law& law : law_library()) {
     const bool there = std::any_of(e.baseline.begin(), e.baseline.end(), [&](const BaselineLaw& b) {
-      return b.law == law->name() ||
-             (b.law == "gravity" && b.fit && law->name() == "constant_force");
+      return b.law == law.name || (b.law == "gravity" && b.fit && law.name == "constant_force");
     });
     const bool possible = std::all_of(groups.begin(), groups.end(),
-                                      [&](const Group& g) { return law->possible(g.typical); });
-    if (!there && possible) out.push_back({{law}});
+                                      [&](const Group& g) { return law.possible(g.typical); });
+    if (!there && possible) out.push_back({{&law}});
   }
   return out;
 }
 
 LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
                        const LawTrial& from, const Candidate& candidate) {
-  LawTrial out;
+  LawTrial out = fit_all(groups, candidate.name(), [&](std::size_t i) {
+    return fit_law(groups[i], from.fits[i].model, *candidate.laws.back());
+  });
   out.candidate = candidate;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::optional<Fitted> f = best_fit(groups[i], from.fits[i].model, *candidate.laws.back());
-    if (!f) {
-      out.failure = unusable(candidate.name(), groups[i]);
-      return out;
-    }
-    out.fits.push_back(std::move(*f));
-  }
-  gather(out);
-  out.gain = sum(out.by_block) - sum(baseline.by_block);
+  if (out.failure.empty()) out.gain = sum(out.by_block) - sum(baseline.by_block);
   return out;
 }
 
@@ -289,24 +288,17 @@ bool Difference::distinguished() const {
   return value > 2 * error && value > 2;
 }
 
-namespace {
-
-// Standard error of a sum of `parts`.
-double error_of(const std::vector<double>& parts) {
-  const auto n = static_cast<double>(parts.size());
-  if (parts.size() < 2) return 0;
-  const double mean = sum(parts) / n;
-  double square = 0;
-  for (const double p : parts) square += (p - mean) * (p - mean);
-  return std::sqrt(square * n / (n - 1));
-}
-
-}  // namespace
-
 Difference difference(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> blocks(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) blocks[k] = a[k] - b[k];
-  return {sum(blocks), error_of(blocks)};
+  Difference out{sum(blocks)};
+  if (blocks.size() < 2) return out;
+  const auto n = static_cast<double>(blocks.size());
+  const double mean = out.value / n;
+  double square = 0;
+  for (const double p : blocks) square += (p - mean) * (p - mean);
+  out.error = std::sqrt(square * n / (n - 1));
+  return out;
 }
 
 }  // namespace lilytank::bodies

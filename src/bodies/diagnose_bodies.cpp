@@ -21,9 +21,9 @@ void sort_best_first(std::vector<LawTrial>& all) {
 // Whether two laws are combined: curves are not, nor two laws that rotate velocities or two of
 // pairs of bodies, which are nearly equivalent.
 bool together(const Law& a, const Law& b) {
-  const bool turns = a.variable() == "turn" && b.variable() == "turn";
-  const bool pushes = a.variable() == "pair" && b.variable() == "pair";
-  return &a != &b && !a.curve() && !b.curve() && !turns && !pushes;
+  const bool turns = a.variable == "turn" && b.variable == "turn";
+  const bool pushes = a.variable == "pair" && b.variable == "pair";
+  return &a != &b && !a.curve && !b.curve && !turns && !pushes;
 }
 
 // Pairs of the strongest laws with all others.

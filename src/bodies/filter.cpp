@@ -47,7 +47,7 @@ class Mover {
         dimensions_(typical.dimensions),
         n_(static_cast<int>(run.bodies.size()) * typical.dimensions) {
     for (const Term& t : model.terms) {
-      if (t.law->variable() == "pair") pairs_ = true;
+      if (t.law->variable == "pair") pairs_ = true;
       turning_ += t.law->turning_rate(t.value);
     }
   }
@@ -239,7 +239,6 @@ class Filter {
     for (int i = 0; i < n_; ++i) {
       b.x.push_back(now_.z[i]), b.v.push_back(now_.z[n_ + i]), b.push.push_back(now_.z[2 * n_ + i]);
     }
-    b.deviation.push_back(std::sqrt(std::max(0.0, now_.P(2 * n_, 2 * n_))));
   }
 
   const BodyModel* model_;
@@ -256,8 +255,15 @@ class Filter {
 }  // namespace
 
 void filter_run(const BodyModel& model, const Typical& typical, const BodyRun& run,
-                BodyResiduals& out, Believed* believed) {
-  Filter(model, typical, run).run(out, believed);
+                BodyResiduals& out) {
+  Filter(model, typical, run).run(out, nullptr);
+}
+
+Believed believed(const BodyModel& model, const Typical& typical, const BodyRun& run) {
+  Believed out;
+  BodyResiduals residuals;
+  Filter(model, typical, run).run(residuals, &out);
+  return out;
 }
 
 std::vector<double> predicted(const BodyModel& model, const Typical& typical, const BodyRun& run,

@@ -11,15 +11,17 @@ struct BodyResiduals {
 };
 
 /// What the filter believes after each sample: positions, velocities, pushes at
-/// [sample][coordinate], with the deviation of the first push of a sample.
+/// [sample][coordinate].
 struct Believed {
-  std::vector<double> x, v, push, deviation;
+  std::vector<double> x, v, push;
 };
 
 /// Extended Kalman filter: between samples the mean is integrated (Runge and Kutta, fourth order)
-/// and the covariance goes with its derivative. Appends to `out`; `believed` may be null.
+/// and the covariance goes with its derivative. Appends to `out`.
 void filter_run(const BodyModel& model, const Typical& typical, const BodyRun& run,
-                BodyResiduals& out, Believed* believed = nullptr);
+                BodyResiduals& out);
+/// The same filter's estimates.
+Believed believed(const BodyModel& model, const Typical& typical, const BodyRun& run);
 
 /// Positions at a later sample by the model without pushes, from a belief at `from`; [coordinate].
 std::vector<double> predicted(const BodyModel& model, const Typical& typical, const BodyRun& run,

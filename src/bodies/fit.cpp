@@ -32,28 +32,20 @@ class Hill {
   /// `held`: noise and pushes stay as they are.
   Hill(const Group& group, const BodyModel& model, int without, bool held)
       : group_(&group), model_(&model), without_(without), held_(held) {
-    placed_.assign(own_numbers(model), false), curved_.assign(own_numbers(model), false);
-    for (const Term& t : model.terms) {
-      for (std::size_t i = 0; i < t.value.size(); ++i) {
-        if (!t.fitted[i]) continue;
-        placed_.push_back(t.parameters[i].kind != Kind::amplitude);
-        curved_.push_back(t.law->curve());
-      }
+    numbers_.assign(own_numbers(model), {kLoose, false, true});
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].centre = group.penalty_at[i];
+    for (const auto& [k, i] : fitted_parameters(model)) {
+      const Kind kind = model.terms[k].parameters[i].kind;
+      numbers_.push_back({model.terms[k].law->curve ? kCurve : kWide, kind != Kind::amplitude,
+                          kind == Kind::positive});
     }
   }
 
-  // Weak priors: noise and pushes about their size, amplitudes about 0; they determine knots
-  // without samples.
-  double deviation(std::size_t i) const {
-    return i < own_numbers(*model_) ? kLoose : curved_[i] ? kCurve : kWide;
-  }
-  double centre(std::size_t i) const {
-    return i < own_numbers(*model_) ? group_->penalty_at[i] : 0.0;
-  }
   double prior(const std::vector<double>& q) const {
     double sum = 0;
     for (std::size_t i = 0; i < q.size(); ++i) {
-      if (!placed_[i]) sum -= std::pow((q[i] - centre(i)) / deviation(i), 2) / 2;
+      const Number& n = numbers_[i];
+      if (!n.free) sum -= std::pow((q[i] - n.centre) / n.deviation, 2) / 2;
     }
     return sum;
   }
@@ -70,14 +62,18 @@ class Hill {
     return innovations(*group_, unpacked(*model_, q));
   }
 
-  std::vector<bool> logarithms() const {
-    std::vector<bool> out(own_numbers(*model_), true);
-    for (const Term& t : model_->terms) {
-      for (std::size_t i = 0; i < t.value.size(); ++i) {
-        if (t.fitted[i]) out.push_back(t.parameters[i].kind == Kind::positive);
-      }
+  // Bounds a step by 2 in a logarithm; amplitudes act linearly and need no bound.
+  Eigen::VectorXd step(const Eigen::MatrixXd& I, const Eigen::VectorXd& g, double damping) const {
+    Eigen::MatrixXd A = I;
+    for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * I(i, i) + 1e-9;
+    Eigen::VectorXd step = solve_symmetric(A, g);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < step.size(); ++i) {
+      if (numbers_[static_cast<std::size_t>(i)].logarithm)
+        largest = std::max(largest, std::fabs(step[i]));
     }
-    return out;
+    if (largest > 2) step *= 2 / largest;
+    return step;
   }
 
   // Derivatives are taken over all samples once; any fold's share follows from them.
@@ -119,9 +115,10 @@ class Hill {
     }
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (placed_[at]) continue;
-      const double weight = 1 / (deviation(at) * deviation(at));
-      g[i] -= (q[at] - centre(at)) * weight, I(i, i) += weight;
+      const Number& of = numbers_[at];
+      if (of.free) continue;
+      const double weight = 1 / (of.deviation * of.deviation);
+      g[i] -= (q[at] - of.centre) * weight, I(i, i) += weight;
     }
     I = Eigen::MatrixXd(I.selfadjointView<Eigen::Lower>());
     if (held_) {
@@ -132,11 +129,19 @@ class Hill {
   }
 
  private:
+  // Weak priors: noise and pushes about their size, amplitudes about 0; they determine knots
+  // without samples.
+  struct Number {
+    double deviation;
+    bool free;  // without a prior
+    bool logarithm;
+    double centre = 0;
+  };
   const Group* group_;
   const BodyModel* model_;
   int without_;
   bool held_;
-  std::vector<bool> placed_, curved_;
+  std::vector<Number> numbers_;
   BodyResiduals base_;
   std::vector<BodyResiduals> slopes_;
 };
@@ -148,22 +153,7 @@ struct Top {
   Eigen::MatrixXd information;
 };
 
-// Bounds a step by 2 in a logarithm; amplitudes act linearly and need no bound.
-Eigen::VectorXd step_of(const Eigen::MatrixXd& I, const Eigen::VectorXd& g, double damping,
-                        const std::vector<bool>& logarithm) {
-  Eigen::MatrixXd A = I;
-  for (Eigen::Index i = 0; i < A.rows(); ++i) A(i, i) += damping * I(i, i) + 1e-9;
-  Eigen::VectorXd step = solve_symmetric(A, g);
-  double largest = 0;
-  for (Eigen::Index i = 0; i < step.size(); ++i) {
-    if (logarithm[static_cast<std::size_t>(i)]) largest = std::max(largest, std::fabs(step[i]));
-  }
-  if (largest > 2) step *= 2 / largest;
-  return step;
-}
-
 Top climb(Hill& hill, std::vector<double> q, int most) {
-  const std::vector<bool> logarithm = hill.logarithms();
   constexpr double kEnough = 0.01;  // nat that a step must promise
   Top top{q, hill.at(q), 0, {}};
   top.height = hill.height(top.in, q);
@@ -175,7 +165,7 @@ Top climb(Hill& hill, std::vector<double> q, int most) {
     bool better = false;
     double promise = 0, gained = 0;
     for (int tries = 0; tries < 8 && !better; ++tries) {
-      const Eigen::VectorXd step = step_of(top.information, g, damping, logarithm);
+      const Eigen::VectorXd step = hill.step(top.information, g, damping);
       promise = step.dot(g) / 2;
       if (!(promise > kEnough)) break;
       std::vector<double> moved = top.q;

@@ -1,6 +1,7 @@
-// Laws of force between and on point bodies: one small file each in bodies/laws, one line each in
-// laws/list.cpp. The same function integrates and is fitted.
+// Laws of force between and on point bodies: one row each in laws.cpp. The same function is
+// integrated and fitted.
 #pragma once
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,7 +27,7 @@ struct Typical {
   double low = 0, high = 1;       ///< of positions
   double centre[2] = {0, 0};
   double nearest = 1, middle = 1;  ///< gap: smallest, median
-  double duration = 1, mass = 1;
+  double duration = 1;
   double turning = 0;  ///< a known constant f, 1/s
   int latitude = -1;
 };
@@ -41,35 +42,44 @@ enum class Kind {
 struct LawParameter {
   std::string name, unit;  ///< in units of "m" for a position and "N" for a force
   Kind kind = Kind::amplitude;
+  double start = 1;    ///< where a fit starts; amplitudes are scaled by who fits
+  double other = NAN;  ///< a second start, with the others at theirs; NaN: none
 };
 
-class Law {
- public:
-  virtual ~Law() = default;
-  virtual std::string_view name() const = 0;
-  virtual std::string_view equation() const = 0;
+/// Constant and without data, as the simulator's force terms are.
+struct Law {
+  std::string_view name, equation = "";
   /// Of what the force is a function: slip, position, pair, time, turn, driver, or "" (constant).
-  virtual std::string_view variable() const = 0;
+  std::string_view variable = "";
   /// The experiment that would distinguish it from others of its kind.
-  virtual std::string_view split() const { return "a longer recording"; }
-  virtual std::vector<LawParameter> parameters(const Typical& t) const = 0;
-  /// From where fits start; amplitudes are 1, to be scaled by who fits.
-  virtual std::vector<std::vector<double>> starts(const Typical& t) const = 0;
+  std::string_view split = "a longer recording";
+  /// A nonparametric force law; no known law.
+  bool curve = false;
+  std::vector<LawParameter> (*parameters)(const Typical& t);
+  /// Adds its forces (N; m/s^2 where masses are 1) at [body][dimension].
+  void (*add)(const Scene& s, std::span<const double> p, double* force);
   /// Whether the recordings can have it at all.
-  virtual bool possible(const Typical& t) const = 0;
+  bool (*possible)(const Typical& t) = [](const Typical&) { return true; };
   /// Fastest rate (rad/s) at which velocities turn with these numbers; 0 for laws that do not turn
   /// them. Samples far apart are integrated in steps that follow it.
-  virtual double turning_rate(std::span<const double>) const { return 0; }
-  /// Of a flexible curve that stands for no known law.
-  virtual bool curve() const { return false; }
-  /// Adds its forces (N; m/s^2 where masses are 1) at [body][dimension].
-  virtual void add(const Scene& s, std::span<const double> p, double* force) const = 0;
+  double (*turning_rate)(std::span<const double> p) = [](std::span<const double>) { return 0.0; };
+
+  /// Values of the parameters from which fits start: one set, or two.
+  std::vector<std::vector<double>> starts(const Typical& t) const;
 };
 
 /// All laws: those with a name first, then the curves.
-std::span<const Law* const> law_library();
+std::span<const Law> law_library();
 /// The law of a name; null if there is none.
 const Law* find_law(std::string_view name);
+
+/// Smallest and largest value of a law's variable in the recordings.
+struct VariableRange {
+  double low = 0, high = 1;
+};
+VariableRange range_of(std::string_view variable, const Typical& t);
+/// Its unit; `unit`: of a position.
+std::string unit_of(std::string_view variable, const std::string& unit);
 
 /// Radians per second at which free motion turns clockwise at a latitude in degrees.
 double inertial_turning(double latitude);

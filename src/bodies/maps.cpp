@@ -36,9 +36,7 @@ std::vector<Point> points_of(const Comparison& c, const std::string& variable) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     for (const BodyRun* run : c.groups[i].runs) {
       if (variable == "pair" && run->bodies.size() < 2) continue;
-      Believed b;
-      BodyResiduals in;
-      filter_run(c.baseline.fits[i].model, c.groups[i].typical, *run, in, &b);
+      const Believed b = believed(c.baseline.fits[i].model, c.groups[i].typical, *run);
       for (std::size_t k = 4; k < run->samples(); ++k) {
         const std::size_t bodies = variable == "pair" ? 2 : run->bodies.size();
         for (std::size_t body = 0; body < bodies; ++body) {
@@ -57,12 +55,11 @@ FoundCurve map_of(const Comparison& c, const std::string& variable) {
   constexpr std::size_t kBins = 8;
   FoundCurve out;
   out.variable = variable.empty() ? "position" : variable;
-  const bool speed = variable == "slip" || variable == "turn";
   out.direction = variable == "slip"   ? "along the motion"
                   : variable == "turn" ? "to the right of the motion"
                   : variable == "pair" ? "outwards"
                                        : "along x";
-  out.unit = variable == "time" ? "s" : c.experiment->unit + (speed ? "/s" : "");
+  out.unit = unit_of(variable, c.experiment->unit);
   out.value_unit = c.experiment->masses ? "N" : c.experiment->unit + "/s^2";
   std::vector<Point> p = points_of(c, out.variable);
   std::sort(p.begin(), p.end(), [](const Point& a, const Point& b) { return a.at < b.at; });

@@ -6,48 +6,66 @@
 namespace lilytank::bodies {
 namespace {
 
-double encoded(Kind kind, double value, double scale) {
-  return kind == Kind::positive ? std::log(value) : value / scale;
-}
+// A number of the model itself, fitted as its logarithm, with its bounds.
+struct OwnNumber {
+  double BodyModel::*of;
+  double least, most;
+};
 
-double decoded(Kind kind, double number, double scale) {
-  return kind == Kind::positive ? std::exp(std::clamp(number, -60.0, 60.0)) : number * scale;
-}
-
-double kept(double log_value, double low, double high) {
-  return std::clamp(std::exp(std::clamp(log_value, -100.0, 100.0)), low, high);
+std::vector<OwnNumber> own_of(const BodyModel& m) {
+  std::vector<OwnNumber> out;
+  if (m.noise_fitted) out.push_back({&BodyModel::noise, m.least_noise, 1e300});
+  out.push_back({&BodyModel::push, m.least_push, m.most_push});
+  out.push_back({&BodyModel::memory, m.least_memory, m.most_memory});
+  if (m.bias > 0) out.push_back({&BodyModel::bias, m.least_push, m.most_push});
+  return out;
 }
 
 }  // namespace
 
 std::size_t own_numbers(const BodyModel& model) {
-  return 2u + (model.noise_fitted ? 1u : 0u) + (model.bias > 0 ? 1u : 0u);
+  return own_of(model).size();
+}
+
+std::vector<TermParameter> fitted_parameters(const BodyModel& model) {
+  std::vector<TermParameter> out;
+  for (std::size_t k = 0; k < model.terms.size(); ++k) {
+    for (std::size_t i = 0; i < model.terms[k].value.size(); ++i) {
+      if (model.terms[k].fitted[i]) out.push_back({k, i});
+    }
+  }
+  return out;
+}
+
+std::optional<std::size_t> number_of(const BodyModel& model, const TermParameter& of) {
+  const std::vector<TermParameter> all = fitted_parameters(model);
+  const auto at = std::find(all.begin(), all.end(), of);
+  if (at == all.end()) return std::nullopt;
+  return own_numbers(model) + static_cast<std::size_t>(at - all.begin());
 }
 
 std::vector<double> packed(const BodyModel& m) {
   std::vector<double> out;
-  if (m.noise_fitted) out.push_back(std::log(m.noise));
-  out.push_back(std::log(m.push)), out.push_back(std::log(m.memory));
-  if (m.bias > 0) out.push_back(std::log(m.bias));
-  for (const Term& t : m.terms) {
-    for (std::size_t i = 0; i < t.value.size(); ++i) {
-      if (t.fitted[i]) out.push_back(encoded(t.parameters[i].kind, t.value[i], t.scale[i]));
-    }
+  for (const OwnNumber& own : own_of(m)) out.push_back(std::log(m.*own.of));
+  for (const auto& [k, i] : fitted_parameters(m)) {
+    const Term& t = m.terms[k];
+    out.push_back(t.parameters[i].kind == Kind::positive ? std::log(t.value[i])
+                                                         : t.value[i] / t.scale[i]);
   }
   return out;
 }
 
 BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers) {
   BodyModel m = model;
-  std::size_t at = 0;
-  if (m.noise_fitted) m.noise = kept(numbers[at++], m.least_noise, 1e300);
-  m.push = kept(numbers[at++], m.least_push, m.most_push);
-  m.memory = kept(numbers[at++], m.least_memory, m.most_memory);
-  if (m.bias > 0) m.bias = kept(numbers[at++], m.least_push, m.most_push);
-  for (Term& t : m.terms) {
-    for (std::size_t i = 0; i < t.value.size(); ++i) {
-      if (t.fitted[i]) t.value[i] = decoded(t.parameters[i].kind, numbers[at++], t.scale[i]);
-    }
+  auto number = numbers.begin();
+  for (const OwnNumber& own : own_of(model)) {
+    m.*own.of = std::clamp(std::exp(std::clamp(*number++, -100.0, 100.0)), own.least, own.most);
+  }
+  for (const auto& [k, i] : fitted_parameters(model)) {
+    Term& t = m.terms[k];
+    t.value[i] = t.parameters[i].kind == Kind::positive ? std::exp(std::clamp(*number, -60.0, 60.0))
+                                                        : *number * t.scale[i];
+    ++number;
   }
   return m;
 }

@@ -2,6 +2,7 @@
 // everything else. Its fitted parameters as one vector.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,15 @@ std::vector<double> packed(const BodyModel& model);
 BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers);
 /// How many come before those of the terms.
 std::size_t own_numbers(const BodyModel& model);
+/// A parameter of a term, both by index.
+struct TermParameter {
+  std::size_t term = 0, parameter = 0;
+  bool operator==(const TermParameter&) const = default;
+};
+/// Those that are fitted, in the order of their numbers.
+std::vector<TermParameter> fitted_parameters(const BodyModel& model);
+/// The index of a parameter's number; nothing if it is not fitted.
+std::optional<std::size_t> number_of(const BodyModel& model, const TermParameter& of);
 
 /// A run's bodies with the drivers of one of its samples, at positions and velocities of
 /// [body][dimension].

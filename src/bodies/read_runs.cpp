@@ -320,8 +320,8 @@ void find_latitude(const NamedAt& latitude, BodyExperiment& e) {
 
 BodyExperiment load_body_experiment(const std::string& file) {
   std::vector<std::string> laws;
-  for (const bodies::Law* law : bodies::law_library()) {
-    if (!law->curve()) laws.emplace_back(law->name());
+  for (const bodies::Law& law : bodies::law_library()) {
+    if (!law.curve) laws.emplace_back(law.name);
   }
   const BodyFile read = read_body_file(file, laws);
   BodyExperiment e = read.experiment;

@@ -17,16 +17,14 @@ double Repeats::z() const {
 
 namespace {
 
-// The amplitudes of the last term in the packed numbers.
-std::vector<std::size_t> last_amplitudes(const BodyModel& m) {
+// The numbers of the last term's amplitudes; no other parameter remains fitted.
+std::vector<std::size_t> hold_all_but_amplitudes(BodyModel& m) {
   std::vector<std::size_t> out;
-  std::size_t at = own_numbers(m);
-  for (const Term& t : m.terms) {
-    for (std::size_t i = 0; i < t.value.size(); ++i) {
-      if (!t.fitted[i]) continue;
-      if (&t == &m.terms.back() && t.parameters[i].kind == Kind::amplitude) out.push_back(at);
-      ++at;
-    }
+  for (const TermParameter& of : fitted_parameters(m)) {
+    Term& t = m.terms[of.term];
+    t.fitted[of.parameter] =
+        &t == &m.terms.back() && t.parameters[of.parameter].kind == Kind::amplitude;
+    if (t.fitted[of.parameter]) out.push_back(own_numbers(m) + out.size());
   }
   return out;
 }
@@ -42,15 +40,7 @@ Repeats repeats_of(const BodyExperiment& e, const std::vector<Group>& groups,
     if (g.runs.size() < 2) continue;
     // Only the coefficients are refitted; noise is shared by all runs.
     BodyModel joint = outcome.fits[i].model;
-    for (std::size_t k = 0; k + 1 < joint.terms.size(); ++k) {
-      joint.terms[k].fitted.assign(joint.terms[k].fitted.size(), false);
-    }
-    for (std::size_t k = 0; k < joint.terms.back().fitted.size(); ++k) {
-      if (joint.terms.back().parameters[k].kind != Kind::amplitude) {
-        joint.terms.back().fitted[k] = false;
-      }
-    }
-    const std::vector<std::size_t> at = last_amplitudes(joint);
+    const std::vector<std::size_t> at = hold_all_but_amplitudes(joint);
     std::vector<double> weight(at.size(), 0), mean(at.size(), 0), square(at.size(), 0);
     for (const BodyRun* run : g.runs) {
       Group one = make_group(e, g.name, {run});
@@ -94,9 +84,7 @@ double acceleration_difference(const std::vector<Group>& groups, const LawTrial&
     const BodyModel &ma = a.fits[i].model, &mb = b.fits[i].model;
     const Typical& t = groups[i].typical;
     for (const BodyRun* run : groups[i].runs) {
-      Believed at;
-      BodyResiduals in;
-      filter_run(ma, t, *run, in, &at);
+      const Believed at = believed(ma, t, *run);
       const std::size_t row = run->coordinates();
       std::vector<double> fa(row), fb(row);
       for (std::size_t k = 0; k < run->samples(); ++k) {
@@ -118,9 +106,7 @@ std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial&
     double sum = 0;
     int count = 0;
     for (const BodyRun* run : groups[i].runs) {
-      Believed b;
-      BodyResiduals in;
-      filter_run(outcome.fits[i].model, groups[i].typical, *run, in, &b);
+      const Believed b = believed(outcome.fits[i].model, groups[i].typical, *run);
       const std::size_t n = run->samples(), row = run->coordinates(),
                         far = std::max<std::size_t>(1, n / 4);
       for (std::size_t k = far; k + far < n; k += std::max<std::size_t>(1, far / 4)) {

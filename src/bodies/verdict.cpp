@@ -35,7 +35,7 @@ namespace {
 
 std::multiset<std::string_view> variables_of(const Candidate& candidate) {
   std::multiset<std::string_view> out;
-  for (const Law* law : candidate.laws) out.insert(law->variable());
+  for (const Law* law : candidate.laws) out.insert(law->variable);
   return out;
 }
 
@@ -85,42 +85,37 @@ std::string unit_for(const BodyExperiment& e, std::string unit) {
   return unit;
 }
 
-// 95 % from .. to of a fitted parameter, by its number in the fit and that one's deviation.
-struct Ends {
-  double low, high;
-};
-Ends ends_of(const Term& t, std::size_t p, double number, double deviation) {
-  const auto end = [&](double by) {
-    return t.parameters[p].kind == Kind::positive ? std::exp(number + by * deviation)
-                                                  : (number + by * deviation) * t.scale[p];
-  };
+std::string of_group(const Group& g) {
+  return g.name.empty() ? "" : " of " + g.name;
+}
+
+// A parameter of a fit; where it is fitted, with its 95 % interval.
+FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted& fit,
+                            const TermParameter& of) {
+  const Term& t = fit.model.terms[of.term];
+  const LawParameter& p = t.parameters[of.parameter];
+  FoundParameter out{p.name + of_group(c.groups[group]), std::string(t.law->name) + "." + p.name};
+  out.value = out.low = out.high = t.value[of.parameter];
+  out.unit = unit_for(*c.experiment, p.unit);
+  const auto at = number_of(fit.model, of);
+  if (!at) return out;
   const double half = normal_half_width();
-  return {end(-half), end(half)};
+  const auto end = [&](double by) {
+    const double number = fit.numbers[*at] + by * (fit.deviation[*at] * c.repeats.factor());
+    return p.kind == Kind::positive ? std::exp(number) : number * t.scale[of.parameter];
+  };
+  out.low = end(-half), out.high = end(half);
+  return out;
 }
 
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
-    const std::size_t first = fit.model.terms.size() - o.candidate.laws.size();
-    std::size_t at = own_numbers(fit.model);
-    for (std::size_t k = 0; k < fit.model.terms.size(); ++k) {
-      const Term& t = fit.model.terms[k];
-      for (std::size_t p = 0; p < t.value.size(); ++p) {
-        const bool own = k == first + law;
-        const double deviation = t.fitted[p] ? fit.deviation[at] * c.repeats.factor() : 0;
-        const double number = t.fitted[p] ? fit.numbers[at++] : 0;
-        if (!own) continue;
-        FoundParameter out;
-        out.name =
-            t.parameters[p].name + (c.groups[i].name.empty() ? "" : " of " + c.groups[i].name);
-        out.path = std::string(t.law->name()) + "." + t.parameters[p].name;
-        out.value = out.low = out.high = t.value[p];
-        out.unit = unit_for(*c.experiment, t.parameters[p].unit);
-        if (t.fitted[p]) {
-          const Ends ends = ends_of(t, p, number, deviation);
-          out.low = ends.low, out.high = ends.high;
-        }
-        if (t.fitted[p] || c.groups.size() == 1) f.parameters.push_back(out);
+    const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
+    const Term& t = fit.model.terms[k];
+    for (std::size_t p = 0; p < t.value.size(); ++p) {
+      if (t.fitted[p] || c.groups.size() == 1) {
+        f.parameters.push_back(parameter_of(c, i, fit, {k, p}));
       }
     }
   }
@@ -177,27 +172,12 @@ std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
 
 void set_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
   f.variable = variable.empty() ? "position" : variable;
-  double low = 1e300, high = -1e300;
+  f.from = 1e300, f.to = -1e300;
   for (const Group& g : c.groups) {
-    const Typical& t = g.typical;
-    const bool slip = variable == "slip" || variable == "turn", pair = variable == "pair";
-    low = std::min(low, slip || variable == "time" ? 0 : pair ? t.nearest : t.low);
-    high = std::max(high, slip                 ? t.fastest
-                          : pair               ? t.middle
-                          : variable == "time" ? t.duration
-                                               : t.high);
+    const VariableRange range = range_of(variable, g.typical);
+    f.from = std::min(f.from, range.low), f.to = std::max(f.to, range.high);
   }
-  f.from = low, f.to = high;
-  f.unit = variable == "time"                         ? "s"
-           : variable == "slip" || variable == "turn" ? c.experiment->unit + "/s"
-                                                      : c.experiment->unit;
-}
-
-void set_unnamed(const LawTrial& best, DiagnosisFinding& f) {
-  f.effect = "unnamed";
-  f.text = "no law of the library predicts as well as a free " +
-           std::string(best.candidate.laws.back()->equation() == "" ? "curve" : "law") + " over " +
-           f.variable + (f.text.empty() ? "" : "; " + f.text);
+  f.unit = unit_of(variable, c.experiment->unit);
 }
 
 // The law that stands for a group: one with a name, before curves that do no better.
@@ -216,8 +196,8 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
   for (std::size_t k = 0; k < laws; ++k) {
     const Law& law = *head.candidate.laws[k];
     DiagnosisFinding f;
-    f.effect = law.name(), f.equation = law.equation(), f.split = law.split();
-    set_range(c, std::string(law.variable()), f);
+    f.effect = law.name, f.equation = law.equation, f.split = law.split;
+    set_range(c, std::string(law.variable), f);
     f.text = strongest_bodies(c, head);
     const LawTrial* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
     add_gain(c, head, without != nullptr ? *without : c.baseline, f);
@@ -231,11 +211,15 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
         const bool beside =
             laws == 1 || std::find(o->candidate.laws.begin(), o->candidate.laws.end(),
                                    own[1 - k]) != o->candidate.laws.end();
-        if (!shared && beside) names.insert(std::string(l->name()));
+        if (!shared && beside) names.insert(std::string(l->name));
       }
     }
     f.alternatives.assign(names.begin(), names.end());
-    if (law.curve()) set_unnamed(head, f);
+    if (law.curve) {
+      f.effect = "unnamed";
+      f.text = "no law of the library predicts as well as a free law over " + f.variable +
+               (f.text.empty() ? "" : "; " + f.text);
+    }
     f.curve = map_of(c, f.variable);
     out.push_back(std::move(f));
   }
@@ -260,21 +244,15 @@ void add_fit(const Comparison& c, Diagnosis& d) {
 void add_moved(const Comparison& c, Diagnosis& d) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted &a = c.baseline.fits[i], &b = c.best().fits[i];
-    std::size_t at = own_numbers(a.model);
-    for (std::size_t k = 0; k < a.model.terms.size(); ++k) {
-      const Term &t = a.model.terms[k], &u = b.model.terms[k];
-      for (std::size_t p = 0; p < t.value.size(); ++p) {
-        if (!t.fitted[p]) continue;
-        const double wide = c.repeats.factor();
-        const Ends ends = ends_of(u, p, b.numbers[at], wide * b.deviation[at]);
-        const bool log = t.parameters[p].kind == Kind::positive;
-        d.parameters.push_back({std::string(t.law->name()) + "." + t.parameters[p].name +
-                                    (c.groups[i].name.empty() ? "" : " of " + c.groups[i].name),
-                                unit_for(*c.experiment, t.parameters[p].unit), t.value[p],
-                                wide * a.deviation[at] * (log ? t.value[p] : t.scale[p]),
-                                u.value[p], ends.low, ends.high});
-        ++at;
-      }
+    for (const TermParameter& of : fitted_parameters(a.model)) {
+      const Term& t = a.model.terms[of.term];
+      const double value = t.value[of.parameter];
+      const bool log = t.parameters[of.parameter].kind == Kind::positive;
+      const FoundParameter now = parameter_of(c, i, b, of);
+      d.parameters.push_back({now.path + of_group(c.groups[i]), now.unit, value,
+                              c.repeats.factor() * a.deviation[*number_of(a.model, of)] *
+                                  (log ? value : t.scale[of.parameter]),
+                              now.value, now.low, now.high});
     }
   }
 }
@@ -283,16 +261,15 @@ void add_moved(const Comparison& c, Diagnosis& d) {
 void add_detectable(const Comparison& c, Diagnosis& d) {
   for (const LawTrial& o : c.singles) {
     const Term& t = o.fits.front().model.terms.back();
-    if (t.parameters[0].kind != Kind::amplitude || t.law->curve()) continue;
+    if (t.parameters[0].kind != Kind::amplitude || t.law->curve) continue;
     double least = 1e300;
     for (const Fitted& f : o.fits) {
-      const Term& own = f.model.terms.back();
-      std::size_t at = f.numbers.size();
-      for (const bool fitted : own.fitted) at -= fitted ? 1 : 0;
-      least = std::min(least, own.scale[0] * f.deviation[at]);
+      const std::size_t last = f.model.terms.size() - 1;
+      const std::size_t at = *number_of(f.model, {last, 0});
+      least = std::min(least, f.model.terms[last].scale[0] * f.deviation[at]);
     }
     const double seen = least * std::sqrt(2 * (c.threshold() + 1));
-    d.detectable.push_back({std::string(t.law->name()), t.parameters[0].name, seen, seen,
+    d.detectable.push_back({std::string(t.law->name), t.parameters[0].name, seen, seen,
                             unit_for(*c.experiment, t.parameters[0].unit)});
   }
 }

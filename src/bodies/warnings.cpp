@@ -34,7 +34,7 @@ void warn_of_coefficients(const Comparison& c, Diagnosis& d) {
   const LawTrial& best = c.best();
   if (c.repeats.z() > 3) {
     d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
-                         std::string(best.candidate.laws.back()->name()) + " by " +
+                         std::string(best.candidate.laws.back()->name) + " by " +
                          significant(c.repeats.factor(), 2) + " times their errors" +
                          (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
                          ": suspect the measurement (release, clock, scale); intervals are widened "
@@ -44,9 +44,9 @@ void warn_of_coefficients(const Comparison& c, Diagnosis& d) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const BodyModel& m = best.fits[i].model;
     for (const Term& t : m.terms) {
-      const bool drag = t.law->variable() == "slip" && !t.law->curve();
+      const bool drag = t.law->variable == "slip" && !t.law->curve;
       if (drag && t.value[0] < 0 && t.fitted[0] && c.groups.size() == 1) {
-        d.warnings.push_back(std::string(t.law->name()) +
+        d.warnings.push_back(std::string(t.law->name) +
                              " comes out negative, which no drag is: how the loss is shared out "
                              "between these laws is not identified");
       }

@@ -2,9 +2,9 @@
 // and the search that measures it.
 #pragma once
 #include <array>
-#include <cmath>
 
 #include "forces/water.hpp"
+#include "math/knots.hpp"
 
 namespace lilytank {
 
@@ -31,19 +31,10 @@ inline double knot_at(const ForceCurve& curve, int knot) {
   return curve.low + knot * (curve.high - curve.low) / steps;
 }
 
-/// The two knots that a value lies between, and the share of the second.
-struct KnotShare {
-  int first = 0, second = 0;
-  double share = 0;
-};
 inline KnotShare place_on(const ForceCurve& curve, double value) {
   const bool closed = curve.along == Along::heading;
   const double t = (value - curve.low) / (curve.high - curve.low) * (closed ? kKnots : kKnots - 1);
-  if (!closed && !(t > 0)) return {0, 0, 0};
-  if (!closed && t >= kKnots - 1) return {kKnots - 1, kKnots - 1, 0};
-  const double floor = std::floor(t);
-  const int first = ((static_cast<int>(floor) % kKnots) + kKnots) % kKnots;
-  return {first, (first + 1) % kKnots, t - floor};
+  return between_knots(t, kKnots, closed);
 }
 
 /// The variable's value at body i.

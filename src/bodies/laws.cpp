@@ -1,0 +1,394 @@
+// The library of laws, a row each, and what several of them share.
+#include <algorithm>
+#include <numbers>
+
+#include "bodies/law.hpp"
+#include "math/knots.hpp"
+
+namespace lilytank::bodies {
+namespace {
+
+using Values = std::span<const double>;
+using Parameters = std::vector<LawParameter>;
+
+constexpr double kTide = 12.4206 * 3600;  // s, the principal lunar tide (M2)
+constexpr std::size_t kCurveKnots = 5;
+
+bool never(const Typical&) {
+  return false;
+}
+bool in_pairs(const Typical& t) {
+  return t.bodies > 1;
+}
+bool in_a_plane(const Typical& t) {
+  return t.dimensions == 2;
+}
+
+// Adds to every body a force of `size(speed, p)` times its velocity.
+template <auto size>
+void along_velocity(const Scene& s, Values p, double* force) {
+  for (int b = 0; b < s.bodies; ++b) {
+    const double* v = s.v + b * s.dimensions;
+    double square = 0;
+    for (int d = 0; d < s.dimensions; ++d) square += v[d] * v[d];
+    const double by = size(std::sqrt(square), p);
+    for (int d = 0; d < s.dimensions; ++d) force[b * s.dimensions + d] += by * v[d];
+  }
+}
+
+// Adds to all pairs a repulsion of `size(gap, p)`, gap: distance less both radii, m.
+template <auto size>
+void between_pairs(const Scene& s, Values p, double* force) {
+  for (int a = 0; a < s.bodies; ++a) {
+    for (int b = a + 1; b < s.bodies; ++b) {
+      double u[2] = {0, 0}, square = 0;
+      for (int d = 0; d < s.dimensions; ++d) {
+        u[d] = s.x[b * s.dimensions + d] - s.x[a * s.dimensions + d];
+        square += u[d] * u[d];
+      }
+      const double distance = std::max(std::sqrt(square), 1e-12);
+      const double f = size(distance - s.radius[a] - s.radius[b], p) / distance;
+      for (int d = 0; d < s.dimensions; ++d) {
+        force[b * s.dimensions + d] += f * u[d];
+        force[a * s.dimensions + d] -= f * u[d];
+      }
+    }
+  }
+}
+
+// Adds a force that turns velocities clockwise at `rate(s, p)` (rad/s).
+template <auto rate>
+void turn(const Scene& s, Values p, double* force) {
+  const double by = rate(s, p);
+  for (int b = 0; b < s.bodies; ++b) {
+    const double f = s.mass[b] * by;
+    force[2 * b] += f * s.v[2 * b + 1];
+    force[2 * b + 1] -= f * s.v[2 * b];
+  }
+}
+
+// Adds a force towards a place: the first parameter times `power` of the distance along each axis.
+template <auto power>
+void towards_place(const Scene& s, Values p, double* force) {
+  for (int i = 0; i < s.bodies * s.dimensions; ++i) {
+    force[i] -= p[0] * power(s.x[i] - p[static_cast<std::size_t>(1 + i % s.dimensions)]);
+  }
+}
+
+Parameters towards(const Typical& t, const std::string& unit) {
+  Parameters out{{"stiffness", unit}, {"x0", "m", Kind::place, t.centre[0]}};
+  if (t.dimensions == 2) out.push_back({"y0", "m", Kind::place, t.centre[1]});
+  return out;
+}
+
+// A gap s at which strengths of pairs are given: far from those that occur, they would depend on
+// the exponent.
+double usual_gap(const Typical& t) {
+  return std::max(t.nearest, 1e-3 * t.middle);
+}
+
+Parameters strength_at_gap(const Typical& t, const LawParameter& decay) {
+  return {{"strength", "N"}, {"s", "m", Kind::fixed, usual_gap(t)}, decay};
+}
+
+// Gaps below a fifth of s count as a fifth, so that no step meets a pole.
+double power_of_gap(double gap, Values p) {
+  return p[0] * std::pow(p[1] / std::max(gap, p[1] / 5), p[2]);
+}
+
+// Of all drivers together, each with a coefficient an axis.
+Parameters of_drivers(const Typical& t) {
+  Parameters out;
+  for (int i = 0; i < t.drivers; ++i) {
+    const bool known = i == t.latitude;
+    for (int d = 0; d < t.dimensions; ++d) {
+      out.push_back({"a" + std::to_string(i + 1) + (d == 0 ? "x" : "y"), "N",
+                     known ? Kind::fixed : Kind::amplitude, known ? 0.0 : 1.0});
+    }
+  }
+  return out;
+}
+
+void by_drivers(const Scene& s, Values p, double* force) {
+  for (int i = 0; i < s.bodies * s.dimensions; ++i) {
+    for (std::size_t k = static_cast<std::size_t>(i % s.dimensions), j = 0; k < p.size();
+         k += static_cast<std::size_t>(s.dimensions), ++j) {
+      force[i] += p[k] * s.drivers[j];
+    }
+  }
+}
+
+// Parameters of a curve: the knots' values, then the first and the last knot's place.
+Parameters knots(const VariableRange& range) {
+  Parameters out;
+  for (std::size_t k = 1; k <= kCurveKnots; ++k) out.push_back({"knot" + std::to_string(k), "N"});
+  out.push_back({"from", "", Kind::fixed, range.low});
+  out.push_back({"to", "", Kind::fixed, range.high > range.low ? range.high : range.low + 1});
+  return out;
+}
+
+double curve_at(double u, Values p) {
+  const double place =
+      (u - p[kCurveKnots]) / (p[kCurveKnots + 1] - p[kCurveKnots]) * (kCurveKnots - 1);
+  const KnotShare at = between_knots(place, kCurveKnots);
+  return (1 - at.share) * p[static_cast<std::size_t>(at.first)] +
+         at.share * p[static_cast<std::size_t>(at.second)];
+}
+
+constexpr std::string_view kFasterAndSlower =
+    "the same body at speeds that differ by a factor of three or more";
+constexpr std::string_view kFarther = "a recording that begins farther away";
+
+constexpr Law of_slip(Law law) {
+  law.variable = "slip";
+  return law;
+}
+
+constexpr Law of_pairs(Law law) {
+  law.variable = "pair", law.possible = in_pairs;
+  law.split = "faster approaches, to half the smallest gap, and slow ones that turn at twice of it";
+  return law;
+}
+
+constexpr Law turning(Law law) {
+  law.variable = "turn";
+  law.split =
+      "a recording where the latitude's turning and the tide's period differ: elsewhere than at "
+      "74.5 degrees, for longer than they take to fall out of step";
+  return law;
+}
+
+constexpr Law curve(Law law) {
+  law.equation = "a curve, straight between its knots", law.curve = true;
+  return law;
+}
+
+constexpr Law kLaws[] = {
+    // For baselines only: as a candidate it is the constant force.
+    {.name = "gravity",
+     .equation = "F = -m g along the last coordinate",
+     .parameters = [](const Typical&) -> Parameters {
+       return {{"g", "m/s^2"}};
+     },
+     .add =
+         [](const Scene& s, Values p, double* force) {
+           for (int b = 0; b < s.bodies; ++b) force[(b + 1) * s.dimensions - 1] -= p[0] * s.mass[b];
+         },
+     .possible = never},
+    {.name = "pendulum",
+     .equation = "F = -m w^2 sin(x)",
+     .variable = "position",
+     .parameters = [](const Typical&) -> Parameters {
+       return {{"w^2", "1/s^2"}};
+     },
+     .add =
+         [](const Scene& s, Values p, double* force) {
+           for (int i = 0; i < s.bodies * s.dimensions; ++i) {
+             force[i] -= s.mass[i / s.dimensions] * p[0] * std::sin(s.x[i]);
+           }
+         },
+     .possible = never},
+    {.name = "constant_force",
+     .equation = "F = constant",
+     .split = "a recording with the camera turned",
+     .parameters =
+         [](const Typical& t) {
+           Parameters out{{"x", "N"}};
+           if (t.dimensions == 2) out.push_back({"y", "N"});
+           return out;
+         },
+     .add =
+         [](const Scene& s, Values p, double* force) {
+           for (int i = 0; i < s.bodies * s.dimensions; ++i) {
+             force[i] += p[static_cast<std::size_t>(i % s.dimensions)];
+           }
+         }},
+    of_slip({.name = "linear_drag",
+             .equation = "F = -k v",
+             .split = kFasterAndSlower,
+             .parameters = [](const Typical&) -> Parameters {
+               return {{"coefficient", "N s/m"}};
+             },
+             .add = along_velocity<[](double, Values p) { return -p[0]; }>}),
+    of_slip({.name = "quadratic_drag",
+             .equation = "F = -c |v| v",
+             .split = kFasterAndSlower,
+             .parameters = [](const Typical&) -> Parameters {
+               return {{"coefficient", "N s^2/m^2"}};
+             },
+             .add = along_velocity<[](double speed, Values p) { return -p[0] * speed; }>}),
+    // Rounded over a twentieth of the usual speed: a step could not be integrated.
+    of_slip({.name = "dry_friction",
+             .equation = "F = -R v/|v|",
+             .split = "the last, slowest part of the motion, until the body stands",
+             .parameters = [](const Typical& t) -> Parameters {
+               return {{"force", "N"}, {"rounding", "m/s", Kind::fixed, t.speed / 20}};
+             },
+             .add = along_velocity<[](double speed, Values p) {
+               return -p[0] / std::sqrt(speed * speed + p[1] * p[1]);
+             }>}),
+    {.name = "linear_spring",
+     .equation = "F = -k (x - x0)",
+     .variable = "position",
+     .split = kFarther,
+     .parameters = [](const Typical& t) { return towards(t, "N/m"); },
+     .add = towards_place<[](double u) { return u; }>},
+    {.name = "cubic_spring",
+     .equation = "F = -k (x - x0)^3",
+     .variable = "position",
+     .split = kFarther,
+     .parameters = [](const Typical& t) { return towards(t, "N/m^3"); },
+     .add = towards_place<[](double u) { return u * u * u; }>},
+    of_pairs({.name = "pair_power_law",
+              .equation = "F = A (s/gap)^n",
+              .parameters =
+                  [](const Typical& t) {
+                    return strength_at_gap(t, {"n", "1", Kind::positive, 2, 4});
+                  },
+              .add = between_pairs<power_of_gap>}),
+    of_pairs({.name = "pair_dipoles",
+              .equation = "F = A (s/gap)^4",
+              .parameters =
+                  [](const Typical& t) {
+                    return strength_at_gap(t, {"n", "1", Kind::fixed, 4});
+                  },
+              .add = between_pairs<power_of_gap>}),
+    of_pairs({.name = "pair_exponential",
+              .equation = "F = A exp(-(gap - s)/l)",
+              .parameters =
+                  [](const Typical& t) {
+                    const double s = usual_gap(t);
+                    return strength_at_gap(t, {"range", "m", Kind::positive, s / 3, s});
+                  },
+              .add = between_pairs<[](double gap, Values p) {
+                return p[0] * std::exp(std::min(-(gap - p[1]) / p[2], 20.0));
+              }>}),
+    of_pairs(
+        {.name = "pair_spring",
+         .equation = "F = k (s - gap) where gap < s",
+         .parameters =
+             [](const Typical& t) {
+               const double s = usual_gap(t);
+               return Parameters{{"stiffness", "N/m"}, {"s", "m", Kind::positive, 2 * s, 1.4 * s}};
+             },
+         .add = between_pairs<[](double gap, Values p) {
+           return gap < p[1] ? p[0] * (p[1] - gap) : 0;
+         }>}),
+    turning({.name = "coriolis",
+             .equation = "F = m f (v_y, -v_x), f = 2 Omega sin(latitude)",
+             .parameters = [](const Typical& t) -> Parameters {
+               return {{"f", "1/s", Kind::fixed, t.turning},
+                       {"latitude", "1", Kind::fixed, static_cast<double>(t.latitude)}};
+             },
+             .add = turn<[](const Scene& s, Values p) {
+               return p[1] >= 0 ? inertial_turning(s.drivers[static_cast<int>(p[1])]) : p[0];
+             }>,
+             .possible =
+                 [](const Typical& t) {
+                   return t.dimensions == 2 && (t.latitude >= 0 || t.turning != 0);
+                 },
+             .turning_rate =
+                 [](Values p) { return p[1] >= 0 ? inertial_turning(90) : std::fabs(p[0]); }}),
+    // It fits whatever turns; the laws beside it say why.
+    turning({.name = "rotation",
+             .equation = "F = m w (v_y, -v_x), w free",
+             .curve = true,
+             .parameters = [](const Typical&) -> Parameters {
+               return {{"rate", "rad/s"}};
+             },
+             .add = turn<[](const Scene&, Values p) { return p[0]; }>,
+             .possible = in_a_plane,
+             .turning_rate = [](Values p) { return std::fabs(p[0]); }}),
+    // A tide's current that is set anew all the time: what it leaves turns once a period.
+    turning(
+        {.name = "tide",
+         .equation = "velocities turn once in 12.4206 h (M2)",
+         .parameters = [](const Typical&) -> Parameters {
+           return {{"period", "s", Kind::fixed, kTide}};
+         },
+         .add = turn<[](const Scene&, Values p) { return 2 * std::numbers::pi / p[0]; }>,
+         .possible = [](const Typical& t) { return t.dimensions == 2 && t.duration > 2 * kTide; },
+         .turning_rate = [](Values p) { return 2 * std::numbers::pi / std::fabs(p[0]); }}),
+    {.name = "driver_force",
+     .equation = "F = sum of a_i driver_i",
+     .variable = "driver",
+     .split = "a recording in which the drivers change more",
+     .parameters = of_drivers,
+     .add = by_drivers,
+     .possible = [](const Typical& t) { return t.drivers > (t.latitude >= 0 ? 1 : 0); }},
+    curve({.name = "curve_of_slip",
+           .variable = "slip",
+           .parameters = [](const Typical& t) { return knots(range_of("slip", t)); },
+           .add = along_velocity<[](double v, Values p) {
+             return -curve_at(v, p) / std::max(v, 1e-3 * p[kCurveKnots + 1]);
+           }>}),
+    curve({.name = "curve_of_position",
+           .variable = "position",
+           .parameters = [](const Typical& t) { return knots(range_of("position", t)); },
+           .add =
+               [](const Scene& s, Values p, double* force) {
+                 for (int b = 0; b < s.bodies; ++b) force[b] += curve_at(s.x[b], p);
+               },
+           .possible = [](const Typical& t) { return t.dimensions == 1 && t.bodies == 1; }}),
+    // Nothing beyond the last knot.
+    curve({.name = "curve_of_gap",
+           .variable = "pair",
+           .parameters =
+               [](const Typical& t) {
+                 return knots({t.nearest, std::min(t.middle, 4 * t.nearest + 1e-9)});
+               },
+           .add = between_pairs<[](double gap, Values p) {
+             return gap < p[kCurveKnots + 1] ? curve_at(gap, p) : 0.0;
+           }>,
+           .possible = in_pairs}),
+    curve({.name = "curve_of_time",
+           .variable = "time",
+           .parameters = [](const Typical& t) { return knots(range_of("time", t)); },
+           .add =
+               [](const Scene& s, Values p, double* force) {
+                 for (int b = 0; b < s.bodies; ++b) force[b] += curve_at(s.time, p);
+               },
+           .possible = [](const Typical& t) { return t.dimensions == 1; }})};
+
+}  // namespace
+
+std::vector<std::vector<double>> Law::starts(const Typical& t) const {
+  std::vector<std::vector<double>> out(1);
+  for (const LawParameter& p : parameters(t)) {
+    for (std::size_t k = 0, sets = out.size(); k < sets; ++k) {
+      if (!std::isnan(p.other)) out.push_back(out[k]), out.back().push_back(p.other);
+      out[k].push_back(p.start);
+    }
+  }
+  return out;
+}
+
+std::span<const Law> law_library() {
+  return kLaws;
+}
+
+const Law* find_law(std::string_view name) {
+  for (const Law& law : kLaws) {
+    if (law.name == name) return &law;
+  }
+  return nullptr;
+}
+
+VariableRange range_of(std::string_view variable, const Typical& t) {
+  if (variable == "slip" || variable == "turn") return {0, t.fastest};
+  if (variable == "pair") return {t.nearest, t.middle};
+  if (variable == "time") return {0, t.duration};
+  return {t.low, t.high};
+}
+
+std::string unit_of(std::string_view variable, const std::string& unit) {
+  if (variable == "time") return "s";
+  return variable == "slip" || variable == "turn" ? unit + "/s" : unit;
+}
+
+double inertial_turning(double latitude) {
+  constexpr double kEarth = 7.292115e-5;  // rad/s, a turn in a sidereal day
+  return 2 * kEarth * std::sin(latitude * std::numbers::pi / 180);
+}
+
+}  // namespace lilytank::bodies
