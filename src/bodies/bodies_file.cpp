@@ -158,13 +158,13 @@ class Reader {
     t.place = f.place("file");
     t.time = {f.text("time"), f.place("time")};
     constexpr int kMostLines = 1'000'000'000;
+    const auto whole = [&](const char* key, int low, int high, auto& to) {
+      if (f.has(key)) to = static_cast<int>(f.whole(key, low, high));
+    };
     if (f.has("time_unit")) t.time_unit = number(f, "time_unit", "s", 1e-9);
-    if (f.has("header_line")) {
-      t.layout.header_line = static_cast<int>(f.whole("header_line", 0, kMostLines));
-    }
-    if (f.has("first_row")) {
-      t.layout.first_row = static_cast<int>(f.whole("first_row", 1, kMostLines));
-    }
+    whole("header_line", 0, kMostLines, t.layout.header_line);
+    whole("first_row", 1, kMostLines, t.layout.first_row);
+    whole("every", 1, 1000000, t.every);
     if (f.has("decimal_comma")) t.layout.decimal_comma = f.flag("decimal_comma");
     if (f.has("body")) t.body = {f.text("body"), f.place("body")};
     if (f.has("run")) t.run = {f.text("run"), f.place("run")};
@@ -184,7 +184,6 @@ class Reader {
     if (f.has("radius")) t.radius = numbers(f, "radius", "m");
     if (f.has("drivers")) t.drivers = names(f, "drivers");
     if (f.has("scale")) t.scale = number(f, "scale", out_.experiment.unit, 1e-12);
-    if (f.has("every")) t.every = static_cast<int>(f.whole("every", 1, 1000000));
     if (f.has("together")) t.together = f.flag("together");
     if (f.has("held_out")) t.held_out = f.flag("held_out");
     out_.tables.push_back(std::move(t));

@@ -5,6 +5,7 @@
 #include "bodies/verdict.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/state.hpp"
+#include "statistics/largest_first.hpp"
 #include "study/kept_rows.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
@@ -12,11 +13,6 @@
 namespace lilytank {
 namespace bodies {
 namespace {
-
-void sort_best_first(std::vector<LawTrial>& all) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const LawTrial& a, const LawTrial& b) { return a.gain > b.gain; });
-}
 
 // Whether two laws are combined: curves are not, nor two laws that rotate velocities or two of
 // pairs of bodies, which are nearly equivalent.
@@ -107,7 +103,7 @@ class Trials {
       throw InputError("experiment " + experiment_.name +
                        ": no law can be evaluated: " + c_.failures.front());
     }
-    sort_best_first(c_.singles);
+    largest_first(c_.singles, &LawTrial::gain);
   }
 
   void pairs() {
@@ -118,7 +114,7 @@ class Trials {
              pair.name());
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
-    sort_best_first(c_.pairs);
+    largest_first(c_.pairs, &LawTrial::gain);
     // A bias is identifiable from several runs only.
     if (experiment_.runs.size() < 4) return;
     for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
@@ -131,12 +127,12 @@ class Trials {
 
   void nulls() {
     const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.minutes)));
-    KeptRows kept;
+    KeptRows kept{.identity = identity_of(experiment_, options_),
+                  .threads = options_.threads,
+                  .stop = options_.stop};
     if (!options_.out.empty()) {
       kept.file = (std::filesystem::path(options_.out) / "work" / "nulls.rows").string();
     }
-    kept.identity = identity_of(experiment_, options_);
-    kept.threads = options_.threads, kept.stop = options_.stop;
     kept.progress = [&](int done, int all) {
       report(0.6 + 0.39 * done / all,
              "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));

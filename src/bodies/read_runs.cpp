@@ -10,6 +10,7 @@
 #include "io/time_text.hpp"
 #include "statistics/median.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -18,10 +19,9 @@ int column(const Table& table, const NamedAt& wanted) {
   if (wanted.name.empty()) return -1;
   const int found = table.find(wanted.name);
   if (found >= 0) return found;
-  std::string list;
-  for (const std::string& known : table.names()) list += (list.empty() ? "" : ", ") + known;
   throw InputError(wanted.place, table.file() + " has no column '" + wanted.name + "'" +
-                                     did_you_mean(wanted.name, table.names()) + "; it has " + list);
+                                     did_you_mean(wanted.name, table.names()) + "; it has " +
+                                     joined(table.names(), ", "));
 }
 
 double of_body(const BodyFigures& numbers, std::size_t index, const std::string& body,
@@ -142,8 +142,7 @@ class TableReader {
   void count(std::int64_t lines, const std::string& noun, const std::string& done,
              std::vector<std::string>& left_out) const {
     if (lines == 0) return;
-    left_out.push_back(t_->file.substr(t_->file.find_last_of('/') + 1) + ": " +
-                       std::to_string(lines) + " " + noun + (lines == 1 ? "" : "s") + done);
+    left_out.push_back(short_file() + ": " + counted(lines, noun) + done);
   }
 
   // By time, so that rows may stand in any order; bodies by name, so that it makes no difference.
@@ -226,48 +225,36 @@ class TableReader {
                             (missing.empty() ? "" : ": is there no column for " + missing + "?"));
   }
 
-  // Leaves one row in `every`.
-  void thin(Rows& r) const {
-    const auto every = static_cast<std::size_t>(t_->every);
-    if (every == 1) return;
-    const std::size_t drivers = drivers_.size();
-    std::size_t to = 0;
-    for (std::size_t from = 0; from < r.time.size(); from += every, ++to) {
-      r.time[to] = r.time[from], r.cells[to] = r.cells[from];
-      for (std::size_t d = 0; d < drivers; ++d) {
-        r.drivers[to * drivers + d] = r.drivers[from * drivers + d];
-      }
-    }
-    r.time.resize(to), r.cells.resize(to), r.drivers.resize(to * drivers);
-  }
-
-  // Cuts a run where it was not recorded for long.
+  // Takes one row in `every`, and cuts a run where it was not recorded for long.
   void finish(Rows& r, std::vector<BodyRun>& out, std::vector<std::string>& left_out) const {
     constexpr double kLongest = 8;  // of the usual step
     constexpr std::size_t kLeast = 8;
     const auto too_short = [&](std::size_t piece, std::size_t rows) {
-      left_out.push_back(name_of(r, piece) + ": " + std::to_string(rows) +
-                         (rows == 1 ? " row" : " rows") + " where eight are needed: left out");
+      left_out.push_back(name_of(r, piece) + ": " +
+                         counted(static_cast<std::int64_t>(rows), "row") +
+                         " where eight are needed: left out");
     };
-    thin(r);
     const std::size_t row = r.bodies.size() * static_cast<std::size_t>(e_->dimensions);
-    const std::size_t n = r.time.size(), drivers = drivers_.size();
+    const std::size_t drivers = drivers_.size(), every = static_cast<std::size_t>(t_->every);
+    const std::size_t n = (r.time.size() + every - 1) / every;
+    const auto time = [&](std::size_t k) { return r.time[k * every]; };
     std::vector<double> steps;
-    for (std::size_t k = 1; k < n; ++k) steps.push_back(r.time[k] - r.time[k - 1]);
+    for (std::size_t k = 1; k < n; ++k) steps.push_back(time(k) - time(k - 1));
     if (n < kLeast) return too_short(1, n);
     const double usual = median(std::move(steps));
     for (std::size_t from = 0, k = 1, piece = 1; k <= n; ++k) {
-      if (k < n && r.time[k] - r.time[k - 1] <= kLongest * usual) continue;
+      if (k < n && time(k) - time(k - 1) <= kLongest * usual) continue;
       if (k - from < kLeast) {
         too_short(piece++, k - from);
       } else {
         BodyRun run = empty_run(r, piece++);
         for (std::size_t i = from; i < k; ++i) {
-          run.time.push_back(r.time[i] - r.time[from]);
-          r.cells[i].resize(row, NAN);
-          run.position.insert(run.position.end(), r.cells[i].begin(), r.cells[i].end());
-          for (std::size_t d = 0; d < drivers; ++d)
-            run.drivers.push_back(r.drivers[i * drivers + d]);
+          std::vector<double>& cells = r.cells[i * every];
+          const auto of = r.drivers.begin() + static_cast<std::ptrdiff_t>(i * every * drivers);
+          run.time.push_back(time(i) - time(from));
+          cells.resize(row, NAN);
+          run.position.insert(run.position.end(), cells.begin(), cells.end());
+          run.drivers.insert(run.drivers.end(), of, of + static_cast<std::ptrdiff_t>(drivers));
         }
         out.push_back(std::move(run));
       }
@@ -275,9 +262,10 @@ class TableReader {
     }
   }
 
+  std::string short_file() const { return t_->file.substr(t_->file.find_last_of('/') + 1); }
+
   std::string name_of(const Rows& r, std::size_t piece) const {
-    const std::string name =
-        r.name.empty() ? t_->file.substr(t_->file.find_last_of('/') + 1) : r.name;
+    const std::string name = r.name.empty() ? short_file() : r.name;
     return piece > 1 ? name + " part " + std::to_string(piece) : name;
   }
 

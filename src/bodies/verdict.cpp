@@ -6,8 +6,9 @@
 #include <set>
 
 #include "bodies/maps.hpp"
+#include "statistics/largest_first.hpp"
 #include "statistics/quantiles.hpp"
-#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::bodies {
 namespace {
@@ -151,23 +152,21 @@ std::vector<const LawTrial*> as_good(const Comparison& c, const LawTrial& best) 
 std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   if (c.groups.size() < 2) return "";
   std::vector<std::pair<double, std::string>> by;
-  std::string seen, none, unasked;
-  const auto add = [](std::string& to, const std::string& name) {
-    to += (to.empty() ? "" : ", ") + name;
-  };
+  std::vector<std::string> seen, none, untested;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    if (o.fits[i].held_out.empty()) {
-      add(unasked, c.groups[i].name);
-      continue;
-    }
-    by.emplace_back(o.fits[i].held_out_sum() - c.baseline.fits[i].held_out_sum(), c.groups[i].name);
+    const std::string& name = c.groups[i].name;
+    if (o.fits[i].held_out.empty())
+      untested.push_back(name);
+    else
+      by.emplace_back(o.fits[i].held_out_sum() - c.baseline.fits[i].held_out_sum(), name);
   }
   std::sort(by.rbegin(), by.rend());
-  for (const auto& [gain, name] : by) add(gain > 2 ? seen : none, name);
-  return "seen in " + (seen.empty() ? "no body alone" : seen) +
-         (none.empty() ? "" : "; not in " + none) +
-         (unasked.empty() ? ""
-                          : "; not tested, because none of their runs is held out: " + unasked);
+  for (const auto& [gain, name] : by) (gain > 2 ? seen : none).push_back(name);
+  std::string out = "seen in " + (seen.empty() ? "no body alone" : joined(seen, ", "));
+  if (!none.empty()) out += "; not in " + joined(none, ", ");
+  if (!untested.empty())
+    out += "; not tested, because none of their runs is held out: " + joined(untested, ", ");
+  return out;
 }
 
 void set_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
@@ -223,7 +222,7 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
     f.curve = map_of(c, f.variable);
     out.push_back(std::move(f));
   }
-  std::stable_sort(out.begin(), out.end(), [](auto& a, auto& b) { return a.gain > b.gain; });
+  largest_first(out, &DiagnosisFinding::gain);
   return out;
 }
 
@@ -279,12 +278,9 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
   const auto add = [&](const LawTrial& o) {
     d.ranking.push_back({o.candidate.name(), "", std::sqrt(2 * std::max(0.0, o.gain))});
   };
-  std::for_each(c.singles.begin(), c.singles.end(), add);
-  const auto pairs =
-      static_cast<std::ptrdiff_t>(std::min<std::size_t>(c.pairs.size(), kPairsReported));
-  std::for_each(c.pairs.begin(), c.pairs.begin() + pairs, add);
-  std::stable_sort(d.ranking.begin(), d.ranking.end(),
-                   [](const RankedEffect& a, const RankedEffect& b) { return a.z > b.z; });
+  for (const LawTrial& one : c.singles) add(one);
+  for (std::size_t k = 0; k < std::min(c.pairs.size(), kPairsReported); ++k) add(c.pairs[k]);
+  largest_first(d.ranking, &RankedEffect::z);
 }
 
 }  // namespace

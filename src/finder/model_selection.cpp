@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/largest_first.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {
@@ -18,11 +19,6 @@ constexpr double kLeastTried = 0.1, kTriedStep = 1.03;
 // Largest unexplained share of the mismatch: where a remainder is significant, and where it exceeds
 // kFarBeyond times that of nulls.
 constexpr double kMostLeft = 0.5, kMuchLeft = 0.25, kFarBeyond = 2;
-
-void strongest_first(std::vector<EffectFit>& fits) {
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
-}
 
 // Recomputes every candidate after a change of the whitening.
 void whiten_by(Whitening whitening, SelectionState& state) {
@@ -88,7 +84,7 @@ std::vector<EffectFit> ModelSelection::effects(const Vector& residual) const {
   const Vector all = state_.whitening.of(residual);
   std::vector<EffectFit> out;
   for (const EffectCandidate& c : state_.candidates) out.push_back(fit_of(c, all));
-  strongest_first(out);
+  largest_first(out, &EffectFit::z);
   return out;
 }
 
@@ -101,7 +97,7 @@ std::vector<EffectFit> ModelSelection::shapes(const Vector& residual) const {
     out[s].gain = (w.knot_whitener[s] * out[s].amplitudes).squaredNorm();
     out[s].z = z_of_gain(out[s].gain, state_.shape_scale[s], kKnots);
   }
-  strongest_first(out);
+  largest_first(out, &EffectFit::z);
   return out;
 }
 

@@ -236,10 +236,6 @@ Vector ReferenceEnsemble::residual_at(const Vector& scores, const Vector& point)
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
-Vector ReferenceEnsemble::uncalibrated(const Vector& scores) const {
-  return scores - scores_->mean(centre_);
-}
-
 ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
                                                         const std::string& stage,
                                                         const Vector& about, const Matrix& spread,

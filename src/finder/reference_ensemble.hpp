@@ -65,9 +65,6 @@ class ReferenceEnsemble {
   /// Scores less their mean at the calibrated parameters, by their deviations among nulls; of all
   /// numbers, shapes' knots at the end.
   Eigen::VectorXd residual(const Vectors& vectors) const;
-  /// Scores less their mean at the parameters about which the ensemble was simulated: an effect's
-  /// own score estimates its amplitude to some tenths, whatever a calibration makes of the effect.
-  Eigen::VectorXd uncalibrated(const Eigen::VectorXd& scores) const;
   /// How far the displacements alone are from what the calibrated baseline gives, a squared
   /// distance by their covariance: all that a comparison of MSDs could see.
   double displacement_misfit(const Eigen::VectorXd& summary) const;

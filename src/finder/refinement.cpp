@@ -6,6 +6,7 @@
 #include "finder/refinement.hpp"
 #include "finder/scan.hpp"
 #include "finder/scores.hpp"
+#include "statistics/largest_first.hpp"
 
 namespace lilytank {
 namespace {
@@ -235,8 +236,7 @@ std::vector<EffectFit> Diagnoser::Refinement::clearest() {
     f.gain = is_clear(effect, one) ? one.gain : 0;
     out.push_back(std::move(f));
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
+  largest_first(out, &EffectFit::gain);
   if (out.size() > kRivals) out.resize(kRivals);
   const double least = std::max(kClearGain, kRival * out.front().gain);
   std::erase_if(out, [&](const EffectFit& f) { return f.gain < least; });

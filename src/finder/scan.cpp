@@ -7,6 +7,7 @@
 
 #include "finder/scores.hpp"
 #include "lilytank/study.hpp"
+#include "statistics/largest_first.hpp"
 
 namespace lilytank {
 namespace {
@@ -57,8 +58,7 @@ std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recordi
     const ScoredAmplitude &x = scored[2 * k], &y = scored[2 * k + 1];
     out[k].speed_x = x.estimate, out[k].speed_y = y.estimate, out[k].gain = x.gain + y.gain;
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const StreamPlace& a, const StreamPlace& b) { return a.gain > b.gain; });
+  largest_first(out, &StreamPlace::gain);
   return out;
 }
 

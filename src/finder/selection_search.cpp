@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finder/model_selection.hpp"
+#include "statistics/largest_first.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {
@@ -58,11 +59,6 @@ double cost(const CandidateSet& set) {
   double out = set.left.squaredNorm();
   for (const EffectFit& f : set.fits) out += f.gain - worth_of(f.gain, f);
   return out;
-}
-
-void largest_gain_first(std::vector<EffectFit>& fits) {
-  std::stable_sort(fits.begin(), fits.end(),
-                   [](const EffectFit& a, const EffectFit& b) { return a.gain > b.gain; });
 }
 
 // A selection for one residual.
@@ -193,8 +189,7 @@ std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
     const double worth = worth_of(whole.gain, whole);
     if (worth > 0) out.push_back({k, std::move(whole), worth});
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Extension& a, const Extension& b) { return a.worth > b.worth; });
+  largest_first(out, &Extension::worth);
   return out;
 }
 
@@ -316,15 +311,14 @@ SelectedModel SelectionSearch::select(const std::vector<EffectFit>& start) const
   for (const EffectFit& f : set.fits) amplitudes += f.amplitudes.size();
   out.penalized_deviance = penalized_deviance(squared, s_.whitening.whitener, amplitudes);
   out.found = set.fits;
-  std::stable_sort(out.found.begin(), out.found.end(),
-                   [](const EffectFit& a, const EffectFit& b) { return a.z > b.z; });
+  largest_first(out.found, &EffectFit::z);
   return out;
 }
 
 std::vector<EffectFit> SelectionSearch::leading(int count) const {
   std::vector<EffectFit> out;
   for (std::size_t k = 0; k < s_.candidates.size(); ++k) out.push_back(alone(k, all_));
-  largest_gain_first(out);
+  largest_first(out, &EffectFit::gain);
   out.resize(std::min(out.size(), static_cast<std::size_t>(count)));
   return out;
 }
@@ -341,7 +335,7 @@ std::vector<EffectFit> SelectionSearch::rivals(const std::vector<EffectFit>& fou
       const double least = nearly * set.fits[m].gain;
       if (k != set.of[m] && f.gain > least && !same_term(f, rest.fits)) own.push_back(f);
     }
-    largest_gain_first(own);
+    largest_first(own, &EffectFit::gain);
     own.insert(own.begin(), set.fits[m]);
     own.resize(std::min(own.size(), count));
     out.insert(out.end(), own.begin(), own.end());

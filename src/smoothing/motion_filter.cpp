@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "smoothing/motion_model.hpp"
+#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {
@@ -78,21 +79,6 @@ class Covariance {
   double variance_ = 1;
 };
 
-MotionState first_guess(double place) {
-  return {place, 0, 0};
-}
-
-void resize(AxesEstimate& out, const Axes& axes) {
-  for (int k = 0; k < axes.count(); ++k) {
-    for (auto* v : {&out.axis[k].value, &out.axis[k].velocity, &out.axis[k].acceleration}) {
-      v->resize(axes.frames());
-    }
-  }
-  for (auto* v : {&out.sd_value, &out.sd_velocity, &out.sd_acceleration}) {
-    v->resize(axes.frames());
-  }
-}
-
 void store(AxisEstimate& axis, std::size_t f, const MotionState& s) {
   axis.value[f] = s[0], axis.velocity[f] = s[1], axis.acceleration[f] = s[2];
 }
@@ -110,8 +96,7 @@ std::vector<Stage> filter(const Axes& axes, Covariance& covariance, AxesEstimate
                           std::vector<std::size_t>& stage_of) {
   std::vector<Stage> stages;
   const MotionMatrix F = covariance.step().F;
-  MotionState state[2] = {first_guess(axes.first[0]),
-                          first_guess(axes.count() > 1 ? axes.second[0] : 0)};
+  MotionState state[2] = {{axes.first[0], 0, 0}, {axes.count() > 1 ? axes.second[0] : 0, 0, 0}};
   for (std::size_t f = 0; f < axes.frames(); ++f) {
     const bool seen = axes.seen(f);
     covariance.update(seen);
@@ -190,6 +175,12 @@ class BackwardPass {
 
 }  // namespace
 
+AxesEstimate::AxesEstimate(const Axes& axes) {
+  const std::vector<double> unknown(axes.frames(), kUndefined);
+  sd_value = sd_velocity = sd_acceleration = unknown;
+  for (int k = 0; k < axes.count(); ++k) axis[k] = {unknown, unknown, unknown};
+}
+
 Transition transition(const MotionModel& model, double interval) {
   const double memory = model.memory;
   // Gauss-Legendre over a part of the interval that is short against the memory, then doubling.
@@ -218,8 +209,7 @@ Transition transition(const MotionModel& model, double interval) {
 }
 
 AxesEstimate smooth_kalman(const Axes& axes, const MotionModel& model, double interval) {
-  AxesEstimate out;
-  resize(out, axes);
+  AxesEstimate out(axes);
   if (axes.frames() == 0) return out;
   Covariance covariance(model, interval);
   std::vector<std::size_t> stage_of(axes.frames());
@@ -235,8 +225,7 @@ void add_innovations(const Axes& axes, const MotionModel& model, double interval
                      Innovations& sums) {
   Covariance covariance(model, interval);
   const MotionMatrix F = covariance.step().F;
-  MotionState state[2] = {first_guess(axes.first[0]),
-                          first_guess(axes.count() > 1 ? axes.second[0] : 0)};
+  MotionState state[2] = {{axes.first[0], 0, 0}, {axes.count() > 1 ? axes.second[0] : 0, 0, 0}};
   int started = 0;
   double variance = 0, log_variance = 0;
   for (std::size_t f = 0; f < axes.frames(); ++f) {

@@ -32,6 +32,8 @@ struct AxisEstimate {
   std::vector<double> value, velocity, acceleration;
 };
 struct AxesEstimate {
+  /// All NaN.
+  explicit AxesEstimate(const Axes& axes);
   AxisEstimate axis[2];
   std::vector<double> sd_value, sd_velocity, sd_acceleration;
 };

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "smoothing/motion_model.hpp"
-#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {
@@ -92,15 +91,7 @@ AxesEstimate smooth_polynomial(const Axes& axes, const SmoothingOptions& options
   const int half = half_window(options, interval);
   const double unit = half * interval;  // s
   Window window(half, options.degree);
-  AxesEstimate out;
-  for (int k = 0; k < axes.count(); ++k) {
-    for (auto* v : {&out.axis[k].value, &out.axis[k].velocity, &out.axis[k].acceleration}) {
-      v->assign(axes.frames(), kUndefined);
-    }
-  }
-  for (auto* v : {&out.sd_value, &out.sd_velocity, &out.sd_acceleration}) {
-    v->assign(axes.frames(), kUndefined);
-  }
+  AxesEstimate out(axes);
   for (std::size_t f = 0; f < axes.frames(); ++f) {
     if (!window.prepare(axes, f)) continue;
     for (int k = 0; k < axes.count(); ++k) {
