@@ -31,11 +31,6 @@ std::string label(const std::string& name, const Shown& unit) {
   return name + (unit.unit == "1" ? "" : " (" + unit.unit + ")");
 }
 
-std::vector<double> divided(std::vector<double> values, double by) {
-  for (double& v : values) v /= by;
-  return values;
-}
-
 Curve curve_of(const std::string& name, const std::vector<double>& x, const CurveEstimate& estimate,
                double x_unit, double y_unit, bool band) {
   Curve curve;
@@ -247,16 +242,6 @@ Figure transfer_plot(const Analysis& analysis) {
   return made;
 }
 
-MapPanel panel_of(const VelocityMap& map, const std::vector<double>& values,
-                  const std::string& title) {
-  MapPanel panel;
-  panel.title = title;
-  panel.cells = map.cells, panel.extent = map.extent;
-  panel.values = values;
-  panel.scale = ColourScale::diverging;
-  return panel;
-}
-
 // The size that 98 of 100 values stay below: a lone wild cell must not pale all others.
 double usual_most(const std::vector<const std::vector<double>*>& all) {
   std::vector<double> sizes;
@@ -274,9 +259,10 @@ double usual_most(const std::vector<const std::vector<double>*>& all) {
 
 void add_row(Map& map, const VelocityMap& v, const std::string& name, const std::string& what,
              double most) {
-  MapPanel x = panel_of(v, v.vx, name + ": along x"), y = panel_of(v, v.vy, name + ": along y");
+  MapPanel x = velocity_panel(name + ": along x", v, v.vx);
+  MapPanel y = velocity_panel(name + ": along y", v, v.vy);
   x.low = y.low = -most, x.high = y.high = most;
-  MapPanel speed = panel_of(v, {}, name);
+  MapPanel speed = velocity_panel(name, v, {});
   x.label = y.label = what + " (m/s)";
   speed.label = "size of the " + what + " (m/s)";
   speed.scale = ColourScale::rising;

@@ -40,7 +40,7 @@ struct Axis {
   double share(double value) const;
 };
 
-/// An axis over [low, high] with about `wanted` labelled ticks (at least 2 asked for). `whole`: no
+/// An axis over [low, high] with about `wanted` labelled ticks (at least 2). `whole`: no
 /// ticks between whole numbers. Ranges that are empty, reversed, not finite, or (log) not positive
 /// are put right, so that every call gives a usable axis.
 Axis make_axis(double low, double high, bool log, int wanted, bool whole);

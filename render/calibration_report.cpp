@@ -50,15 +50,6 @@ PlotPage msd_page(const CalibrationResult& c) {
   return page;
 }
 
-MapPanel velocity_panel(const std::string& title, const VelocityMap& map,
-                        const std::vector<double>& values) {
-  MapPanel panel;
-  panel.title = title, panel.label = "mean velocity (m/s)";
-  panel.cells = map.cells, panel.extent = map.extent;
-  panel.values = values, panel.scale = ColourScale::diverging;
-  return panel;
-}
-
 // Fig. 7.
 Map velocity_map_of(const CalibrationResult& c) {
   Map map;
@@ -75,7 +66,10 @@ Map velocity_map_of(const CalibrationResult& c) {
       if (!std::isnan(v)) high = std::max(high, std::fabs(v));
     }
   }
-  for (MapPanel& panel : map.panels) panel.low = -high, panel.high = high;
+  for (MapPanel& panel : map.panels) {
+    panel.low = -high, panel.high = high;
+    panel.label = "mean velocity (m/s)";
+  }
   return map;
 }
 
@@ -121,7 +115,8 @@ void room_beside(Plot& plot) {
   if (room > 0) plot.x_low = low - room, plot.x_high = high + room;
 }
 
-// Estimates of simulated experiments, two parameters a plot: what cannot be told apart is a line.
+// Estimates of simulated experiments, two parameters a plot: what the data do not distinguish is a
+// line.
 PlotPage pair_page(const CalibrationResult& c) {
   PlotPage page;
   page.columns = 4;

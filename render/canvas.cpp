@@ -4,8 +4,8 @@
 #include <cairo-svg.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 
@@ -16,6 +16,7 @@
 #include "text/words.hpp"
 #include "text/number.hpp"
 #include "text/printable.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -24,17 +25,7 @@ namespace {
 // the system's sans serif steps in.
 constexpr char kFamily[] = "DejaVu Sans";
 
-const char* ending_of(PictureFormat format) {
-  switch (format) {
-    case PictureFormat::png:
-      return ".png";
-    case PictureFormat::svg:
-      return ".svg";
-    case PictureFormat::pdf:
-      return ".pdf";
-  }
-  return "";
-}
+constexpr const char* kEndings[] = {".png", ".svg", ".pdf"};  // by PictureFormat
 
 // Called from C, so no exception may leave it.
 cairo_status_t append(void* sink, const unsigned char* data, unsigned length) {
@@ -51,13 +42,13 @@ cairo_status_t append(void* sink, const unsigned char* data, unsigned length) {
 constexpr int kFirst = 1000;  // miter limit of the first place; lines of figures have Cairo's, 10
 
 std::string hex_of(const Colour& c) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string out = "#";
-  for (const double channel : {c.r, c.g, c.b}) {
-    const auto byte = static_cast<unsigned>(std::lround(255 * channel));
-    out += kDigits[byte / 16 % 16], out += kDigits[byte % 16];
-  }
-  return out;
+  const auto byte = [](double channel) {
+    return static_cast<unsigned>(std::lround(255 * channel));
+  };
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(c.r) & 255, byte(c.g) & 255,
+                byte(c.b) & 255);
+  return text;
 }
 
 std::string attribute(const std::string& name, double value) {
@@ -118,14 +109,12 @@ std::string with_texts(const std::string& svg, const std::vector<std::string>& t
 }  // namespace
 
 PictureFormat format_of(const std::string& file, std::initializer_list<PictureFormat> allowed) {
-  std::string low = file, names;
-  for (char& c : low) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string low = in_small_letters(file);
+  std::string names;
   for (const PictureFormat f : allowed) {
-    if (low.ends_with(ending_of(f)) && low.size() > 4) return f;
-    names += (names.empty()               ? ""
-              : f == *(allowed.end() - 1) ? " or "
-                                          : ", ") +
-             std::string(ending_of(f));
+    const std::string ending = kEndings[static_cast<int>(f)];
+    if (low.ends_with(ending) && low.size() > ending.size()) return f;
+    names += (names.empty() ? "" : f == *(allowed.end() - 1) ? " or " : ", ") + ending;
   }
   throw InputError("cannot determine the picture's format from '" + file +
                    "': its name must end in " + names);

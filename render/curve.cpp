@@ -53,7 +53,7 @@ void marker_path(const Canvas& canvas, const Curve& curve, int index, double x, 
 }
 
 // A line that leaves out points nearer than a fifth of a unit to the one before, as no eye or
-// printer tells them apart: curves of a million points stay drawable.
+// printer distinguishes them: curves of a million points stay drawable.
 class Pen {
  public:
   Pen(const Canvas& canvas, bool steps) : c_(canvas.get()), steps_(steps) {}

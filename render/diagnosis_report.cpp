@@ -27,7 +27,7 @@ std::string with_z(const char* what, double z) {
   return text;
 }
 
-// One curve with the band in which nothing would lie; gaps where the data tell nothing.
+// One curve with the band of the null hypothesis; gaps where the data do not constrain it.
 Plot curve_plot(const FoundCurve& c, const DiagnosisSubject& of, bool small) {
   Plot plot;
   plot.title = c.direction;
@@ -64,7 +64,7 @@ PlotPage maps_page(const Diagnosis& d) {
   for (const FoundCurve& c : maps) {
     if (page.plots.size() >= 12) break;
     page.plots.push_back(curve_plot(c, *d.subject, true));
-    // A body's map tells how far it scatters, which is not what a finding's z is about.
+    // The z of a body's map measures its scatter, not the evidence for a finding.
     if (d.subject->curves_tested) page.plots.back().title += with_z("curve", c.z);
   }
   return page;

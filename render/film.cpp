@@ -1,7 +1,6 @@
 // Films and stills: the same frames, sent to ffmpeg or written one by one.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "io/temporary_file.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -63,8 +63,7 @@ void report(const FilmOptions& options, int done, int frames) {
 }
 
 bool is_gif(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = in_small_letters(fs::path(file).extension().string());
   if (ending == ".gif") return true;
   if (ending == ".mp4") return false;
   throw InputError("cannot determine the film's format from '" + file +

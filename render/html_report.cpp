@@ -22,6 +22,20 @@ void write_html_report(const ReportDocument& report, const std::vector<Figure>& 
   write_atomically((path / "report.html").string(), report_html(report, pictures));
 }
 
+std::vector<double> divided(std::vector<double> values, double by) {
+  for (double& v : values) v /= by;
+  return values;
+}
+
+MapPanel velocity_panel(const std::string& title, const VelocityMap& map,
+                        const std::vector<double>& values) {
+  MapPanel panel;
+  panel.title = title;
+  panel.cells = map.cells, panel.extent = map.extent;
+  panel.values = values, panel.scale = ColourScale::diverging;
+  return panel;
+}
+
 void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir) {
   FrameStyle style;
   style.flow = FlowStyle::none;  // thousands of arrows would be most of the page

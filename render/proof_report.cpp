@@ -1,4 +1,4 @@
-// Figures of sealed experiments: power, outcomes, errors.
+// Figures of blinded synthetic experiments: power, outcomes, errors.
 #include <algorithm>
 #include <cmath>
 

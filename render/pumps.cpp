@@ -18,7 +18,7 @@ class Follower {
     for (const Ruleset& rules : model_.rulesets) joins_.push_back(final_labels(rules));
   }
 
-  // The flow in force from frame `f` on; frames are asked for in turn.
+  // The flow in force from frame `f` on; frames must come in order.
   int field_at_frame(int f) {
     const double time = run_.trajectory.time[static_cast<std::size_t>(f)];
     const auto& commands = model_.commands;  // in order of time

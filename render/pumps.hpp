@@ -13,7 +13,7 @@ const FlowField* field_of(const Model& model, int number);
 double peak_of_all(const Model& model);
 
 /// The flow in force over the time of a stored run. Commands by time count from their own time;
-/// those by finished copies from the stored frame whose labels tell of so many.
+/// those by finished copies from the stored frame with labels of so many.
 class Pumps {
  public:
   explicit Pumps(const StoredRun& run);

@@ -1,4 +1,4 @@
-// How the settings of a study are told apart in its plots.
+// Names and colours that distinguish the settings of a study in its plots.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -15,7 +15,7 @@ struct SettingNames {
   std::vector<double> shades;      ///< as Curve::shade
 };
 
-/// Beyond so many settings a legend is no help: colours then tell an axis' value.
+/// Beyond so many settings a legend is no help: colours then show an axis' value.
 inline constexpr std::size_t kNamedUpTo = 12;
 
 /// How many settings have finished runs.

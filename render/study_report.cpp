@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <map>
 
-#include "lilytank/render.hpp"
+#include "html_report.hpp"
 #include "statistics/undefined.hpp"
 #include "study_names.hpp"
 #include "yield.hpp"
@@ -31,11 +31,6 @@ void add_of_setting(Plot& plot, std::size_t number, const SettingNames& names, C
   plot.legend_title = names.title;
   plot.curves.resize(number);
   plot.curves.push_back(std::move(curve));
-}
-
-std::vector<double> divided(std::vector<double> values, double by) {
-  for (double& v : values) v /= by;
-  return values;
 }
 
 Plot mean_yield_plot(const StudySummary& summary, const SettingNames& names, const TimeUnit& unit) {

@@ -176,7 +176,7 @@ struct Figure {
 /// of the time to the k-th copy, with their intervals and censored times; "mean_time": restricted
 /// mean times over the axis' values, where there is one axis and its labels show numbers; curves
 /// stand a little beside each other there. Bands are left out where there are more than six
-/// settings. Of more than twelve, colours tell the first axis of numbers, and
+/// settings. Of more than twelve, colours show the first axis of numbers, and
 /// "copies_over_<axis>" shows the copies at the end over each such axis, a dot with its interval a
 /// setting. Nothing for a study without finished runs.
 std::vector<Figure> study_plots(const StudySummary& summary);

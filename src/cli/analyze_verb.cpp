@@ -1,4 +1,4 @@
-// lilytank analyze: what recordings and runs tell, alone and against each other.
+// lilytank analyze: statistics of recordings and runs, alone and compared.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

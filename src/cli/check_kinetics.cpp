@@ -12,6 +12,7 @@
 #include "lilytank/statistics.hpp"
 #include "text/fnv.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -258,8 +259,7 @@ std::string run_model(const CheckJob& job, const CheckInput& input, const Kineti
 std::string table_text(const RateTable& table) {
   std::int64_t dockings = 0;
   for (const auto& [pair, meeting] : table.meetings) dockings += meeting.dockings;
-  std::string out = "rates from " + std::to_string(table.worlds) +
-                    (table.worlds == 1 ? " simulation" : " simulations") + ", " +
+  std::string out = "rates from " + counted(table.worlds, "simulation") + ", " +
                     digits(table.seconds / 3600) + " h: " + std::to_string(dockings) +
                     " dockings of two assemblies";
   if (table.contacts > 0)

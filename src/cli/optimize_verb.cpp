@@ -9,6 +9,7 @@
 #include "lilytank/optimize.hpp"
 #include "optimize/search_directory.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -16,11 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string plan_line(const OptimizationPlan& plan, const std::string& out) {
-  const std::size_t n = plan.space.size();
-  return "optimize " + plan.name + ": " + name_of(plan.fitness.fitness) + " of " +
-         std::to_string(plan.possible) + (plan.possible == 1 ? " copy" : " copies") + " within " +
-         shortest(plan.horizon) + " s over " + std::to_string(n) +
-         (n == 1 ? " parameter, " : " parameters, ") + plan.method + ", " +
+  const std::string copies =
+      std::to_string(plan.possible) + (plan.possible == 1 ? " copy" : " copies");
+  return "optimize " + plan.name + ": " + name_of(plan.fitness.fitness) + " of " + copies +
+         " within " + shortest(plan.horizon) + " s over " +
+         counted(static_cast<std::int64_t>(plan.space.size()), "parameter") + ", " + plan.method +
+         ", " +
          (plan.rulesets > 0 ? "a race of " + std::to_string(plan.rulesets) + " rulesets, " : "") +
          std::to_string(plan.budget) + " evaluations; in " + out;
 }

@@ -125,7 +125,7 @@ void VerbOptions::check_names(const Arguments& arguments) {
   }
 }
 
-// The library would not say whose value is neither.
+// The library's own message would not name the option.
 void VerbOptions::check_switch(const std::string& name, const std::string& value) const {
   if (value == "true" || value == "false") return;
   refuse(name + " is true or false, not '" + value + "'");

@@ -13,6 +13,7 @@
 namespace lilytank::cli {
 namespace {
 
+#ifdef LILYTANK_HAS_RENDER
 void take_style(const VerbOptions& options, const std::string& flow, FilmOptions& film) {
   if (flow == "none") film.style.flow = FlowStyle::none;
   if (flow == "arrows") film.style.flow = FlowStyle::arrows;
@@ -83,6 +84,8 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   for (const std::string& file : made) std::cout << file << "\n";
 }
 
+#endif
+
 void add_render_options(VerbOptions& options, FilmOptions& film, std::string& flow, double& at) {
   FrameStyle& style = film.style;
   options.add({"from", "begin of the film", "TIME"}, &film.from, 0, kLongest, "s");
@@ -118,19 +121,19 @@ int render_verb(const Arguments& arguments) {
   add_render_options(options, film, flow, at);
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
-  if constexpr (kDraws) {
-    const std::string& run =
-        options.only("which run? write lilytank render RUN, as out/chain5-seed1");
-    for (const char* name : {"png", "svg", "mp4", "gif"}) check_ending(options, name);
-    if (options.has("at") && !options.has("png") && !options.has("svg")) {
-      options.refuse("--at goes with --png or --svg");
-    }
-    take_style(options, flow, film);
-    draw_all(options, run, film, at, quiet);
-    return Exit::done;
-  } else {
-    options.refuse("this program was built without the renderer (Cairo was not found)");
+#ifdef LILYTANK_HAS_RENDER
+  const std::string& run =
+      options.only("which run? write lilytank render RUN, as out/chain5-seed1");
+  for (const char* name : {"png", "svg", "mp4", "gif"}) check_ending(options, name);
+  if (options.has("at") && !options.has("png") && !options.has("svg")) {
+    options.refuse("--at goes with --png or --svg");
   }
+  take_style(options, flow, film);
+  draw_all(options, run, film, at, quiet);
+  return Exit::done;
+#else
+  options.refuse("this program was built without the renderer (Cairo was not found)");
+#endif
 }
 
 }  // namespace lilytank::cli

@@ -10,8 +10,8 @@
 
 namespace lilytank::cli {
 
-/// Whether this program can draw. Functions of render.hpp are called within `if constexpr (kDraws)`
-/// alone.
+/// Whether this program can draw. Calls of functions of render.hpp stand within `if constexpr
+/// (kDraws)`; render_verb.cpp, nearly all of which would, leaves them to the preprocessor.
 #ifdef LILYTANK_HAS_RENDER
 inline constexpr bool kDraws = true;
 #else

@@ -29,11 +29,10 @@ std::string shard_text(const Shard& shard) {
 }
 
 std::string plan_line(const StudyPlan& plan, const StudyOptions& job) {
-  const auto n = plan.settings.size();
-  std::string out = "study " + plan.name + ": " + std::to_string(n) +
-                    (n == 1 ? " setting, " : " settings, ") + (plan.stop ? "up to " : "") +
-                    std::to_string(plan.replicates) +
-                    (plan.replicates == 1 ? " replicate" : " replicates") + (n == 1 ? "" : " each");
+  const auto n = static_cast<std::int64_t>(plan.settings.size());
+  std::string out = "study " + plan.name + ": " + counted(n, "setting") + ", " +
+                    (plan.stop ? "up to " : "") + counted(plan.replicates, "replicate") +
+                    (n == 1 ? "" : " each");
   if (job.shard.count > 1) {
     out += "; " + shard_text(job.shard) + " (from " + job.shard.origin + ")";
   }
@@ -49,8 +48,7 @@ int dry_run(const StudyPlan& plan, const StudyOptions& job) {
       here += job.shard.holds(plan.id_of(static_cast<int>(s), r)) ? 1 : 0;
     }
     std::cout << "  " << s << "  " << plan.settings[s].label << ": " << (plan.stop ? "up to " : "")
-              << here << (here == 1 ? " run of " : " runs of ")
-              << shortest(plan.settings[s].duration) << " s\n";
+              << counted(here, "run") << " of " << shortest(plan.settings[s].duration) << " s\n";
   }
   return Exit::done;
 }
@@ -59,8 +57,7 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
   Progress progress(quiet);
   job.begin = [&](int runs) {
     if (quiet) return;
-    std::cerr << plan_line(study.plan(), job) << "; " << runs << (runs == 1 ? " run" : " runs")
-              << " to do\n";
+    std::cerr << plan_line(study.plan(), job) << "; " << counted(runs, "run") << " to do\n";
   };
   job.progress = [&](const StudyProgress& now) {
     char note[120];
@@ -81,8 +78,8 @@ int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions&
   }
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)
-              << (result.waiting ? " has done what it can: " : " is done: ") << result.runs
-              << (result.runs == 1 ? " run" : " runs") << " now\n";
+              << (result.waiting ? " has done what it can: " : " is done: ")
+              << counted(result.runs, "run") << " now\n";
     if (result.waiting) {
       std::cerr << "the stopping rule waits for rows of other shards; run every shard again\n";
       return Exit::stopped;

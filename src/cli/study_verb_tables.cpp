@@ -69,10 +69,9 @@ std::string counts_text(const StoredStudy& study) {
     done += count.done, wanted += count.wanted, failed += count.failed;
     decided = decided && count.decided;
   }
-  const std::size_t n = study.counts.size();
-  return std::to_string(n) + (n == 1 ? " setting, " : " settings, ") + std::to_string(done) +
-         " of " + (decided ? "" : "at least ") + std::to_string(wanted) + " runs, " +
-         std::to_string(failed) + " diverged";
+  return counted(static_cast<std::int64_t>(study.counts.size()), "setting") + ", " +
+         std::to_string(done) + " of " + (decided ? "" : "at least ") + std::to_string(wanted) +
+         " runs, " + std::to_string(failed) + " diverged";
 }
 
 std::string report(const StoredStudy& study, const std::string& dir) {

@@ -8,6 +8,7 @@
 #include "io/atomic_file.hpp"
 #include "lilytank/synthesis.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -95,8 +96,8 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
     std::cout << files[k].first << "  " << algorithm_names()[algorithm] << "\n";
   }
   std::cout << std::flush;
-  std::cerr << list.plans.size() << (list.plans.size() == 1 ? " ruleset" : " rulesets") << " in "
-            << dir << (list.complete ? "" : "; there are more (a limit was met)") << "\n";
+  std::cerr << counted(static_cast<std::int64_t>(list.plans.size()), "ruleset") << " in " << dir
+            << (list.complete ? "" : "; there are more (a limit was met)") << "\n";
   return Exit::done;
 }
 

@@ -13,7 +13,7 @@
 namespace lilytank {
 namespace {
 
-constexpr double kOff = 0.08;        // share by which parameters of a sealed world are off
+constexpr double kOff = 0.08;        // relative error of the parameters of a synthetic experiment
 constexpr double kOtherTank = 1.25;  // factor by which a drawn tank's parameters are off at most
 constexpr double kOtherShape = 1.5;  // factor by which a range of the catalogue is off at most
 constexpr double kPlaces = 0.5;      // of the radius, that a place is off along each axis at most

@@ -23,7 +23,7 @@ struct SealedEffect {
   std::vector<double> amplitudes;
 };
 
-/// What stands in the sealed envelope.
+/// The ground truth of one blinded experiment.
 struct Sealed {
   int world = 0;                   ///< its number in the sequence of a seed
   std::string kind;                ///< null, named, two, unnamed
@@ -32,7 +32,7 @@ struct Sealed {
   std::vector<double> factors;  ///< on the five parameters
 };
 
-/// A tank of sealed experiments, nothing missing: the built-in one.
+/// A tank of synthetic experiments without omitted effects: the built-in one.
 Model tank_model();
 /// Another, drawn from a seed: a flow of 0.6 to 1.4 times the built-in one's strength from other
 /// inlets, and the parameters of Lilies up to a quarter off (but K_v, as balls meet this flow).
@@ -58,7 +58,7 @@ std::string key_text(const Sealed& s);
 /// Recordings of it; nothing if a world diverged.
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
                                                   double seconds, std::uint64_t seed);
-/// Every number of a sealed world that a diagnosis may report, by path.
+/// Every number of a synthetic experiment that a diagnosis may report, by path.
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s);
 
 }  // namespace lilytank
