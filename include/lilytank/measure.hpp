@@ -1,17 +1,16 @@
 // Rates counted in many worlds at once, each kept on the disk as soon as it is done.
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "lilytank/job_control.hpp"
 #include "lilytank/kinetics.hpp"
 
 namespace lilytank {
 
 /// How many simulations, of what length, kept where.
-struct MeasureOptions {
+struct MeasureOptions : JobControl {
   /// Number of simulation runs.
   int worlds = 20;
   /// Run k has derived_seed(seed, k).
@@ -24,13 +23,9 @@ struct MeasureOptions {
   std::string out;
   /// Hash of everything that decides a run. Files in `out` of another identity are refused.
   std::uint64_t identity = 0;
-  /// Set by a signal: running worlds are abandoned.
-  const std::atomic<bool>* stop = nullptr;
-  /// Fraction of the runs done; called by one thread at a time.
-  std::function<void(double done)> progress;
 };
 /// The worlds in their order, those that are in `out` already read from there; the result does not
-/// depend on threads or interruptions. Stopped worlds have `stopped` set. Throws InputError.
+/// depend on threads or interruptions. Throws Stopped and InputError.
 std::vector<MeasuredWorld> measure_worlds(const Model& model, const MeasureOptions& options);
 
 }  // namespace lilytank

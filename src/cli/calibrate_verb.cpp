@@ -6,7 +6,6 @@
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"
@@ -139,9 +138,8 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
   if (options.has("flow") && job.flow == CalibrationFlow::smooth) r.balls = 24;
   const std::string title = scenario.title.empty() ? "scenario" : scenario.title;
   job.out = options.text("out", (std::filesystem::path("out") / ("recover-" + title)).string());
-  job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  progress.watch(job);
   r.calibration = job;
   r.done = [&](const std::vector<RecoveryRow>& rows) {
     const std::filesystem::path out = job.out;
@@ -185,9 +183,8 @@ int calibrate_verb(const Arguments& arguments) {
   job.out = options.text(
       "out", (std::filesystem::path("out") / ("calibrate-" + experiment.name)).string());
   if (job.out.empty()) options.refuse("--out is empty");
-  job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  progress.watch(job);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const CalibrationResult found = calibrate(experiment, job);

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/scenario_layers.hpp"
 #include "lilytank/measure.hpp"
@@ -130,12 +129,10 @@ Counted measure(const VerbOptions& options, const CheckInput& input, const std::
   job.duration = scenario.duration;
   job.out = dir;
   job.identity = identity_of(scenario, input.rules);
-  job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  job.progress = [&](double done) { progress.tell(done, "of the simulations"); };
+  progress.watch(job);
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
-  if (stop_signal().load()) throw Stopped();
   Counted counted;
   counted.duration = scenario.duration;
   for (const MeasuredWorld& world : worlds) {

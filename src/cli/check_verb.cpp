@@ -8,7 +8,6 @@
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/lattice.hpp"
 
@@ -79,16 +78,12 @@ int check_verb(const Arguments& arguments) {
   job.lattice_runs = static_cast<int>(options.whole("lattice", 20, 0, 100000));
   job.lattice.attempts = options.whole("attempts", 20000, 1, 1000000000);
   job.lattice.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
-  job.lattice.stop = &stop_signal();
   RulesetCheck check;
   {
     Progress progress(options.has("quiet"));
-    job.progress = [&](double done) { progress.tell(done, "of the lattice simulations"); };
+    progress.watch(job);
     check = check_ruleset(input.rules, job);
     progress.clear();
-  }
-  if (stop_signal().load()) {
-    throw Stopped("stopped; lattice simulations are not kept, so the same command starts again");
   }
   ReportDocument report = check_report(input.rules, check);
   report.provenance = provenance("check", arguments, job.lattice.seed, input_files(options));

@@ -6,7 +6,6 @@
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/diagnosis.hpp"
 #ifdef LILYTANK_HAS_RENDER
@@ -67,9 +66,8 @@ int diagnose_verb(const Arguments& arguments) {
   job.seed = static_cast<std::uint64_t>(options.whole("seed", 1, 0, INT64_MAX));
   job.threads = static_cast<int>(options.whole("threads", 0, 0, 4096));
   job.force = options.has("force");
-  job.stop = &stop_signal();
   Progress progress(options.has("quiet"));
-  job.progress = [&](double done, const std::string& stage) { progress.tell(done, stage); };
+  progress.watch(job);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   Diagnosis found;

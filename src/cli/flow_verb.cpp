@@ -102,9 +102,10 @@ void measure_bias(const VerbOptions& options, const std::vector<Recording>& reco
   }
   if (smooth == nullptr) options.refuse("--bias needs --estimator smooth or both");
   Progress progress(options.has("quiet"));
-  report.bias =
-      measure_flow_bias(recordings, *smooth, report.ball, report.options, seed_of(options),
-                        [&](double done) { progress.tell(done, "of the biases"); });
+  JobControl control;
+  progress.watch(control);
+  report.bias = measure_flow_bias(recordings, *smooth, report.ball, report.options,
+                                  seed_of(options), control);
   progress.clear();
 }
 

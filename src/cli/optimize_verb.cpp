@@ -5,7 +5,6 @@
 #include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "lilytank/optimize.hpp"
@@ -61,7 +60,7 @@ OptimizationResult run_with_progress(const Optimization& what, OptimizationOptio
                                      bool quiet) {
   Progress progress(quiet);
   if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
-  job.progress = [&](double done, const std::string& note) { progress.tell(done, note); };
+  progress.watch(job);
   return run_optimization(what, job);
 }
 
@@ -71,15 +70,14 @@ int compare(const Optimization& what, const OptimizationResult& result,
   const Study study(result.compare, what.plan().sets);
   StudyOptions job;
   job.out = (fs::path(options.out) / "compare").string();
-  job.threads = options.threads, job.stop = options.stop, job.force = options.force;
+  job.threads = options.threads, job.force = options.force;
   Progress progress(quiet);
-  job.progress = [&](const StudyProgress& now) {
-    progress.tell(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
-                                std::to_string(now.left) + " left");
+  progress.watch(job);
+  job.progress = [&](double done, const std::string& note) {
+    progress.show(done, "comparing: " + note);
   };
   const StudyResult done = run_study(study, job);
   progress.clear();
-  if (done.stopped) throw Stopped();
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
   std::cout << report(stored, job.out) << std::flush;
@@ -119,7 +117,6 @@ int optimize_verb(const Arguments& arguments) {
   spare_read(options, files_of_search(job.out), what.source().inputs());
   check_search_directory(what.source(), job.out, job.force);
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
-  job.stop = &stop_signal();
   const bool quiet = options.has("quiet");
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;

@@ -1,8 +1,13 @@
 // How far a job is, on stderr: one line that changes on a terminal; elsewhere a plain line after 5
-// s and then one a minute.
+// s and then one every 30 s at least, whether or not the job reports anything.
 #pragma once
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
+
+#include "lilytank/job_control.hpp"
 
 namespace lilytank::cli {
 
@@ -13,17 +18,28 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `done` is the share done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
-  void tell(double done, const std::string& note);
+  /// Shows the job's progress, and stops the job on a signal. The job must not outlive this object.
+  void watch(JobControl& job);
+  /// `done` is the fraction done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
+  void show(double done, const std::string& note);
   /// Takes the changing line away, before other output.
   void clear();
 
  private:
-  std::string time_left(double done) const;
+  using Clock = std::chrono::steady_clock;
+  void print(Clock::time_point now);
+  void print_while_silent();
+  std::string time_left(Clock::time_point now) const;
+
   bool quiet_, terminal_;
+  std::mutex lock_;  ///< of all below
+  bool ended_ = false;
+  std::condition_variable end_;
+  double done_ = 0, first_done_ = -1;  ///< a resumed job begins in the middle
+  std::string note_ = "preparing";
   std::size_t shown_ = 0;  ///< characters of the changing line
-  std::chrono::steady_clock::time_point start_, last_line_;
-  double first_done_ = -1;
+  Clock::time_point start_, first_, next_line_;
+  std::thread clock_;
 };
 
 }  // namespace lilytank::cli

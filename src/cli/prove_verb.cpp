@@ -5,7 +5,6 @@
 
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
@@ -126,10 +125,7 @@ int prove_verb(const Arguments& arguments) {
   ProofOptions job = proof_options(options);
   const std::filesystem::path dir(job.diagnosis.out);
   Progress progress(options.has("quiet"));
-  job.diagnosis.stop = &stop_signal();
-  job.diagnosis.progress = [&](double done, const std::string& stage) {
-    progress.tell(done, stage);
-  };
+  progress.watch(job.diagnosis);
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
     std::cout << "ground truth recorded; its SHA-256: " << hash << std::endl;

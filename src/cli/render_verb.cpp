@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "io/units.hpp"
@@ -74,8 +73,7 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   const double at = options.number("at", run.trajectory.time.back(), 0, kLongest, "s");
   warn_if_seldom(options, run, film, at);
   Progress progress(options.has("quiet"));
-  film.stop = &stop_signal();
-  film.progress = [&](double done) { progress.tell(done, "of the film"); };
+  progress.watch(film);
   NamedContents pictures;
   std::vector<std::string> made;
   for (const char* name : {"png", "svg"}) {

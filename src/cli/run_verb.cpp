@@ -8,7 +8,6 @@
 #include "cli/point_bodies.hpp"
 #include "cli/progress.hpp"
 #include "cli/provenance.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/stored_poses.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/report.hpp"
@@ -60,8 +59,8 @@ void draw(const std::string& out, const ReportProvenance& origin, bool force, bo
   film.length = 35, film.style.size = 720;  // 10 MB at most; `lilytank render` draws larger ones
   std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
   Progress progress(quiet);
-  film.force = force, film.stop = &stop_signal();
-  film.progress = [&](double done) { progress.tell(done, "of the film"); };
+  film.force = force;
+  progress.watch(film);
   draw_film(stored, film, (fs::path(out) / "video.mp4").string());
   ReportDocument report = run_report(stored, out);
   report.provenance = origin;
@@ -86,11 +85,7 @@ int dry_run(const Scenario& scenario, const std::string& out, bool force) {
 RunResult run_with_progress(const Scenario& scenario, const RunOptions& base, bool quiet) {
   Progress progress(quiet);
   RunOptions options = base;
-  options.progress = [&](double done, double rate) {
-    char note[48];
-    std::snprintf(note, sizeof note, "%.0f times real time", rate);
-    progress.tell(done, note);
-  };
+  progress.watch(options);
   return run(scenario, options);
 }
 
@@ -109,10 +104,6 @@ void say_time(const RunResult& result, const std::string& out) {
 /// `film`: where the numbers come from, if the run is to be drawn.
 int finish(const Scenario& scenario, const RunResult& result, const std::string& out,
            const std::optional<ReportProvenance>& film, bool force, bool quiet) {
-  if (result.status == RunStatus::stopped) {
-    throw Stopped("stopped at " + without_rounding(result.time) + " s of " +
-                  shortest(scenario.duration) + " s; the same command resumes from there");
-  }
   if (!quiet) say_time(result, out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
@@ -154,7 +145,6 @@ int run_verb(const Arguments& arguments) {
   job.force = options.has("force");
   if (video && !job.force) check_pictures(job.out);
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
-  job.stop = &stop_signal();
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const RunResult result = run_with_progress(scenario, job, quiet);

@@ -1,15 +1,12 @@
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
 #include "cli/dry_run.hpp"
 #include "cli/progress.hpp"
-#include "cli/stop_signal.hpp"
 #include "cli/study_verb.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
-#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -64,23 +61,12 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
     std::cerr << plan_line(study.plan(), job) << "; " << runs << (runs == 1 ? " run" : " runs")
               << " to do\n";
   };
-  job.progress = [&](const StudyProgress& now) {
-    char note[120];
-    std::snprintf(note, sizeof note, "%d runs, %d left, %.3g simulations/s, %.3g simulated h/s%s%s",
-                  now.runs, now.left, now.worlds_per_second, now.hours_per_second,
-                  now.failed > 0 ? ", diverged: " : "",
-                  now.failed > 0 ? std::to_string(now.failed).c_str() : "");
-    progress.tell(now.done, note);
-  };
+  progress.watch(job);
   return run_study(study, job);
 }
 
 /// What to tell, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
-  if (result.stopped) {
-    throw Stopped("stopped after " + counted(result.runs, "run") +
-                  ", which are kept; the same command resumes the study");
-  }
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)
               << (result.waiting ? " has done what it can: " : " is done: ") << result.runs
@@ -126,7 +112,6 @@ int run_one(const Arguments& arguments) {
   job.force = options.has("force");
   spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
-  job.stop = &stop_signal();
   return finish(study.plan(), run_with_progress(study, job, options.has("quiet")), job);
 }
 

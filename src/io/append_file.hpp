@@ -25,6 +25,8 @@ class AppendFile {
 
   /// Throws InputError if the disk is full or fails.
   void append(std::string_view text);
+  /// Hands everything appended so far to the system, where a kill of the program does not lose it.
+  void hand_over();
   /// Everything appended so far is on the disk on return; returns the file's length in bytes.
   std::int64_t flush();
   /// Of everything handed over: up to date after flush(). Of the second constructor's files and new
@@ -32,7 +34,6 @@ class AppendFile {
   const FileDigest& digest() const { return digest_; }
 
  private:
-  void hand_over();
   std::string file_, waiting_;
   int descriptor_ = -1;
   std::int64_t length_ = 0;

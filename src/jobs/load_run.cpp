@@ -23,7 +23,7 @@ void read_metrics(const std::string& file, StoredRun& run) {
     throw InputError({file, 1, 1},
                      "the first line does not begin with \"" + std::string(first_columns) + "\"");
   }
-  CsvReader reader(text, file, {text.substr(0, text.find('\n'))}, true);
+  CsvReader reader(whole_lines(text), file, {text.substr(0, text.find('\n'))});
   while (reader.next()) {
     run.metrics_time.push_back(reader.number(0));
     run.metrics_copies.push_back(static_cast<int>(reader.whole(1, 0, 1 << 30)));

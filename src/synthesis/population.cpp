@@ -17,7 +17,7 @@ class Graph {
  public:
   Graph(const ReactionNetwork& network, std::vector<const Reaction*> reactions, std::int64_t limit)
       : network_(network), reactions_(std::move(reactions)), limit_(limit) {}
-  bool explore(int modules, const std::atomic<bool>* stop);
+  bool explore(int modules, const JobControl& control);
   std::int64_t states() const { return static_cast<std::int64_t>(states_.size()); }
   std::vector<EndState> ends() const;
 
@@ -40,14 +40,14 @@ int Graph::add(const Counts& counts) {
   return at->second;
 }
 
-// False if there are more states than the limit, or it was stopped.
-bool Graph::explore(int modules, const std::atomic<bool>* stop) {
+// False if there are more states than the limit.
+bool Graph::explore(int modules, const JobControl& control) {
   Counts start(network_.species.size(), u'\0');
   start[0] = static_cast<char16_t>(modules);
   add(start);
   for (std::size_t k = 0; k < states_.size(); ++k) {
     if (static_cast<std::int64_t>(states_.size()) > limit_) return false;
-    if (stop != nullptr && stop->load()) return false;
+    control.check_stop();
     const Counts now = *states_[k];
     for (const Reaction* reaction : reactions_) {
       Counts then = now;
@@ -150,7 +150,7 @@ std::vector<EndState> PopulationGraph::deadlocks() const {
 }
 
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
-                                 std::int64_t limit, const std::atomic<bool>* stop) {
+                                 std::int64_t limit, const JobControl& control) {
   if (modules < 1 || modules > std::numeric_limits<std::int16_t>::max())
     throw InputError("a population of " + std::to_string(modules) +
                      " modules: expected 1 .. 32767");
@@ -159,7 +159,7 @@ PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& ne
     if (rules.rules[static_cast<std::size_t>(reaction.rule)].p > 0) reactions.push_back(&reaction);
   Graph graph(network, std::move(reactions), limit);
   PopulationGraph result;
-  result.complete = graph.explore(modules, stop) && network.closed;
+  result.complete = graph.explore(modules, control) && network.closed;
   result.states = graph.states();
   if (!rules.target.empty()) result.possible = modules / static_cast<int>(rules.target.size());
   if (result.complete) result.ends = graph.ends();
