@@ -1,10 +1,9 @@
 #include "study/row_log.hpp"
 
-#include <filesystem>
-
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
+#include "jobs/job_directory.hpp"
 
 namespace lilytank {
 namespace {
@@ -12,9 +11,7 @@ constexpr double kBetweenSyncs = 0.5;  // s
 }  // namespace
 
 std::string RowLog::rows_in(const std::string& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return "";
-  return std::string(whole_lines(read_whole(file)));
+  return exists(file) ? std::string(whole_lines(read_whole(file))) : "";
 }
 
 RowLog::RowLog(const std::string& file, const std::string& head, std::string_view before,

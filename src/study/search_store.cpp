@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 constexpr const char* kMagic = "lilytank search run 2";
 constexpr double kBetweenCheckpoints = 2;  // s
 
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
-
 std::string header_of(const std::vector<std::string>& axes) {
   std::string out = "batch,trial,replicate";
   for (const std::string& axis : axes) out += "," + axis;

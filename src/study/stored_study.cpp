@@ -39,10 +39,8 @@ std::string table_line(const RunRow& row, const StudyPlan& plan, std::size_t tim
 }  // namespace
 
 StoredStudy load_study(const std::string& dir) {
-  namespace fs = std::filesystem;
-  const std::string file = (fs::path(dir) / study_file::plan).string();
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  const std::string file = (std::filesystem::path(dir) / study_file::plan).string();
+  if (!exists(file)) {
     throw InputError("'" + dir + "' is not the directory of a study: it has no study.toml");
   }
   return load_study(dir, read_plan(file));

@@ -65,8 +65,7 @@ std::string file_in(const std::string& dir, const std::string& name) {
 /// The study that a directory says to be of, if it says so.
 std::optional<StudyPlan> plan_in(const std::string& dir) {
   const std::string file = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return std::nullopt;
+  if (!exists(file)) return std::nullopt;
   return read_plan(file);
 }
 
@@ -130,15 +129,13 @@ std::vector<std::string> files_of_study(const std::string& dir) {
   std::vector<std::string> files =
       files_that(dir, [](const std::string& name) { return is_rows(name) || is_made(name); });
   const std::string plan = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (fs::exists(plan, ignored) && is_plan(read_whole(plan))) files.push_back(plan);
+  if (exists(plan) && is_plan(read_whole(plan))) files.push_back(plan);
   return files;
 }
 
 void spare_study_file(const std::string& dir) {
   const std::string file = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (!fs::exists(file, ignored) || is_plan(read_whole(file))) return;
+  if (!exists(file) || is_plan(read_whole(file))) return;
   throw InputError("'" + file +
                    "' is not of a study's results and would be overwritten; choose "
                    "another --out");
@@ -179,7 +176,7 @@ std::string claim_rows_file(const std::string& dir) {
 
 void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
   std::error_code ignored;
-  if (fs::exists(dir, ignored) && !fs::is_directory(dir, ignored)) {
+  if (exists(dir) && !fs::is_directory(dir, ignored)) {
     throw InputError("'" + dir + "' is a file; the results need a directory");
   }
   spare_study_file(dir);
