@@ -62,8 +62,8 @@ layer() {
 }
 
 only_in 'src/study/' '#include <(tbb|oneapi)/' 'TBB belongs to src/study'
-only_in 'src/study/' '#include <(thread|future|mutex|condition_variable|execution)>' \
-  'threads belong to src/study'
+only_in 'src/study/|src/cli/progress\.' '#include <(thread|future|mutex|condition_variable|execution)>' \
+  'threads belong to src/study and src/cli/progress'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
 only_in 'src/statistics/quantiles.cpp' '#include <boost/' 'Boost.Math belongs to src/statistics/quantiles.cpp'
@@ -81,7 +81,7 @@ forbid "(std::|::|[^_.>:[:alnum:]])$functions\(" \
   'bits of libm differ between machines: use lilytank/math.hpp' "${steady[@]}" include/lilytank/math.hpp
 forbid '#include <(chrono|ctime|time\.h|unordered_map|unordered_set|iostream)>' \
   'no clock, no hashed order and no console in what steps a world or a search' "${steady[@]}"
-home text error
+home text error job_control
 home math math random
 home model effect event flow_field force model ruleset state
 home world start world

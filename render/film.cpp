@@ -54,12 +54,12 @@ Schedule schedule(const StoredRun& run, const FilmOptions& options) {
   return s;
 }
 
-void check_stop(const FilmOptions& options) {
-  if (options.stop && options.stop->load()) throw Stopped("stopped while drawing");
+void check_drawing(const JobControl& control) {
+  if (control.stop_requested()) throw Stopped("stopped while drawing");
 }
 
-void report(const FilmOptions& options, int done, int frames) {
-  if (options.progress) options.progress(static_cast<double>(done) / frames);
+void report_frames(const JobControl& control, int done, int frames) {
+  control.report(static_cast<double>(done) / frames, "of the film");
 }
 
 bool is_gif(const std::string& file) {
@@ -138,14 +138,14 @@ void draw_film(const StoredRun& run, const FilmOptions& options, const std::stri
   Ffmpeg ffmpeg({raster.width(), raster.height(), options.fps, gif, palette, mark},
                 unfinished.name());
   for (int k = 0; k < palette; ++k) {
-    check_stop(options);  // ffmpeg and the file go away
+    check_drawing(options);  // ffmpeg and the file go away
     const double share = palette > 1 ? static_cast<double>(k) / (palette - 1) : 0;
     ffmpeg.send(raster.draw(when.time(static_cast<int>(share * (when.frames - 1)))).pixels());
   }
   for (int k = 0; k < when.frames; ++k) {
-    check_stop(options);
+    check_drawing(options);
     ffmpeg.send(raster.draw(when.time(k)).pixels());
-    report(options, k + 1, when.frames);
+    report_frames(options, k + 1, when.frames);
   }
   ffmpeg.finish();
   unfinished.complete();
@@ -176,9 +176,9 @@ void draw_stills(const StoredRun& run, const FilmOptions& options, const std::st
   }
   make_directory(dir);
   for (int k = 0; k < when.frames; ++k) {
-    check_stop(options);
+    check_drawing(options);
     write_atomically((fs::path(dir) / still_name(k)).string(), raster.draw(when.time(k)).encoded());
-    report(options, k + 1, when.frames);
+    report_frames(options, k + 1, when.frames);
   }
 }
 

@@ -59,9 +59,8 @@ bool is_body_experiment(const std::string& file);
 /// Reads an experiment and its tables. Throws InputError with file, line, column and value.
 BodyExperiment load_body_experiment(const std::string& file);
 
-/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`; nothing if
-/// it was stopped. `minutes` scales the simulated baselines; hold_out does not count. Throws
-/// InputError.
+/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. `minutes`
+/// scales the simulated baselines; hold_out does not count. Throws Stopped and InputError.
 Diagnosis diagnose_bodies(const BodyExperiment& experiment, const DiagnosisOptions& options);
 
 }  // namespace lilytank

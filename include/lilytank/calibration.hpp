@@ -6,9 +6,7 @@
 // A search finds the region, response surfaces (response_surface.hpp) the estimate, and experiments
 // simulated at the estimate and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +18,7 @@
 #include "lilytank/emulator.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_maps.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/motion_summary.hpp"
 #include "lilytank/report.hpp"
 #include "lilytank/search.hpp"
@@ -71,7 +70,7 @@ CalibrationFlow flow_named(const std::string& word);
 std::string name_of(CalibrationFlow flow);
 
 /// Settings of a calibration. The defaults are those whose coverage docs/calibration.md reports.
-struct CalibrationOptions {
+struct CalibrationOptions : JobControl {
   BodyKind body = BodyKind::lily;
   CalibrationObjective objective = CalibrationObjective::summary;
   CalibrationFlow flow = CalibrationFlow::smooth;
@@ -221,8 +220,8 @@ struct CalibrationResult {
   std::vector<std::vector<double>> replicate_estimates;
 };
 
-/// Carries a calibration through, or goes on with one that was stopped in `options.out`. Nothing if
-/// it was stopped. Throws InputError if the experiment has no recordings of the body, the directory
+/// Carries a calibration through, or goes on with one that was stopped in `options.out`. Throws
+/// Stopped, and InputError if the experiment has no recordings of the body, the directory
 /// holds another calibration, or the model diverges wherever it is tried.
 CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options);
 
@@ -249,8 +248,6 @@ class CalibrationSearch {
 
 /// The report, without its provenance.
 ReportDocument calibration_report(const CalibrationResult& calibration);
-/// The same document as text.
-std::string calibration_text(const CalibrationResult& calibration);
 /// Writes calibration.txt (the report), calibration.json, calibrated.toml (an overlay that `run`
 /// takes), history.csv, rounds.csv, intervals.csv, correlation.csv, profiles.csv, numbers.csv, and
 /// where they are known flow.csv, msd.csv and velocity.csv. Returns the files' names. Throws

@@ -1,10 +1,8 @@
 // What physics a model leaves out: where simulation and recordings differ, which effect it is, the
 // effect's size, and how much of the difference it removes. docs/diagnosis.md.
 #pragma once
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,13 +11,14 @@
 #include "lilytank/coverage.hpp"
 #include "lilytank/diagnosis_subject.hpp"
 #include "lilytank/experiment.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/report.hpp"
 
 namespace lilytank {
 
 class DirectoryLock;
 
-struct DiagnosisOptions {
+struct DiagnosisOptions : JobControl {
   int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
   double minutes = 10;  ///< time budget on two cores: scales the simulations
   /// Go on with recordings that do not meet the requirements (coverage.hpp); error rates are then
@@ -34,8 +33,6 @@ struct DiagnosisOptions {
   /// with the call.
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
   int threads = 0;
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(double done, const std::string& stage)> progress;
 };
 
 enum class Verdict : std::uint8_t {
@@ -138,8 +135,8 @@ struct Diagnosis {
   double removed() const;
 };
 
-/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. Nothing if
-/// it was stopped. Throws InputError.
+/// Carries a diagnosis through, or goes on with one that was stopped in `options.out`. Throws
+/// Stopped and InputError.
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options);
 
 /// An earlier diagnosis in the same tank: its flow map, baseline, null experiments and fingerprints

@@ -1,7 +1,6 @@
 // The results of `lilytank flow`: estimates side by side, their errors where the truth is known,
 // and their biases measured on synthetic recordings.
 #pragma once
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "lilytank/coverage.hpp"
 #include "lilytank/flow_estimate.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/report.hpp"
 
 namespace lilytank {
@@ -39,12 +39,12 @@ struct FlowReport {
 /// Simulates recordings like those given (bodies, frames, rate) in the flow of a smooth estimate,
 /// with its noise budget, and extracts the flow from them again: as recorded, and with one cause of
 /// error after the other left out. The truth of each row is the simulated field. Recordings that
-/// are too short for an estimate leave its row without an error. `progress` is called with the
-/// share done. Throws InputError if the estimate has no noise budget.
+/// are too short for an estimate leave its row without an error. Throws InputError if the estimate
+/// has no noise budget.
 std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
                                            const FlowEstimate& smooth, const BallPhysics& ball,
                                            const FlowOptions& options, std::uint64_t seed,
-                                           const std::function<void(double)>& progress = {});
+                                           const JobControl& control = {});
 
 /// Number of the grid's cells whose centres lie in the tank.
 int cells_in_tank(const FlowEstimate& estimate);

@@ -4,9 +4,7 @@
 // The model knows assemblies by species and nothing of where they are: every pair of two species
 // docks at one constant rate, every bond is evaluated at one constant rate.
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -101,9 +99,9 @@ struct MeasuredWorld {
   /// Ended early, by the signal or by a divergence; the counts are valid up to then.
   bool stopped = false, diverged = false;
 };
-/// Runs one world of `model` (which must have one ruleset) for `duration` (s).
+/// Runs one world of `model` (which must have one ruleset) for `duration` (s). Throws Stopped.
 MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double duration,
-                            const std::atomic<bool>* stop = nullptr);
+                            const JobControl& control = {});
 /// A measured world as text, to be kept: the table with rows `scenario` (its identity) and `copy`
 /// (k, time). Reads back the same; throws InputError, also if it is of another scenario.
 std::string to_csv(const MeasuredWorld& world, std::uint64_t identity);

@@ -6,14 +6,13 @@
 //  - the population graph: every state of M modules, where it can lead and where it cannot leave;
 //  - the lattice world: M modules that meet at random, as a Monte Carlo.
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/report.hpp"
 #include "lilytank/ruleset.hpp"
 
@@ -74,10 +73,9 @@ struct PopulationGraph {
   std::vector<EndState> deadlocks() const;
 };
 /// All states that `modules` single modules can come to, and where they end. Rules with p = 0 do
-/// not fire, those with any p > 0 will at some time. Not complete if `stop` is set meanwhile.
+/// not fire, those with any p > 0 will at some time. Throws Stopped.
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
-                                 std::int64_t limit = 200000,
-                                 const std::atomic<bool>* stop = nullptr);
+                                 std::int64_t limit = 200000, const JobControl& control = {});
 
 /// The smallest assembly that its rules cannot take apart any more; 0 if there is none.
 int first_irreversible_size(const Ruleset& rules, const ReactionNetwork& network);
@@ -90,7 +88,7 @@ bool deadlock_risk(int modules, int irreversible_size, int target_size);
 bool serial_deadlock(int modules, int irreversible_size, int target_size);
 
 /// One run of the Monte Carlo.
-struct LatticeOptions {
+struct LatticeOptions : JobControl {
   int modules = 15;
   std::int64_t attempts = 100000;  ///< meetings of two assemblies; ends before that at full yield
   double evaluations = 0.2;  ///< mean number of evaluations of every bond per attempt, at most 1
@@ -136,11 +134,10 @@ struct RulesetCheck {
   std::vector<std::string> faults, notes;
 };
 /// What `lilytank check` computes.
-struct CheckOptions {
+struct CheckOptions : JobControl {
   int modules = 15;
   int lattice_runs = 0;  ///< Monte Carlo runs, with seeds derived from lattice.seed; 0: none
   LatticeOptions lattice;
-  std::function<void(double done)> progress;
 };
 /// Runs every check that the options ask for. A ruleset with faults is a result, not an error.
 RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options = {});

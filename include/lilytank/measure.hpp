@@ -1,11 +1,10 @@
 // Rates counted in many worlds at once, each kept on the disk as soon as it is done.
 #pragma once
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "lilytank/job_control.hpp"
 #include "lilytank/kinetics.hpp"
 
 namespace lilytank {
@@ -24,7 +23,7 @@ struct MeasureOptions {
   std::function<void(double done)> progress;
 };
 /// The worlds in their order, those that are in `out` already read from there; the result does not
-/// depend on threads or interruptions. Stopped worlds have `stopped` set. Throws InputError.
+/// depend on threads or interruptions. Throws Stopped and InputError.
 std::vector<MeasuredWorld> measure_worlds(const Model& model, const MeasureOptions& options);
 
 }  // namespace lilytank

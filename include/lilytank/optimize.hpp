@@ -8,13 +8,12 @@
 // alone, a function of when the copies of the target came to stand, so a world ends as soon as all
 // that are possible have. File format, methods and measurements: docs/optimization.md.
 #pragma once
-#include <atomic>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "lilytank/job_control.hpp"
 #include "lilytank/report.hpp"
 #include "lilytank/scenario.hpp"
 #include "lilytank/search.hpp"
@@ -53,9 +52,7 @@ double fitness_of(const FitnessRule& rule, const std::vector<double>& completion
                   double horizon);
 /// Unit of a fitness: "s", "copies s" or "1".
 std::string fitness_unit(Fitness fitness);
-/// From "eq10", ... Throws InputError that names the nearest valid word.
-Fitness fitness_named(const std::string& word);
-/// Inverse of fitness_named().
+/// "eq10", "yield_area", ...
 std::string name_of(Fitness fitness);
 /// All names, in the order of the enumeration.
 std::vector<std::string> fitness_names();
@@ -130,8 +127,8 @@ class Optimization {
   const OptimizationPlan& plan() const;
   /// The scenario at a point of plan().space, with run.seed = 0.
   Scenario scenario(const std::vector<double>& point) const;
-  /// The fitness of one world; +infinity if it diverges; nothing if `stop` was set.
-  std::optional<double> evaluate(const Trial& trial, const std::atomic<bool>* stop = nullptr) const;
+  /// The fitness of one world; +infinity if it diverges. Throws Stopped.
+  double evaluate(const Trial& trial, const JobControl& control = {}) const;
   /// A new search over plan().space.
   std::unique_ptr<Search> search() const;
   /// A point as an overlay for `lilytank run`, and the rulesets that it names: the first file is
@@ -150,7 +147,7 @@ class Optimization {
 };
 
 /// Where the optimisation is kept, and how it runs.
-struct OptimizationOptions {
+struct OptimizationOptions : JobControl {
   std::string out;  ///< directory, made if absent
   /// Simulations at a time; 0: one per core.
   int threads = 0;
@@ -159,10 +156,6 @@ struct OptimizationOptions {
   /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
   /// with the call.
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
-  /// Set by a signal: running simulations are abandoned, finished ones are kept.
-  const std::atomic<bool>* stop = nullptr;
-  /// Called by one thread at a time: share done, and words such as "round 2 of 4, best 3100 s".
-  std::function<void(double done, const std::string& note)> progress;
 };
 
 /// What was found, and how the search got there.

@@ -8,6 +8,7 @@
 #include "lilytank/calibration.hpp"
 #include "lilytank/diagnosis.hpp"
 #include "lilytank/flow_report.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/proof.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/search.hpp"
@@ -39,7 +40,7 @@ std::string frame_picture(const StoredRun& run, double time, const FrameStyle& s
                           const std::string& file);
 
 /// Which part of a run is filmed, and how fast.
-struct FilmOptions {
+struct FilmOptions : JobControl {
   /// Simulated time that is filmed, s; to < 0: up to the end.
   double from = 0, to = -1;
   /// Frames per second of the film.
@@ -51,8 +52,6 @@ struct FilmOptions {
   FrameStyle style;
   /// Replace files that are not this film or its frames.
   bool force = true;
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(double done)> progress;
 };
 /// Throws InputError if ffmpeg, which films need, is not in PATH. Call it before long work.
 void require_film_program();

@@ -1,11 +1,10 @@
 // One world from a scenario to files: the job behind `lilytank run`.
 #pragma once
-#include <atomic>
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "lilytank/assembly_record.hpp"
+#include "lilytank/job_control.hpp"
 #include "lilytank/report.hpp"
 #include "lilytank/scenario.hpp"
 
@@ -14,7 +13,7 @@ namespace lilytank {
 class DirectoryLock;
 
 /// Where a run is kept, and how it is interrupted.
-struct RunOptions {
+struct RunOptions : JobControl {
   /// Directory, made if absent; empty: nothing is written.
   std::string out;
   /// Replace another run's files.
@@ -22,19 +21,13 @@ struct RunOptions {
   /// Receives the lock of the directory, for a caller who writes more there; null: the lock ends
   /// with the call.
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
-  /// Set by a signal: the run ends after the current step with a checkpoint; a later call continues
-  /// it.
-  const std::atomic<bool>* stop = nullptr;
-  /// Called at most five times a second: fraction of the duration done, and simulated seconds per
-  /// second of wall time.
-  std::function<void(double done, double rate)> progress;
   /// Wall time between checkpoints, s. A kill loses no more than this.
   double checkpoint_seconds = 20;
 };
 
 /// How a run ended.
 struct RunResult {
-  /// ok, diverged (`divergence` says why) or stopped.
+  /// ok or diverged (`divergence` says why).
   RunStatus status = RunStatus::ok;
   /// Simulated time reached, s.
   double time = 0;
@@ -54,7 +47,8 @@ struct RunResult {
 };
 
 /// Runs a scenario, or goes on with an interrupted run of the same scenario found in `out` and
-/// ends in the same files, byte for byte. Throws InputError if `out` holds another run.
+/// ends in the same files, byte for byte. Throws Stopped after a step and its checkpoint,
+/// InputError if `out` holds another run.
 RunResult run(const Scenario& scenario, const RunOptions& options);
 
 /// What `lilytank run` left in a directory, for rendering and analysis.

@@ -5,35 +5,22 @@
 // iteration), search.state (the checkpoint). After a kill at any moment the same call goes on, and
 // all three files end with the bytes that an uninterrupted run would have given them.
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
+#include "lilytank/job_control.hpp"
 #include "lilytank/search.hpp"
 
 namespace lilytank {
 
-/// The value of a trial, lower is better, a function of the trial alone; nothing if it was given up
-/// because of the stop signal. Called from several threads at once; what it throws ends the search.
-using Objective = std::function<std::optional<double>(const Trial&)>;
-
-/// How far a search has come.
-struct SearchProgress {
-  /// Fraction of the budget spent.
-  double done = 0;
-  std::int64_t evaluations = 0;  ///< so far, all calls together
-  /// Iterations that are over.
-  int iteration = 0;
-  /// The incumbent's mean; NaN before the first batch.
-  double best = 0;
-  double evaluations_per_second = 0;  ///< in this call, of wall time
-};
+/// The value of a trial, lower is better, a function of the trial alone. Called from several
+/// threads at once; what it throws ends the search.
+using Objective = std::function<double(const Trial&)>;
 
 /// Where a search is kept, and how many evaluations run at once.
-struct SearchRunOptions {
+struct SearchRunOptions : JobControl {
   /// Output directory, made if absent.
   std::string dir;
   /// Says what is searched: objective, data, settings, in any words. The search's own space,
@@ -45,10 +32,6 @@ struct SearchRunOptions {
   bool locked = false;
   /// Evaluations at a time; 0: one a core.
   int threads = 0;
-  /// Set by a signal: evaluations under way are abandoned, finished ones are kept.
-  const std::atomic<bool>* stop = nullptr;
-  /// Called by one thread at a time.
-  std::function<void(const SearchProgress&)> progress;
 };
 
 /// The search after the call.

@@ -4,7 +4,6 @@
 // A world is never split over threads, and a row is a function of its scenario and its seed, so the
 // table does not depend on threads, shards, order or interruptions.
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "lilytank/job_control.hpp"
 #include "lilytank/scenario.hpp"
 #include "lilytank/statistics.hpp"
 #include "lilytank/study_table.hpp"
@@ -19,8 +19,10 @@
 namespace lilytank {
 
 /// Calls work(i) once for each i in [0, count), up to `threads` at a time (0: one a core), in no
-/// particular order. An exception of work is thrown on after the rest have ended.
-void for_each_world(int count, int threads, const std::function<void(int)>& work);
+/// particular order. After an exception of work no further one is begun; it is thrown on once the
+/// rest have ended. So is Stopped where `control` is stopped before the last one is begun.
+void for_each_world(int count, int threads, const std::function<void(int)>& work,
+                    const JobControl& control = {});
 
 /// Replicates are added in rounds until the half width of a metric's 95 % confidence interval is at
 /// most this. A decision after m replicates looks at replicates 0 .. m-1 of its setting and at
@@ -118,40 +120,20 @@ Shard shard_from(const std::string& text);
 /// environment, null where there is none. Throws InputError if what it finds makes no sense.
 Shard shard_of_environment(const std::function<const char*(const char*)>& variable);
 
-/// How far a call of run_study() has come.
-struct StudyProgress {
-  /// Share of the simulated time that is to be done now.
-  double done = 0;
-  /// Runs finished in this call, and those of them that diverged.
-  int runs = 0, failed = 0;
-  /// Runs still to do in this call.
-  int left = 0;
-  /// Runs per second of wall time, in this call.
-  double worlds_per_second = 0;
-  /// Simulated hours per second of wall time.
-  double hours_per_second = 0;
-};
-
 /// Where a study is kept, and which part of it runs here.
-struct StudyOptions {
+struct StudyOptions : JobControl {
   std::string out;  ///< directory, made if absent
   Shard shard;
   /// Simulations at a time; 0: one per core.
   int threads = 0;
   /// Replace another study's files.
   bool force = false;
-  /// Set by a signal: running worlds are abandoned.
-  const std::atomic<bool>* stop = nullptr;
   /// Called once everything is checked, with how many runs are to be done now, before any is.
   std::function<void(int runs)> begin;
-  /// Called by one thread at a time.
-  std::function<void(const StudyProgress&)> progress;
 };
 
 /// How a call of run_study() ended.
 struct StudyResult {
-  /// Ended by the stop signal.
-  bool stopped = false;
   /// All runs of all shards are there.
   bool complete = false;
   /// The stopping rule needs other shards' rows before more can be run here.
@@ -161,8 +143,9 @@ struct StudyResult {
   int failed = 0;
 };
 
-/// Does what is missing of a study, or of a shard of it. Throws InputError if a world cannot be set
-/// up, or if `out` holds another study, a run, or files that would be overwritten, and not `force`.
+/// Does what is missing of a study, or of a shard of it. Throws Stopped, InputError if a world
+/// cannot be set up, or if `out` holds another study, a run, or files that would be overwritten,
+/// and not `force`.
 StudyResult run_study(const Study& study, const StudyOptions& options);
 
 /// What a study's directory holds.

@@ -62,7 +62,7 @@ class Trials {
   Trials(const BodyExperiment& e, const DiagnosisOptions& options, Comparison& c)
       : experiment_(e), options_(options), c_(c) {}
   void run() {
-    report(0.01, "baseline");
+    options_.report(0.01, "baseline");
     c_.baseline = fit_baseline(experiment_, c_.groups);
     if (!c_.baseline.failure.empty())
       throw InputError("experiment " + experiment_.name + ": " + c_.baseline.failure);
@@ -72,13 +72,6 @@ class Trials {
   }
 
  private:
-  void report(double done, const std::string& stage) const {
-    if (options_.progress) options_.progress(done, stage);
-  }
-  void check_stop() const {
-    if (options_.stop != nullptr && options_.stop->load()) throw Stopped();
-  }
-
   // A law without a fit is not compared with any other.
   void keep(LawTrial trial, std::vector<LawTrial>& to) {
     if (trial.failure.empty())
@@ -93,8 +86,8 @@ class Trials {
       throw InputError("the baseline has every law that these recordings can have");
     }
     for (const Candidate& law : laws) {
-      check_stop();
-      report(
+      options_.check_stop();
+      options_.report(
           0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
           law.name());
       keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
@@ -109,9 +102,10 @@ class Trials {
   void pairs() {
     const auto pairs = pairs_of(c_.singles);
     for (const auto& [from, pair] : pairs) {
-      check_stop();
-      report(0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
-             pair.name());
+      options_.check_stop();
+      options_.report(
+          0.3 + 0.3 * static_cast<double>(c_.pairs.size()) / static_cast<double>(pairs.size()),
+          pair.name());
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     largest_first(c_.pairs, &LawTrial::gain);
@@ -119,7 +113,7 @@ class Trials {
     if (experiment_.runs.size() < 4) return;
     for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
       for (std::size_t k = 0; k < all->size() && k < 6; ++k) {
-        check_stop();
+        options_.check_stop();
         fit_run_bias(c_.groups, (*all)[k]);
       }
     }

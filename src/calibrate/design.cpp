@@ -69,6 +69,14 @@ Design design_of(const Matrix& points, const std::vector<std::vector<double>>& r
   return out;
 }
 
+Design joined(const Design& above, const Design& below) {
+  const Eigen::Index n = above.points.rows() + below.points.rows();
+  Design out{Matrix(n, above.points.cols()), Matrix(n, above.numbers.cols())};
+  out.points << above.points, below.points;
+  out.numbers << above.numbers, below.numbers;
+  return out;
+}
+
 Design without_fold(const Design& design, int fold, int folds) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < design.points.rows(); ++i) {

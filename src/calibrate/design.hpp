@@ -21,6 +21,9 @@ Eigen::MatrixXd spread_of(const Eigen::MatrixXd& covariance, double errors,
 /// left out. Throws InputError if these are more than half.
 Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<double>>& rows);
 
+/// The rows of both, one below the other.
+Design joined(const Design& above, const Design& below);
+
 /// All rows but those of one fold, which are every `folds`-th from `fold` on.
 Design without_fold(const Design& design, int fold, int folds);
 

@@ -43,10 +43,8 @@ struct Replicates {
 // Cross-fitted, over all simulations about the estimate. The regression of their estimates on the
 // truth corrects the bias by noise in the slopes.
 Replicates by_others(const LocalAnswer& answer, Design made, const Vector& observed) {
-  const Eigen::Index n = made.points.rows(), before = answer.design.points.rows();
-  Design all{Matrix(before + n, made.points.cols()), Matrix(before + n, observed.size())};
-  all.points << answer.design.points, made.points;
-  all.numbers << answer.design.numbers, made.numbers;
+  const Eigen::Index n = made.points.rows();
+  const Design all = joined(answer.design, made);
   const CrossFit fit = cross_fit(all, observed, Misfit::covariance, Slopes::found);
   const BiasCorrectedFit corrected = bias_corrected(all, fit, kLeastSlope);
   return {std::move(made),      corrected.errors.bottomRows(n),

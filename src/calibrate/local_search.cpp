@@ -33,42 +33,22 @@ constexpr std::uint64_t kRoundSeed = 1000;
 // All simulations so far, without diverged worlds.
 class Simulated {
  public:
-  void add(const Matrix& points, std::vector<std::vector<double>> rows) {
-    std::size_t lost = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].empty()) {
-        ++lost;
-      } else {
-        points_.push_back(points.row(static_cast<Eigen::Index>(i)));
-        rows_.push_back(std::move(rows[i]));
-      }
-    }
-    if (2 * lost > rows.size()) {
-      throw InputError("more than half of the simulations about the search's answer diverged");
-    }
+  void add(const Matrix& points, const std::vector<std::vector<double>>& rows) {
+    Design more = design_of(points, rows);
+    all_ = all_ ? joined(*all_, more) : std::move(more);
   }
   // Simulations near a centre, of any round.
   Design near(const Vector& centre, const Matrix& spread) const {
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Vector z = solve_lower(spread, points_[i] - centre);
+    std::vector<Eigen::Index> chosen;
+    for (Eigen::Index i = 0; i < all_->points.rows(); ++i) {
+      const Vector z = solve_lower(spread, all_->points.row(i).transpose() - centre);
       if (z.norm() < kNear * std::sqrt(static_cast<double>(z.size()))) chosen.push_back(i);
     }
-    Design out;
-    const auto n = static_cast<Eigen::Index>(chosen.size());
-    out.points.resize(n, centre.size());
-    out.numbers.resize(n, static_cast<Eigen::Index>(rows_.front().size()));
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const std::size_t from = chosen[static_cast<std::size_t>(i)];
-      out.points.row(i) = points_[from];
-      out.numbers.row(i) = Eigen::Map<const Vector>(rows_[from].data(), out.numbers.cols());
-    }
-    return out;
+    return {all_->points(chosen, Eigen::all), all_->numbers(chosen, Eigen::all)};
   }
 
  private:
-  std::vector<Vector> points_;
-  std::vector<std::vector<double>> rows_;
+  std::optional<Design> all_;
 };
 
 struct Phase {

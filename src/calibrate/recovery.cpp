@@ -83,7 +83,8 @@ std::vector<RecoveryRow> recover(const Scenario& scenario, const RecoveryOptions
   const std::vector<FitParameter> parameters = options.calibration.parameters.empty()
                                                    ? standard_parameters(BodyKind::lily)
                                                    : options.calibration.parameters;
-  int drawn = 0;
+  const double calibrations = options.experiments * static_cast<double>(options.objectives.size());
+  int drawn = 0, calibrated = 0;
   for (int k = 0; k < options.experiments; ++k) {
     std::optional<Synthetic> made;
     while (!made) {
@@ -98,12 +99,11 @@ std::vector<RecoveryRow> recover(const Scenario& scenario, const RecoveryOptions
       const std::string name = std::to_string(k + 1) + "-" + name_of(objective);
       if (!one.out.empty()) one.out = (std::filesystem::path(one.out) / name).string();
       one.progress = [&](double done, const std::string& stage) {
-        if (!options.calibration.progress) return;
-        options.calibration.progress((static_cast<double>(k)) / options.experiments,
-                                     "experiment " + name + ", " + stage + " " +
-                                         std::to_string(static_cast<int>(100 * done)) + " %");
+        options.calibration.report((calibrated + done) / calibrations,
+                                   "experiment " + name + ", " + stage);
       };
       const CalibrationResult found = calibrate(made->experiment, one);
+      ++calibrated;
       if (!one.out.empty()) write_calibration(found, calibration_report(found), one.out);
       for (std::size_t i = 0; i < parameters.size(); ++i) {
         const CalibratedParameter& p = found.parameters[i];

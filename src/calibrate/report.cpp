@@ -117,8 +117,4 @@ ReportDocument calibration_report(const CalibrationResult& c) {
   return report;
 }
 
-std::string calibration_text(const CalibrationResult& c) {
-  return report_text(calibration_report(c));
-}
-
 }  // namespace lilytank

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFlowCost = 3;  // of simulating balls and extracting, in simulated experiments
+// Of simulating balls and extracting, in simulated experiments; 24 with the experiment of the tour.
+constexpr double kFlowCost = 20;
 constexpr double kRoundsExpected = 3, kRoughExpected = 4, kNearestExpected = 2;
 constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
 
@@ -72,8 +73,8 @@ std::vector<std::vector<double>> Stages::rows(const std::string& stage, int coun
   KeptRows kept;
   kept.file = file(stage), kept.identity = setup_.identity;
   kept.threads = setup_.options.threads, kept.stop = setup_.options.stop;
-  kept.progress = [&](int done, int all) {
-    tell(spent_ + cost * done, stage + ", " + std::to_string(done) + " of " + std::to_string(all));
+  kept.progress = [&](double done, const std::string& note) {
+    tell(spent_ + cost * count * done, stage + ", " + note);
   };
   auto out = kept_rows(kept, count, work);
   spent_ += cost * count;
@@ -82,8 +83,7 @@ std::vector<std::vector<double>> Stages::rows(const std::string& stage, int coun
 
 // The progress stays below 1 where rounds exceed the expected number.
 void Stages::tell(double spent, const std::string& stage) const {
-  if (!setup_.options.progress) return;
-  setup_.options.progress(std::min(0.98, spent / expected_), stage);
+  setup_.options.report(std::min(0.98, spent / expected_), stage);
 }
 
 FlowMaps Stages::flow_maps() {
@@ -118,7 +118,7 @@ FlowMaps Stages::flow_maps() {
 std::vector<double> Stages::search(CalibrationResult& out) {
   const CalibrationSearch objective(setup_);
   std::unique_ptr<Search> search = make_search(setup_, objective.space());
-  const auto value = [&](const Trial& trial) { return std::optional(objective.value(trial)); };
+  const auto value = [&](const Trial& trial) { return objective.value(trial); };
   if (setup_.options.out.empty()) {
     for (auto trials = search->ask(); !trials.empty(); trials = search->ask()) {
       std::vector<double> values;
@@ -137,10 +137,8 @@ std::vector<double> Stages::search(CalibrationResult& out) {
     run.dir = (fs::path(setup_.options.out) / "work" / "search").string();
     run.identity = "calibration " + hex(setup_.identity), run.force = setup_.options.force;
     run.threads = setup_.options.threads, run.stop = setup_.options.stop;
-    run.progress = [&](const SearchProgress& now) {
-      char note[80];
-      std::snprintf(note, sizeof note, "search, best fitness %.4g", now.best);
-      tell(spent_ + search_cost_ * now.done, note);
+    run.progress = [&](double done, const std::string& note) {
+      tell(spent_ + search_cost_ * done, "search, " + note);
     };
     search = run_search(std::move(search), value, run).search;
   }

@@ -123,7 +123,6 @@ Counted measure(const CheckJob& of, const CheckInput& input, const std::string& 
   job.progress = [&](double done) { progress.show(done, "of the simulations"); };
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
-  if (stop_signal().load()) throw Stopped();
   Counted counted;
   counted.duration = scenario.duration;
   for (const MeasuredWorld& world : worlds) {

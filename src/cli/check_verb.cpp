@@ -88,9 +88,6 @@ int check_verb(const Arguments& arguments) {
     check = check_ruleset(input.rules, job.check);
     progress.clear();
   }
-  if (stop_signal().load()) {
-    throw Stopped("stopped; lattice simulations are not kept, so the same command starts again");
-  }
   ReportDocument report = check_report(input.rules, check);
   report.provenance = provenance("check", arguments, job.measured.seed, input_files(job));
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));

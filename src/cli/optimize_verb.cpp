@@ -67,7 +67,7 @@ int compare(const Optimization& what, const OptimizationResult& result,
   const Study study(result.compare, what.plan().sets);
   StudyOptions job;
   job.out = (fs::path(options.out) / "compare").string();
-  job.threads = options.threads, job.stop = options.stop, job.force = options.force;
+  job.threads = options.threads, job.force = options.force;
   Progress progress(quiet);
   job.progress = [&](const StudyProgress& now) {
     progress.show(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
@@ -75,7 +75,6 @@ int compare(const Optimization& what, const OptimizationResult& result,
   };
   const StudyResult done = run_study(study, job);
   progress.clear();
-  if (done.stopped) throw Stopped();
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
   std::cout << report(stored, job.out) << std::flush;

@@ -5,13 +5,19 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <system_error>
+
+#include "cli/stop_signal.hpp"
+#include "text/printable.hpp"
 
 namespace lilytank::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr auto kFirstLine = std::chrono::seconds(5);
-constexpr auto kBetweenLines = std::chrono::seconds(60);
+constexpr auto kFirstLine = std::chrono::seconds(5), kBetweenLines = std::chrono::seconds(30);
+constexpr auto kBetweenChanges = std::chrono::milliseconds(200);  // of the line on a terminal
+// Before so much is done the mean rate is that of the first few rows, and says little.
+constexpr double kEnoughDone = 0.03;
+constexpr auto kEnoughTime = std::chrono::minutes(2);
 
 // A signal handler can reach nothing but a global.
 std::atomic<bool> stop_requested{false};
@@ -40,26 +46,55 @@ std::string duration_text(double s) {
 }  // namespace
 
 Progress::Progress(bool quiet)
-    : quiet_(quiet),
-      terminal_(::isatty(STDERR_FILENO) != 0),
-      start_(Clock::now()),
-      last_line_(start_ + kFirstLine - kBetweenLines) {}
+    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()) {
+  next_line_ = terminal_ ? start_ : start_ + kFirstLine;
+  if (quiet_ || terminal_) return;
+  try {
+    clock_ = std::thread([this] { print_while_silent(); });
+  } catch (const std::system_error&) {
+    // Threads are limited: then there are lines only where the job reports.
+  }
+}
 
 Progress::~Progress() {
+  {
+    const std::lock_guard hold(lock_);
+    ended_ = true;
+  }
+  end_.notify_all();
+  if (clock_.joinable()) clock_.join();
   clear();
 }
 
 void Progress::show(double done, const std::string& note) {
   if (quiet_) return;
-  if (first_done_ < 0) first_done_ = done;  // a resumed job begins in the middle
+  const std::lock_guard hold(lock_);
   const auto now = Clock::now();
-  if (!terminal_ && now - last_line_ < kBetweenLines) return;
+  if (first_done_ < 0) first_done_ = done, first_ = now;
+  done_ = done, note_ = note;
+  if (now >= next_line_) print(now);
+}
+
+// A job may work for minutes on what it cannot count.
+void Progress::print_while_silent() {
+  std::unique_lock hold(lock_);
+  while (!ended_) {
+    const auto due = next_line_;
+    const auto over = [this] { return ended_; };
+    if (end_.wait_until(hold, due, over)) return;
+    if (Clock::now() >= next_line_) print(Clock::now());
+  }
+}
+
+void Progress::print(Clock::time_point now) {
   char share[32];
-  std::snprintf(share, sizeof share, "%5.1f %%  ", 100 * done);
-  const std::string line = share + note + "  " + time_left(done);
-  last_line_ = now;
+  std::snprintf(share, sizeof share, "%5.1f %%  ", 100 * done_);
+  std::string line = share + printable(note_) + "  " + time_left(now);
+  next_line_ = now + (terminal_ ? Clock::duration(kBetweenChanges) : kBetweenLines);
   if (!terminal_) {
-    std::cerr << line << std::endl;
+    // Not by std::cerr, which the job's own thread may be using.
+    line += "\n";
+    static_cast<void>(!::write(STDERR_FILENO, line.data(), line.size()));
     return;
   }
   const std::size_t before = shown_;
@@ -68,13 +103,16 @@ void Progress::show(double done, const std::string& note) {
             << std::flush;
 }
 
-std::string Progress::time_left(double done) const {
-  const double here = done - first_done_;
-  if (here <= 0) return "";
-  return duration_text(seconds(Clock::now() - start_) * (1 - done) / here) + " left";
+std::string Progress::time_left(Clock::time_point now) const {
+  const double here = done_ - first_done_, rest = 1 - done_;
+  const bool known = first_done_ >= 0 && here > 0 &&
+                     (here >= kEnoughDone * (1 - first_done_) || now - first_ >= kEnoughTime);
+  if (!known) return duration_text(seconds(now - start_)) + " so far";
+  return duration_text(seconds(now - first_) * rest / here) + " left";
 }
 
 void Progress::clear() {
+  const std::lock_guard hold(lock_);
   if (shown_ > 0) std::cerr << '\r' << std::string(shown_, ' ') << '\r' << std::flush;
   shown_ = 0;
 }

@@ -1,9 +1,14 @@
 // How far a job is, on stderr: one line that changes on a terminal; elsewhere a plain line after 5
-// s and then one a minute.
+// s and then one every 30 s at least, whether or not the job reports anything.
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
+
+#include "lilytank/job_control.hpp"
 
 namespace lilytank::cli {
 
@@ -20,11 +25,20 @@ class Progress {
   void clear();
 
  private:
-  std::string time_left(double done) const;
+  using Clock = std::chrono::steady_clock;
+  void print(Clock::time_point now);
+  void print_while_silent();
+  std::string time_left(Clock::time_point now) const;
+
   bool quiet_, terminal_;
+  std::mutex lock_;  ///< of all below
+  bool ended_ = false;
+  std::condition_variable end_;
+  double done_ = 0, first_done_ = -1;  ///< a resumed job begins in the middle
+  std::string note_ = "preparing";
   std::size_t shown_ = 0;  ///< characters of the changing line
-  std::chrono::steady_clock::time_point start_, last_line_;
-  double first_done_ = -1;
+  Clock::time_point start_, first_, next_line_;
+  std::thread clock_;
 };
 
 /// Becomes true once a signal requests a stop. The first call installs the handlers; a second

@@ -129,7 +129,6 @@ int run_verb(const Arguments& arguments) {
   job.out = options.out(default_out(scenario, options.positional().back()));
   if (video && !job.force) check_pictures(job.out);
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
-  job.stop = &stop_signal();
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   Progress progress(quiet);

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -8,7 +7,6 @@
 #include "cli/study_verb.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
-#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -72,10 +70,6 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
 
 /// What to print, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
-  if (result.stopped) {
-    throw Stopped("stopped after " + counted(result.runs, "run") +
-                  ", which are kept; the same command resumes the study");
-  }
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)
               << (result.waiting ? " has done what it can: " : " is done: ")

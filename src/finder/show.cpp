@@ -133,14 +133,12 @@ std::vector<std::vector<Recording>> repeat(const Stages& stages, const FlowMaps&
                                            std::uint64_t seed) {
   std::vector<std::optional<std::vector<Recording>>> made(static_cast<std::size_t>(count));
   const CalibrationOptions& o = stages.setup().options;
-  const auto stopped = [&] { return o.stop != nullptr && o.stop->load(); };
-  for_each_world(count, o.threads, [&](int i) {
-    if (stopped()) return;
+  const auto simulate = [&](int i) {
     const auto field = perturbed_flow(maps, derived_seed(seed, 7), seed, i);
     made[static_cast<std::size_t>(i)] =
         emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
-  });
-  if (stopped()) throw Stopped();
+  };
+  for_each_world(count, o.threads, simulate, o);
   std::vector<std::vector<Recording>> out;
   for (auto& one : made) {
     if (one) out.push_back(std::move(*one));

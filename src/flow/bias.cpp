@@ -128,11 +128,13 @@ FlowBiasRow row_of(const std::string& what, const char* name, Estimator* estimat
 std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings,
                                            const FlowEstimate& smooth, const BallPhysics& ball,
                                            const FlowOptions& options, std::uint64_t seed,
-                                           const std::function<void(double)>& progress) {
+                                           const JobControl& control) {
   if (!smooth.noise) throw InputError("biases are measured in the flow of a smooth estimate");
   std::vector<FlowBiasRow> rows;
   double done = 0;
   for (const Variant& variant : variants()) {
+    if (control.stop_requested())
+      throw Stopped("stopped; nothing is kept of a measurement of biases");
     const auto field = scaled(smooth, variant.gusts);
     BallPhysics changed = ball;
     changed.damping *= variant.damping;
@@ -150,7 +152,7 @@ std::vector<FlowBiasRow> measure_flow_bias(std::span<const Recording> recordings
     add("paper", estimate_paper);
     if (variant.smooth) add("smooth", estimate_smooth);
     done += 1.0 / static_cast<double>(variants().size());
-    if (progress) progress(done);
+    control.report(done, "of the biases");
   }
   return rows;
 }

@@ -30,7 +30,6 @@ class AppendFile {
   const FileDigest& flush();
 
  private:
-  void hand_over();
   std::string file_, waiting_;
   int descriptor_ = -1;
   FileDigest digest_;

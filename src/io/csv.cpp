@@ -25,8 +25,8 @@ std::string_view without_return(std::string_view line) {
 }  // namespace
 
 CsvReader::CsvReader(std::string_view text, std::string file,
-                     const std::vector<std::string>& headers, bool may_be_cut)
-    : text_(text), file_(std::move(file)), may_be_cut_(may_be_cut) {
+                     const std::vector<std::string>& headers)
+    : text_(text), file_(std::move(file)) {
   const auto end = std::min(text_.find('\n'), text_.size());
   const std::string_view first = without_return(text_.substr(0, end));
   const auto found = std::find(headers.begin(), headers.end(), first);
@@ -40,9 +40,7 @@ CsvReader::CsvReader(std::string_view text, std::string file,
 
 bool CsvReader::next() {
   if (at_ >= text_.size()) return false;
-  const auto end = text_.find('\n', at_);
-  if (end == std::string_view::npos && may_be_cut_) return false;
-  const auto stop = std::min(end, text_.size());
+  const auto stop = std::min(text_.find('\n', at_), text_.size());
   const std::string_view row = without_return(text_.substr(at_, stop - at_));
   row_ = row.data(), cells_ = split(row);
   at_ = stop + 1;
@@ -95,6 +93,10 @@ void CsvReader::refuse(std::size_t column, const std::string& message) const {
 
 std::string CsvReader::quoted(std::size_t column) const {
   return names_[column] + " '" + std::string(cells_[column]) + "'";
+}
+
+std::string_view whole_lines(std::string_view text) {
+  return text.substr(0, text.rfind('\n') + 1);
 }
 
 }  // namespace lilytank

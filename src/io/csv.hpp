@@ -14,9 +14,7 @@ namespace lilytank {
 class CsvReader {
  public:
   /// `text` must outlive the reader. Throws InputError if the first line is not one of `headers`.
-  /// `may_be_cut`: a last row without its line end was cut by a kill and is dropped.
-  CsvReader(std::string_view text, std::string file, const std::vector<std::string>& headers,
-            bool may_be_cut = false);
+  CsvReader(std::string_view text, std::string file, const std::vector<std::string>& headers);
 
   /// Which of `headers` the file has.
   std::size_t header() const { return header_; }
@@ -42,8 +40,11 @@ class CsvReader {
   std::vector<std::string_view> cells_;
   std::size_t at_ = 0, header_ = 0;
   int line_ = 1;
-  bool may_be_cut_;
   const char* row_ = nullptr;
 };
+
+/// The text up to its last line end. A last line without one was cut by a kill, or is being
+/// written.
+std::string_view whole_lines(std::string_view text);
 
 }  // namespace lilytank

@@ -155,7 +155,7 @@ std::unique_ptr<TrajectoryWriter> open_csv_trajectory(const std::string& file,
 }
 
 Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) {
-  CsvReader reader(text, file, {kTrajectoryColumns, kPoseColumns}, true);
+  CsvReader reader(whole_lines(text), file, {kTrajectoryColumns, kPoseColumns});
   return CsvTrajectory(reader).read();
 }
 

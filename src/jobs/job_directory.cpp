@@ -17,8 +17,7 @@ std::string with_article(const std::string& kind) {
 /// The text of work/identity, "lilytank <kind> <identity>"; "" if there is none.
 std::string job_mark_in(const std::string& dir) {
   const fs::path mark = fs::path(dir) / "work" / "identity";
-  std::error_code ignored;
-  return fs::exists(mark, ignored) ? read_whole(mark.string()) : "";
+  return exists(mark.string()) ? read_whole(mark.string()) : "";
 }
 
 std::string mark_words(const std::string& kind) {
@@ -88,13 +87,17 @@ void refuse_foreign(const std::string& dir, const std::vector<std::string>& file
                    with_article(kind) + kChooseAnother);
 }
 
+bool exists(const std::string& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
 std::vector<std::string> existing_in(const std::string& dir,
                                      const std::vector<std::string>& names) {
   std::vector<std::string> files;
-  std::error_code ignored;
   for (const std::string& name : names) {
-    const fs::path file = fs::path(dir) / name;
-    if (fs::exists(file, ignored)) files.push_back(file.string());
+    std::string file = (fs::path(dir) / name).string();
+    if (exists(file)) files.push_back(std::move(file));
   }
   return files;
 }

@@ -42,6 +42,8 @@ std::shared_ptr<const DirectoryLock> claim_directory(const std::string& dir, boo
 void refuse_foreign(const std::string& dir, const std::vector<std::string>& files,
                     const std::string& kind);
 
+/// Whether there is a file, or a directory, that can be seen.
+bool exists(const std::string& file);
 /// Paths of those of the named files that exist in `dir`.
 std::vector<std::string> existing_in(const std::string& dir, const std::vector<std::string>& names);
 

@@ -4,7 +4,6 @@
 
 #include "io/atomic_file.hpp"
 #include "io/csv.hpp"
-#include "io/file_digest.hpp"
 #include "io/json.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
@@ -15,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kAdvice = "run the scenario again with --force";
+
 /// The first two columns of metrics.csv; the others depend on the number of modules.
 void read_metrics(const std::string& file, StoredRun& run) {
   constexpr std::string_view first_columns = "time,copies,";
@@ -23,16 +24,11 @@ void read_metrics(const std::string& file, StoredRun& run) {
     throw InputError({file, 1, 1},
                      "the first line does not begin with \"" + std::string(first_columns) + "\"");
   }
-  CsvReader reader(text, file, {text.substr(0, text.find('\n'))}, true);
+  CsvReader reader(whole_lines(text), file, {text.substr(0, text.find('\n'))});
   while (reader.next()) {
     run.metrics_time.push_back(reader.number(0));
     run.metrics_copies.push_back(static_cast<int>(reader.whole(1, 0, 1 << 30)));
   }
-}
-
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
 }
 
 /// How far the run came, where this program can read its checkpoint. Throws InputError if that is
@@ -52,17 +48,6 @@ std::optional<Checkpoint> checkpoint_of(const std::string& dir, const Scenario& 
         names + " was changed since the run began; run the scenario again with --force");
   }
   return checkpoint_from(bytes, *identity, file);
-}
-
-/// Compares the files with the checkpoint. A run that goes on may be ahead of it.
-void check_files(const std::string& dir, const std::string& poses, const Checkpoint& checkpoint) {
-  const std::string advice = "run the scenario again with --force";
-  const auto check = [&](const std::string& name, const FileDigest& digest) {
-    check_digest((fs::path(dir) / name).string(), digest, checkpoint.finished, advice);
-  };
-  if (!poses.empty()) check(poses, checkpoint.files.trajectory);
-  check(run_file::events, checkpoint.files.events);
-  check(run_file::metrics, checkpoint.files.metrics);
 }
 
 /// When a run was over (s), by its summary; nothing where there is none.
@@ -87,7 +72,7 @@ void check_end(const StoredRun& run, const std::string& file, const std::optiona
 void check_stored_run(const std::string& dir) {
   const std::string resolved = (fs::path(dir) / run_file::resolved).string();
   const auto checkpoint = checkpoint_of(dir, load_scenario({resolved}, {}));
-  if (checkpoint) check_files(dir, "", *checkpoint);
+  if (checkpoint) check_run_files(dir, "", *checkpoint, kAdvice);
 }
 
 StoredRun load_run(const std::string& dir) {
@@ -106,7 +91,7 @@ StoredRun load_run(const std::string& dir) {
   }
   // Before the poses are read, as a run that goes on only adds to them.
   const auto checkpoint = checkpoint_of(dir, run.scenario);
-  if (checkpoint) check_files(dir, poses, *checkpoint);
+  if (checkpoint) check_run_files(dir, path(poses), *checkpoint, kAdvice);
   if (!checkpoint && !exists(path(poses))) {
     throw InputError({path(poses)}, "there is no frame of the run yet");
   }

@@ -2,28 +2,19 @@
 #include "lilytank/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
 #include "jobs/run_files.hpp"
+#include "jobs/stop_watch.hpp"
+#include "text/number.hpp"
 #include "text/refusals.hpp"
 
 namespace lilytank {
 namespace {
-
-/// Wall time; decides when to save and what progress to tell, never what a file holds.
-class StopWatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Tallies sum(const Tallies& a, const Tallies& b) {
   return {a.evaluations + b.evaluations, a.snaps_refused + b.snaps_refused,
@@ -61,7 +52,7 @@ class Job {
     } else {
       go_on();
     }
-    if (result_.status != RunStatus::stopped) report();
+    report();
     return finished_result();
   }
 
@@ -84,9 +75,10 @@ class Job {
     }
     first_step_ = world_.state().step;
     while (world_.state().step < steps_ && result_.status == RunStatus::ok) {
-      if (options_->stop != nullptr && options_->stop->load(std::memory_order_relaxed)) {
-        result_.status = RunStatus::stopped;
-        break;
+      if (options_->stop_requested()) {
+        save(false);
+        throw Stopped("stopped at " + without_rounding(world_.time()) + " s of " +
+                      shortest(scenario_->duration) + " s; the same command resumes from there");
       }
       result_.status = world_.step();
       record_.observe(world_);
@@ -94,26 +86,22 @@ class Job {
       look_at_clock();  // after every step: one may take seconds
     }
     outcome_ = {result_.status, world_.divergence(), sum(earlier_, world_.tallies())};
-    const bool over = result_.status != RunStatus::stopped;
-    if (over && files_) files_->finish(world_, record_);
-    save(over);
+    if (files_) files_->finish(world_, record_);
+    save(true);
   }
 
   void look_at_clock() {
-    const double now = watch_.seconds();
     const auto done = static_cast<double>(world_.state().step);
     const auto total = static_cast<double>(std::max<std::int64_t>(1, steps_));
-    if (options_->progress && now - told_ >= 0.2) {
-      told_ = now;
+    if (options_->progress && report_watch_.due(kBetweenReports)) {
       const double simulated = (done - static_cast<double>(first_step_)) * scenario_->model.dt;
-      options_->progress(done / total, simulated / now);
+      char note[48];
+      std::snprintf(note, sizeof note, "%.0f times real time", simulated / watch_.seconds());
+      options_->report(done / total, note);
     }
     // Not at the last step: what comes after it belongs to the checkpoint of the finished run.
     const bool more = world_.state().step < steps_;
-    if (more && now - saved_ >= options_->checkpoint_seconds) {
-      save(false);
-      saved_ = watch_.seconds();
-    }
+    if (more && save_watch_.due(options_->checkpoint_seconds)) save(false);
   }
 
   void save(bool finished) {
@@ -138,7 +126,7 @@ class Job {
   }
 
   RunResult finished_result() {
-    if (result_.status != RunStatus::stopped) result_.status = outcome_.status;
+    result_.status = outcome_.status;
     result_.time = world_.time();
     result_.wall = watch_.seconds();
     result_.fingerprint = fingerprint(world_.state());
@@ -160,8 +148,7 @@ class Job {
   Tallies earlier_;  // of the calls before this one
   Outcome outcome_;
   RunResult result_;
-  StopWatch watch_;
-  double told_ = 0, saved_ = 0;
+  StopWatch watch_, report_watch_, save_watch_;
 };
 
 }  // namespace

@@ -12,11 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
-
 bool holds(const std::string& file, const std::string& content) {
   return exists(file) && read_whole(file) == content;
 }
@@ -57,6 +52,17 @@ std::vector<std::string> files_of_run(const std::string& dir) {
   names.push_back(run_file::resolved);
   for (std::string& name : names) name = (fs::path(dir) / name).string();
   return names;
+}
+
+void check_run_files(const std::string& dir, const std::string& poses, const Checkpoint& checkpoint,
+                     const std::string& advice) {
+  const RunFileDigests& files = checkpoint.files;
+  const auto check = [&](const std::string& file, const FileDigest& digest) {
+    check_digest(file, digest, checkpoint.finished, advice);
+  };
+  if (!poses.empty()) check(poses, files.trajectory);
+  check((fs::path(dir) / run_file::events).string(), files.events);
+  check((fs::path(dir) / run_file::metrics).string(), files.metrics);
 }
 
 std::vector<std::string> pictures_of_run() {
@@ -173,13 +179,7 @@ void RunDirectory::open() {
 }
 
 void RunDirectory::check_files() const {
-  const RunFileDigests& files = checkpoint_->files;
-  const std::string advice = "--force runs the run again";
-  const std::string poses = trajectory_path();
-  const bool whole = checkpoint_->finished;
-  if (!poses.empty()) check_digest(poses, files.trajectory, whole, advice);
-  check_digest(path(run_file::events), files.events, whole, advice);
-  check_digest(path(run_file::metrics), files.metrics, whole, advice);
+  check_run_files(dir_, trajectory_path(), *checkpoint_, "--force runs the run again");
 }
 
 void RunDirectory::save(const Checkpoint& checkpoint) const {

@@ -29,6 +29,11 @@ inline constexpr const char* checkpoint = "checkpoint.bin";
 /// results.
 std::vector<std::string> files_of_run(const std::string& dir);
 
+/// Compares the files in `dir`, and `poses` unless it is empty, with the checkpoint; a run that
+/// goes on may be ahead of it. Throws InputError with `advice` and the file that was changed.
+void check_run_files(const std::string& dir, const std::string& poses, const Checkpoint& checkpoint,
+                     const std::string& advice);
+
 /// Names of the pictures that `run --video` adds.
 std::vector<std::string> pictures_of_run();
 

@@ -6,6 +6,7 @@
 #include "io/scenario_values.hpp"
 #include "lilytank/study.hpp"
 #include "optimize/assignments.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -14,9 +15,7 @@ namespace fs = std::filesystem;
 
 /// A list of TOML texts.
 std::string list_of(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + toml_quoted(word);
-  return "[" + out + "]";
+  return "[" + joined(words, ", ", toml_quoted) + "]";
 }
 
 }  // namespace

@@ -58,13 +58,4 @@ std::string fitness_unit(Fitness fitness) {
   return fitness == Fitness::eq10 || fitness == Fitness::full_yield_time ? "s" : "1";
 }
 
-Fitness fitness_named(const std::string& word) {
-  const auto names = fitness_names();
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found != names.end()) return static_cast<Fitness>(found - names.begin());
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  throw InputError("'" + word + "' is not one of " + list + did_you_mean(word, names));
-}
-
 }  // namespace lilytank

@@ -25,9 +25,8 @@ const OptimizationPlan& Optimization::plan() const {
 Scenario Optimization::scenario(const std::vector<double>& point) const {
   return source_->scenario(point);
 }
-std::optional<double> Optimization::evaluate(const Trial& trial,
-                                             const std::atomic<bool>* stop) const {
-  return source_->evaluate(trial, stop);
+double Optimization::evaluate(const Trial& trial, const JobControl& control) const {
+  return source_->evaluate(trial, control);
 }
 std::unique_ptr<Search> Optimization::search() const {
   return source_->search();

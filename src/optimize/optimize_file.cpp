@@ -17,14 +17,6 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kLargestSeed = 1'000'000'000'000'000'000;
 constexpr std::int64_t kMostEvaluations = 100'000'000;
 
-std::size_t word_of(const TomlFields& fields, const std::string& name,
-                    const std::vector<std::string>& words) {
-  const std::string word = fields.text(name);
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw unknown_word(fields.place(name), fields.path(name), word, words);
-}
-
 class Reader {
  public:
   explicit Reader(const std::string& file)

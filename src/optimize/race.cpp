@@ -134,7 +134,7 @@ class Race {
     const double sigma = source_->file.cma_es.sigma / 2;
     const SearchRunResult found = run_search(
         one.source->cma_es(each, one.point, sigma),
-        [&](const Trial& trial) { return one.source->evaluate(trial, options_->stop); }, run);
+        [&](const Trial& trial) { return one.source->evaluate(trial, *options_); }, run);
     const Incumbent best = found.search->best();
     one.point = best.point;
     one.entry.best = best.mean, one.entry.standard_error = best.standard_error;
@@ -150,12 +150,11 @@ class Race {
   }
 
   void tell(const Contestant& one, int round) const {
-    if (!options_->progress) return;
     const auto all = static_cast<double>(total_ + source_->file.cma_es.budget);
     char text[64];
     std::snprintf(text, sizeof text, ", %.4g", one.entry.best);
-    options_->progress(static_cast<double>(spent_) / all,
-                       "round " + std::to_string(round) + ": " + one.entry.ruleset + text);
+    options_->report(static_cast<double>(spent_) / all,
+                     "round " + std::to_string(round) + ": " + one.entry.ruleset + text);
   }
 
   void write_table() const {

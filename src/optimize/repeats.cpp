@@ -1,6 +1,5 @@
 #include "optimize/repeats.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -8,81 +7,63 @@
 #include "io/csv.hpp"
 #include "io/file_digest.hpp"
 #include "lilytank/study.hpp"
+#include "study/row_log.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-namespace fs = std::filesystem;
+std::string header_for(const std::vector<double>& point) {
+  std::string out = "replicate,value at";
+  for (const double x : point) out += " " + shortest(x);
+  return out + std::string(kChecksumColumn);
+}
 
-constexpr int kKeptTogether = 64;  // worlds that a kill may cost
+std::string row_for(std::int64_t replicate, double value) {
+  return std::to_string(replicate) + "," + (std::isinf(value) ? "inf" : shortest(value));
+}
 
-/// Values of one point, and their file. A file of another point begins anew.
-struct Repeats {
-  Repeats(const std::vector<double>& of, std::int64_t from, int count, std::string to)
-      : point(of), first(from), file(std::move(to)), values(static_cast<std::size_t>(count)) {
-    header = "replicate,value at";
-    for (const double x : point) header += " " + shortest(x);
-    header += kChecksumColumn;
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) return;
-    const std::string text = read_whole(file);
-    if (!text.starts_with(header + "\n")) return;
-    CsvReader csv(text, file, {header});
-    while (csv.next()) {
-      const std::int64_t i = csv.whole(0, first, INT64_MAX) - first;
-      if (i >= count) continue;
-      values[static_cast<std::size_t>(i)] = csv.text(1) == "inf" ? INFINITY : csv.number(1);
-    }
-  }
-
-  /// Writes what is there; whether the first `expected` values are.
-  bool keep(int expected) const {
-    std::string text = header + "\n";
-    bool all = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto number = static_cast<std::int64_t>(i);
-      if (values[i]) {
-        text += with_checksum(std::to_string(first + number) + "," +
-                              (std::isinf(*values[i]) ? "inf" : shortest(*values[i]))) +
-                "\n";
-      } else {
-        all = all && number >= expected;
-      }
-    }
-    make_directory(fs::path(file).parent_path().string());
-    write_atomically(file, text);
-    return all;
-  }
-
-  Incumbent mean() const {
-    const auto n = static_cast<double>(values.size());
-    double sum = 0, squares = 0;
-    for (const auto& value : values) sum += *value;
-    for (const auto& value : values) squares += std::pow(*value - sum / n, 2);
-    return {point, sum / n, std::sqrt(squares / (n - 1) / n), static_cast<int>(values.size())};
-  }
-
-  std::vector<double> point;
-  std::int64_t first = 0;
-  std::string file, header;
-  std::vector<std::optional<double>> values;
-};
+Incumbent mean_of(const std::vector<double>& point, const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  for (const double value : values) squares += std::pow(value - sum / n, 2);
+  return {point, sum / n, std::sqrt(squares / (n - 1) / n), static_cast<int>(values.size())};
+}
 
 }  // namespace
 
 Incumbent repeated(const Optimization::Source& source, const std::vector<double>& point,
                    std::int64_t first, int count, const std::string& file,
                    const OptimizationOptions& options) {
-  Repeats repeats(point, first, count, file);
-  for (int begin = 0; begin < count; begin += kKeptTogether) {
-    for_each_world(std::min(kKeptTogether, count - begin), options.threads, [&](int i) {
-      auto& value = repeats.values[static_cast<std::size_t>(begin + i)];
-      if (!value) value = source.evaluate({point, first + begin + i}, options.stop);
-    });
-    if (!repeats.keep(begin + kKeptTogether)) throw Stopped();
+  const std::string header = header_for(point);
+  std::vector<double> values(static_cast<std::size_t>(count), std::nan(""));
+  make_directory(std::filesystem::path(file).parent_path().string());
+  std::string before = RowLog::rows_in(file);
+  if (!before.starts_with(header + "\n")) before.clear();
+  if (!before.empty()) {
+    CsvReader csv(before, file, {header});
+    while (csv.next()) {
+      const std::int64_t i = csv.whole(0, first, INT64_MAX) - first;
+      if (i >= count) continue;
+      values[static_cast<std::size_t>(i)] = csv.text(1) == "inf" ? INFINITY : csv.number(1);
+    }
   }
-  return repeats.mean();
+  RowLog log(file, header + "\n", before);
+  const auto one = [&](int i) {
+    double& value = values[static_cast<std::size_t>(i)];
+    if (!std::isnan(value)) return;
+    value = source.evaluate({point, first + i}, options);
+    log.append(row_for(first + i, value));
+  };
+  for_each_world(count, options.threads, one, options);
+  // In their order, whichever thread was first.
+  std::string text = header + "\n";
+  for (int i = 0; i < count; ++i) {
+    text += with_checksum(row_for(first + i, values[static_cast<std::size_t>(i)])) + "\n";
+  }
+  write_atomically(file, text);
+  return mean_of(point, values);
 }
 
 }  // namespace lilytank

@@ -43,7 +43,7 @@ void keep_own_if_better(const RaceOutcome& race, const Optimization::Source*& so
   const int count = last_worlds(*source);
   const auto last = [&](const Optimization::Source& of, const std::vector<double>& point) {
     const std::string name = of.scenario(point).model.rulesets.front().name;
-    if (options.progress) options.progress(1, "last comparison: " + name);
+    options.report(1, "last comparison: " + name);
     const fs::path file = fs::path(options.out) / "race" / "last" / (name + ".csv");
     const Incumbent mean = repeated(of, point, kFirstOfLast, count, file.string(), options);
     for (RaceEntry& entry : result.race) {
@@ -88,16 +88,12 @@ OptimizationResult run_optimization(const Optimization& what, const Optimization
   SearchRunOptions run;
   run.dir = options.out, run.identity = source->identity(), run.locked = true;
   run.force = options.force, run.threads = options.threads, run.stop = options.stop;
-  run.progress = [&](const SearchProgress& now) {
-    if (!options.progress) return;
-    options.progress(race.share + (1 - race.share) * now.done,
-                     std::to_string(now.evaluations) + " evaluations, best " + four(now.best) +
-                         " " + fitness_unit(source->plan.fitness.fitness) + ", " +
-                         four(now.evaluations_per_second) + "/s");
+  run.progress = [&](double done, const std::string& note) {
+    options.report(race.share + (1 - race.share) * done,
+                   note + " " + fitness_unit(source->plan.fitness.fitness));
   };
   SearchRunResult found = run_search(
-      std::move(search), [&](const Trial& trial) { return source->evaluate(trial, options.stop); },
-      run);
+      std::move(search), [&](const Trial& trial) { return source->evaluate(trial, options); }, run);
   result.best = found.search->best();
   result.history = found.search->history(), result.selected = found.search->selected();
   keep_own_if_better(race, source, result, options);

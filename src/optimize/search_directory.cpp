@@ -1,6 +1,7 @@
 #include "optimize/search_directory.hpp"
 
 #include <filesystem>
+#include <functional>
 
 #include "io/atomic_file.hpp"
 #include "jobs/job_directory.hpp"
@@ -12,11 +13,6 @@ namespace lilytank {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_there(const fs::path& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
 
 /// Names of all files that an optimisation may leave beside its folders. The checkpoint first:
 /// without it the others are nobody's.
@@ -33,17 +29,17 @@ std::string compare_in(const std::string& dir) {
 
 /// Whether the folder of the comparison is an optimisation's.
 bool is_compared(const std::string& dir) {
-  return is_there(fs::path(dir) / "compare.toml");
+  return exists((fs::path(dir) / "compare.toml").string());
 }
 
 bool is_ours(const Optimization::Source& source, const std::string& dir) {
   const std::string race = race_identity_file(dir);
   if (source.file.race) {  // the search is of a winner yet unknown
-    return is_there(race) && read_whole(race) == race_identity(source);
+    return exists(race) && read_whole(race) == race_identity(source);
   }
-  const fs::path state = fs::path(dir) / search_file::state;
-  return !is_there(race) && is_there(state) &&
-         is_search_of(read_whole(state.string()), source.identity(), *source.search());
+  const std::string state = (fs::path(dir) / search_file::state).string();
+  return !exists(race) && exists(state) &&
+         is_search_of(read_whole(state), source.identity(), *source.search());
 }
 
 /// What is there under names that this optimisation is going to give, in a directory that is no
@@ -61,7 +57,7 @@ std::vector<std::string> in_the_way(const Optimization::Source& source, const st
       files.push_back((fs::path(dir) / "race" / name).string());
     }
   }
-  std::erase_if(files, [](const std::string& file) { return !is_there(file); });
+  std::erase_if(files, std::not_fn(exists));
   return files;
 }
 
@@ -88,7 +84,7 @@ std::vector<std::string> files_of_search(const std::string& dir) {
     for (std::string& file : files_of_study(compare_in(dir))) files.push_back(std::move(file));
   }
   std::error_code ignored;
-  if (is_there(race_identity_file(dir))) {
+  if (exists(race_identity_file(dir))) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(dir) / "race", ignored)) {
       if (entry.is_regular_file(ignored)) files.push_back(entry.path().string());
     }
@@ -96,7 +92,7 @@ std::vector<std::string> files_of_search(const std::string& dir) {
       if (entry.path().extension() == ".rules") files.push_back(entry.path().string());
     }
   }
-  std::erase_if(files, [](const std::string& file) { return !is_there(file); });
+  std::erase_if(files, std::not_fn(exists));
   return files;
 }
 
@@ -105,9 +101,9 @@ void check_search_directory(const Optimization::Source& source, const std::strin
   if (source.plan.replicates > 0) spare_study_file(compare_in(dir));
   if (force || is_ours(source, dir)) return;
   for (const bool race : {true, false}) {
-    const fs::path mark =
-        race ? fs::path(race_identity_file(dir)) : fs::path(dir) / search_file::state;
-    if (!is_there(mark)) continue;
+    const std::string mark =
+        race ? race_identity_file(dir) : (fs::path(dir) / search_file::state).string();
+    if (!exists(mark)) continue;
     throw InputError("'" + dir + "' holds another " + (race ? "race" : "search") + kChooseAnother);
   }
   refuse_foreign(dir, in_the_way(source, dir), "search");
@@ -120,7 +116,7 @@ std::shared_ptr<const DirectoryLock> claim_search_directory(const Optimization::
   lock->take(dir);
   check_search_directory(source, dir, force);  // now that no other process can claim it
   if (!force || is_ours(source, dir)) return lock;
-  const bool race = is_there(race_identity_file(dir)), compared = is_compared(dir);
+  const bool race = exists(race_identity_file(dir)), compared = is_compared(dir);
   std::error_code ignored;
   for (const std::string& file : files_of_search(dir)) fs::remove(file, ignored);
   if (race) fs::remove_all(fs::path(dir) / "race", ignored);

@@ -238,16 +238,14 @@ Scenario Optimization::Source::scenario(const std::vector<double>& point) const 
   return out;
 }
 
-std::optional<double> Optimization::Source::evaluate(const Trial& trial,
-                                                     const std::atomic<bool>* stop) const {
+double Optimization::Source::evaluate(const Trial& trial, const JobControl& control) const {
   // As a study's replicates, so that `lilytank run --seed` takes the seed.
   const std::uint64_t seed =
       derived_seed(plan.seed, static_cast<std::uint64_t>(trial.replicate)) >> 5;
   const Scenario at = scenario(trial.point);
-  const auto world = run_world(at, seed, EarlyEnd::completed, stop, [](double) {});
-  if (!world) return std::nullopt;
-  if (world->row.status == RunStatus::diverged) return std::numeric_limits<double>::infinity();
-  return fitness_of(plan.fitness, world->row.completion, world->row.possible, at.duration);
+  const RunRow row = run_world(at, seed, EarlyEnd::completed, control).row;
+  if (row.status == RunStatus::diverged) return std::numeric_limits<double>::infinity();
+  return fitness_of(plan.fitness, row.completion, row.possible, at.duration);
 }
 
 std::unique_ptr<Search> Optimization::Source::search() const {

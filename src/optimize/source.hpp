@@ -21,7 +21,7 @@ struct Optimization::Source {
 
   /// With another ruleset it is the model that has it; entries and texts stay as they are.
   Scenario scenario(const std::vector<double>& point) const;
-  std::optional<double> evaluate(const Trial& trial, const std::atomic<bool>* stop) const;
+  double evaluate(const Trial& trial, const JobControl& control) const;
   /// CMA-ES with another budget, start and first sigma.
   std::unique_ptr<Search> cma_es(std::int64_t budget, const std::vector<double>& start,
                                  double sigma) const;

@@ -1,17 +1,14 @@
 #include "study/kept_rows.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <memory>
 #include <mutex>
 
-#include "io/append_file.hpp"
-#include "io/atomic_file.hpp"
 #include "io/file_digest.hpp"
 #include "lilytank/state.hpp"
 #include "lilytank/study.hpp"
+#include "study/row_log.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -32,7 +29,7 @@ std::optional<double> number_of(std::string_view cell) {
 std::string line_of(int index, const std::vector<double>& row) {
   std::string line = std::to_string(index);
   for (const double v : row) line += "," + (std::isfinite(v) ? shortest(v) : "nan");
-  return with_checksum(line) + ";\n";
+  return line;
 }
 
 // A line without its end; false if it is not a row.
@@ -65,26 +62,22 @@ bool take_line(std::string_view line, Rows& rows) {
   return true;
 }
 
-// Reads what is there; returns the length of the file up to its last whole row.
-std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
-  const std::string text = read_whole(kept.file);
+void read_rows(const KeptRows& kept, std::string_view text, Rows& rows) {
   const std::string head = head_of(kept);
-  if (text.size() < head.size() && head.starts_with(text)) return 0;
+  if (text.empty()) return;
   if (!text.starts_with(head)) {
     throw InputError({kept.file, 1, 1}, "these rows are of another calculation");
   }
   std::size_t at = head.size();
   for (int line = 2; at < text.size(); ++line) {
     const auto end = text.find('\n', at);
-    if (end == std::string::npos) break;
-    if (!take_line(std::string_view(text).substr(at, end - at), rows)) {
+    if (!take_line(text.substr(at, end - at), rows)) {
       throw InputError({kept.file, line, 1},
                        "the row was changed since it was written (its checksum does not "
                        "fit); remove the file to have its rows computed again");
     }
     at = end + 1;
   }
-  return static_cast<std::int64_t>(at);
 }
 
 }  // namespace
@@ -92,39 +85,36 @@ std::int64_t read_rows(const KeptRows& kept, Rows& rows) {
 std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
                                            const std::function<std::vector<double>(int)>& work) {
   Rows rows(static_cast<std::size_t>(count));
-  std::unique_ptr<AppendFile> file;
+  std::optional<RowLog> log;
   if (!kept.file.empty()) {
-    const bool there = std::filesystem::exists(kept.file);
-    const std::int64_t length = there ? read_rows(kept, rows) : 0;
-    file = std::make_unique<AppendFile>(kept.file, there ? length : -1);
-    if (length == 0) file->append(head_of(kept));
+    const std::string before = RowLog::rows_in(kept.file);
+    read_rows(kept, before, rows);
+    log.emplace(kept.file, head_of(kept), before, ";\n");
   }
   std::vector<int> missing;
   for (int i = 0; i < count; ++i) {
     if (!rows[static_cast<std::size_t>(i)]) missing.push_back(i);
   }
   int done = count - static_cast<int>(missing.size());
+  const auto report = [&] {
+    kept.report(static_cast<double>(done) / std::max(1, count),
+                std::to_string(done) + " of " + std::to_string(count));
+  };
+  report();
   std::mutex one_at_a_time;
-  auto flushed = std::chrono::steady_clock::now();
-  const auto stopped = [&] { return kept.stop != nullptr && *kept.stop; };
-  for_each_world(static_cast<int>(missing.size()), kept.threads, [&](int k) {
-    if (stopped()) return;
+  const auto one = [&](int k) {
     const int index = missing[static_cast<std::size_t>(k)];
     std::vector<double> row = work(index);
     for (double& v : row) v = std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN();
+    if (log) log->append(line_of(index, row));
     const std::lock_guard lock(one_at_a_time);
-    if (file) {
-      file->append(line_of(index, row));
-      const auto now = std::chrono::steady_clock::now();
-      if (now - flushed > std::chrono::seconds(1)) file->flush(), flushed = now;
-    }
     rows[static_cast<std::size_t>(index)] = std::move(row);
     ++done;
-    if (kept.progress) kept.progress(done, count);
-  });
-  if (file) file->flush();
-  // Also where all rows were kept before: what is made of them may take minutes.
-  if (stopped()) throw Stopped();
+    report();
+  };
+  for_each_world(static_cast<int>(missing.size()), kept.threads, one, kept);
+  if (log) log->flush();
+  kept.check_stop();  // also where all rows were kept: what is made of them may take minutes
   std::vector<std::vector<double>> out;
   for (auto& row : rows) out.push_back(std::move(*row));
   return out;

@@ -18,10 +18,8 @@ std::vector<MeasuredWorld> measure_worlds(const Model& model, const MeasureOptio
   std::vector<MeasuredWorld> worlds(static_cast<std::size_t>(options.worlds));
   std::mutex talk;
   int done = 0;
-  for_each_world(options.worlds, options.threads, [&](int k) {
+  const auto one = [&](int k) {
     MeasuredWorld& world = worlds[static_cast<std::size_t>(k)];
-    world.stopped = options.stop != nullptr && options.stop->load();
-    if (world.stopped) return;
     const std::string name =
         "world-" + std::to_string(options.seed) + "-" + std::to_string(k + 1) + ".csv";
     const std::string file = options.out.empty() ? "" : (fs::path(options.out) / name).string();
@@ -29,13 +27,14 @@ std::vector<MeasuredWorld> measure_worlds(const Model& model, const MeasureOptio
       world = measured_world_from(read_whole(file), file, options.identity);
     } else {
       const std::uint64_t seed = derived_seed(options.seed, static_cast<std::uint64_t>(k));
-      world = measure_world(model, seed, options.duration, options.stop);
-      if (!file.empty() && !world.stopped) write_atomically(file, to_csv(world, options.identity));
+      world = measure_world(model, seed, options.duration, options);
+      if (!file.empty()) write_atomically(file, to_csv(world, options.identity));
     }
     const std::lock_guard lock(talk);
     ++done;
-    if (options.progress) options.progress(static_cast<double>(done) / options.worlds);
-  });
+    options.report(static_cast<double>(done) / options.worlds, "of the simulations");
+  };
+  for_each_world(options.worlds, options.threads, one, options);
   return worlds;
 }
 

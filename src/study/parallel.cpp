@@ -34,14 +34,15 @@ int granted_threads(int wanted) {
 
 }  // namespace
 
-void for_each_world(int count, int threads, const std::function<void(int)>& work) {
+void for_each_world(int count, int threads, const std::function<void(int)>& work,
+                    const JobControl& control) {
   // More threads than cores on request. TBB ends the program where it cannot make a thread, so the
   // threads are counted before its first use; later its own would count against the limit.
   const int cores = tbb::info::default_concurrency();
   static const int most = 1 + granted_threads(std::max({threads, cores, kProbed}) - 1);
   const int used = std::min(threads > 0 ? threads : cores, most);
   if (used == 1) {
-    for (int i = 0; i < count; ++i) work(i);
+    for (int i = 0; i < count; ++i) control.check_stop(), work(i);
     return;
   }
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -52,7 +53,7 @@ void for_each_world(int count, int threads, const std::function<void(int)>& work
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int i = range.begin(); i != range.end(); ++i) work(i);
+          for (int i = range.begin(); i != range.end(); ++i) control.check_stop(), work(i);
         },
         tbb::simple_partitioner());
   });

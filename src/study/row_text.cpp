@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "io/csv.hpp"
-#include "io/file_digest.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -81,19 +80,19 @@ std::string row_line(const RunRow& row, std::uint64_t of_study) {
   for (const double t : row.completion) times += (times.empty() ? "" : ";") + without_rounding(t);
   std::replace(text.begin(), text.end(), ',', ';');
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return with_checksum(hex(of_study) + "," + row.id + "," + std::to_string(row.setting) + "," +
-                       std::to_string(row.replicate) + "," + std::to_string(row.seed) + "," +
-                       status_word(row.status) + "," + without_rounding(row.duration) + "," +
-                       std::to_string(row.possible) + "," + std::to_string(row.copies) + "," +
-                       std::to_string(row.illegal) + "," + times + "," + text) +
-         "\n";
+  return hex(of_study) + "," + row.id + "," + std::to_string(row.setting) + "," +
+         std::to_string(row.replicate) + "," + std::to_string(row.seed) + "," +
+         status_word(row.status) + "," + without_rounding(row.duration) + "," +
+         std::to_string(row.possible) + "," + std::to_string(row.copies) + "," +
+         std::to_string(row.illegal) + "," + times + "," + text;
 }
 
 std::vector<RunRow> rows_from(std::string_view text, const std::string& file, const StudyPlan& plan,
                               bool& foreign) {
   std::vector<RunRow> rows;
-  if (text.find('\n') == std::string_view::npos) return rows;  // nothing but a cut first line
-  CsvReader csv(text, file, {kHeader}, true);
+  text = whole_lines(text);
+  if (text.empty()) return rows;
+  CsvReader csv(text, file, {kHeader});
   const std::string ours = hex(plan.identity());
   while (csv.next()) {
     if (csv.text(study) == ours) {

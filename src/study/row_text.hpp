@@ -10,7 +10,7 @@ namespace lilytank {
 
 /// The first line of every rows file, with its end.
 std::string row_header();
-/// With its end. `study` is the plan's identity. Commas in the note become semicolons.
+/// Without its checksum. `study` is the plan's identity. Commas in the note become semicolons.
 std::string row_line(const RunRow& row, std::uint64_t study);
 
 /// The rows of a file that belong to `plan`, with the axes' values filled in. A last line that was

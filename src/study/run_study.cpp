@@ -1,16 +1,18 @@
 // The job behind `lilytank study`: what is missing, round by round, over threads.
 #include <algorithm>
-#include <chrono>
+#include <cstdio>
+#include <mutex>
 
+#include "jobs/stop_watch.hpp"
+#include "study/row_log.hpp"
 #include "study/row_text.hpp"
 #include "study/run_table.hpp"
 #include "study/run_world.hpp"
 #include "study/study_directory.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
-
-constexpr double kBetweenTellings = 0.2;  // s of wall time
 
 /// Adds up what all threads do. Wall time is for people; no result depends on it.
 class Meter {
@@ -23,45 +25,42 @@ class Meter {
     for (const RunPlace& run : runs) {
       expected_ += plan_->settings[static_cast<std::size_t>(run.setting)].duration;
     }
-    now_.left += static_cast<int>(runs.size());
+    left_ += static_cast<int>(runs.size());
   }
 
   void simulated(double seconds) {
     const std::lock_guard hold(lock_);
     simulated_ += seconds;
-    tell();
+    if (options_->progress && reports_.due(kBetweenReports)) report();
   }
 
   void finished(const WorldRun& world) {
     const std::lock_guard hold(lock_);
-    ++now_.runs, --now_.left;
-    if (world.row.status == RunStatus::diverged) ++now_.failed;
+    ++runs_, --left_;
+    if (world.row.status == RunStatus::diverged) ++failed_;
     // What a world that was given up, or had settled, would still have had to do.
     const auto setting = static_cast<std::size_t>(world.row.setting);
     expected_ -= plan_->settings[setting].duration - world.simulated;
   }
 
-  int runs() const { return now_.runs; }
+  int runs() const { return runs_; }
 
  private:
-  void tell() {
-    if (!options_->progress) return;
-    const double t = std::chrono::duration<double>(Clock::now() - start_).count();
-    if (t - told_ < kBetweenTellings) return;
-    told_ = t;
-    now_.done = expected_ > 0 ? std::min(1.0, simulated_ / expected_) : 1;
-    now_.worlds_per_second = now_.runs / t;
-    now_.hours_per_second = simulated_ / 3600 / t;
-    options_->progress(now_);
+  void report() const {
+    const double t = watch_.seconds();
+    char note[120];
+    std::snprintf(note, sizeof note, "%d runs, %d left, %.3g simulations/s, %.3g simulated h/s%s%s",
+                  runs_, left_, runs_ / t, simulated_ / 3600 / t, failed_ > 0 ? ", diverged: " : "",
+                  failed_ > 0 ? std::to_string(failed_).c_str() : "");
+    options_->report(expected_ > 0 ? std::min(1.0, simulated_ / expected_) : 1, note);
   }
 
-  using Clock = std::chrono::steady_clock;
   const StudyPlan* plan_;
   const StudyOptions* options_;
   std::mutex lock_;
-  StudyProgress now_;
-  double simulated_ = 0, expected_ = 0, told_ = 0;
-  Clock::time_point start_ = Clock::now();
+  int runs_ = 0, failed_ = 0, left_ = 0;  ///< in this call
+  double simulated_ = 0, expected_ = 0;   ///< s of simulated time
+  StopWatch watch_, reports_;
 };
 
 class Job {
@@ -72,33 +71,30 @@ class Job {
         plan_(&study.plan()),
         identity_(plan_->identity()),
         run_table_(*plan_),
-        writer_(options.out),
         meter_(*plan_, options) {}
 
   StudyResult run() {
-    open_study_directory(options_->out, *plan_, options_->force, lock_);
+    open_study_directory(options_->out, *plan_, options_->force, directory_lock_);
     read();
     if (options_->begin) options_->begin(static_cast<int>(missing_here().size()));
-    for (;;) {
-      const std::vector<RunPlace> ours = missing_here();
-      if (ours.empty() || stopped()) break;
-      round(ours);
-      if (plan_->stop && options_->shard.count > 1) read();  // what others did meanwhile
+    try {
+      for (auto ours = missing_here(); !ours.empty(); ours = missing_here()) {
+        round(ours);
+        if (plan_->stop && options_->shard.count > 1) read();  // what others did meanwhile
+      }
+    } catch (const Stopped&) {
+      throw Stopped("stopped after " + counted(meter_.runs(), "run") +
+                    ", which are kept; the same command resumes the study");
     }
     StudyResult result;
     result.complete = run_table_.complete();
-    result.stopped = stopped() && !missing_here().empty();
-    result.waiting = !result.stopped && !decided();
+    result.waiting = !decided();
     result.runs = meter_.runs();
     result.failed = run_table_.failed();
     return result;
   }
 
  private:
-  bool stopped() const {
-    return options_->stop != nullptr && options_->stop->load(std::memory_order_relaxed);
-  }
-
   bool decided() const {
     for (std::size_t s = 0; s < plan_->settings.size(); ++s) {
       if (!run_table_.required(static_cast<int>(s)).decided) return false;
@@ -121,16 +117,23 @@ class Job {
 
   void round(const std::vector<RunPlace>& runs) {
     meter_.expect(runs);
-    for_each_world(static_cast<int>(runs.size()), options_->threads, [&](int i) {
+    const auto one = [&](int i) {
       const RunPlace& run = runs[static_cast<std::size_t>(i)];
-      auto world = run_world(*study_, run.setting, run.replicate, options_->stop,
-                             [&](double seconds) { meter_.simulated(seconds); });
-      if (!world) return;
-      writer_.write(row_line(world->row, identity_));
-      meter_.finished(*world);
-      const std::lock_guard hold(ledger_lock_);
-      run_table_.add(std::move(world->row));
-    });
+      WorldRun world = run_world(*study_, run.setting, run.replicate, *options_,
+                                 [&](double seconds) { meter_.simulated(seconds); });
+      log().append(row_line(world.row, identity_));
+      meter_.finished(world);
+      const std::lock_guard hold(lock_);
+      run_table_.add(std::move(world.row));
+    };
+    for_each_world(static_cast<int>(runs.size()), options_->threads, one, *options_);
+  }
+
+  /// The rows file of this call, begun with its first row.
+  RowLog& log() {
+    const std::lock_guard hold(lock_);
+    if (!log_) log_.emplace(claim_rows_file(options_->out), row_header(), "");
+    return *log_;
   }
 
   const Study* study_;
@@ -138,9 +141,9 @@ class Job {
   const StudyPlan* plan_;
   std::uint64_t identity_;
   RunTable run_table_;
-  std::mutex ledger_lock_;
-  DirectoryLock lock_;
-  RowWriter writer_;
+  std::mutex lock_;
+  DirectoryLock directory_lock_;
+  std::optional<RowLog> log_;
   Meter meter_;
 };
 

@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::int64_t kStepsPerLook = 64;  // between reports of simulated time
 
-bool asked(const std::atomic<bool>* stop) {
-  return stop != nullptr && stop->load(std::memory_order_relaxed);
-}
-
 Label shown(const State& state, int module, int face) {
   const Firmware& firmware = state.firmware[module];
   return {firmware.label, hop_of(firmware.last, face)};
@@ -79,10 +75,9 @@ bool is_final(const World& world, const AssemblyRecord& record) {
   return true;
 }
 
-std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
-                                  const std::atomic<bool>* stop,
-                                  const std::function<void(double)>& simulated) {
-  if (asked(stop)) return std::nullopt;
+WorldRun run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
+                   const JobControl& control, const std::function<void(double)>& simulated) {
+  control.check_stop();
   WorldRun out;
   RunRow& row = out.row;
   row.seed = seed;
@@ -92,18 +87,20 @@ std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, 
   const double dt = scenario.model.dt;
   const auto steps = static_cast<std::int64_t>(std::floor(scenario.duration / dt + 0.5));
   double reported = 0;
+  const auto report = [&] {
+    if (simulated) simulated(world.time() - reported);
+    reported = world.time();
+  };
   bool left = false;
   while (world.state().step < steps && row.status == RunStatus::ok && !left) {
-    if (asked(stop)) return std::nullopt;
+    control.check_stop();
     row.status = world.step();
     record.observe(world);
     // Looked at where something happened: what stands changes with events only.
     left = !world.events().empty() && over(early, world, record);
-    if (world.state().step % kStepsPerLook != 0) continue;
-    simulated(world.time() - reported);
-    reported = world.time();
+    if (world.state().step % kStepsPerLook == 0) report();
   }
-  simulated(world.time() - reported);
+  report();
   out.simulated = world.time();
   row.duration = left ? static_cast<double>(steps) * dt : world.time();
   row.possible = record.possible_copies();
@@ -116,17 +113,16 @@ std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, 
   return out;
 }
 
-std::optional<WorldRun> run_world(const Study& study, int setting, int replicate,
-                                  const std::atomic<bool>* stop,
-                                  const std::function<void(double)>& simulated) {
-  if (asked(stop)) return std::nullopt;
+WorldRun run_world(const Study& study, int setting, int replicate, const JobControl& control,
+                   const std::function<void(double)>& simulated) {
+  control.check_stop();
   const StudyPlan& plan = study.plan();
-  auto out = run_world(study.scenario(setting), plan.seed_of(replicate),
-                       plan.until_settled ? EarlyEnd::settled : EarlyEnd::never, stop, simulated);
-  if (!out) return out;
-  out->row.setting = setting, out->row.replicate = replicate;
-  out->row.id = plan.id_of(setting, replicate);
-  out->row.values = plan.settings[static_cast<std::size_t>(setting)].values;
+  WorldRun out =
+      run_world(study.scenario(setting), plan.seed_of(replicate),
+                plan.until_settled ? EarlyEnd::settled : EarlyEnd::never, control, simulated);
+  out.row.setting = setting, out.row.replicate = replicate;
+  out.row.id = plan.id_of(setting, replicate);
+  out.row.values = plan.settings[static_cast<std::size_t>(setting)].values;
   return out;
 }
 

@@ -1,8 +1,6 @@
 // One run of a study, in memory.
 #pragma once
-#include <atomic>
 #include <functional>
-#include <optional>
 
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/study.hpp"
@@ -24,17 +22,15 @@ struct WorldRun {
   double simulated = 0;  ///< s; row.duration is the planned end where the world was left early
 };
 
-/// Runs a scenario's world; nothing if `stop` was set before its end. `simulated` receives the
-/// simulated time (s) since its last call. Throws InputError if the bodies do not fit
-/// in the tank.
-std::optional<WorldRun> run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
-                                  const std::atomic<bool>* stop,
-                                  const std::function<void(double)>& simulated);
+/// Runs a scenario's world. `simulated` receives the simulated time (s) since its last call. Throws
+/// Stopped, InputError if the bodies do not fit in the tank.
+WorldRun run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
+                   const JobControl& control = {},
+                   const std::function<void(double)>& simulated = {});
 
 /// The same for a replicate of a study's setting, with the rest of its row.
-std::optional<WorldRun> run_world(const Study& study, int setting, int replicate,
-                                  const std::atomic<bool>* stop,
-                                  const std::function<void(double)>& simulated);
+WorldRun run_world(const Study& study, int setting, int replicate, const JobControl& control,
+                   const std::function<void(double)>& simulated);
 
 /// Whether all possible copies stand and no rule with p > 0 of any of the model's rulesets can
 /// undo, relabel or add to one of their modules' bonds.

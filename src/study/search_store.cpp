@@ -18,18 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMagic = "lilytank search run 2";
-constexpr auto kBetweenFlushes = std::chrono::milliseconds(500);
-constexpr auto kBetweenCheckpoints = std::chrono::seconds(2);
-
-bool exists(const std::string& file) {
-  std::error_code ignored;
-  return fs::exists(file, ignored);
-}
+constexpr double kBetweenCheckpoints = 2;  // s
 
 std::string header_of(const std::vector<std::string>& axes) {
   std::string out = "batch,trial,replicate";
   for (const std::string& axis : axes) out += "," + axis;
-  return out + ",value" + std::string(kChecksumColumn);
+  return out + ",value" + std::string(kChecksumColumn) + "\n";
 }
 
 /// A row up to its value.
@@ -100,9 +94,7 @@ void SearchStore::clear() const {
 void SearchStore::open(const Search& fresh) {
   write_atomically(path(search_file::state),
                    with_checksum_line(head_of(identity_, 0, false) + fresh.save()));
-  saved_ = Clock::now();
-  log_.emplace(path(search_file::evaluations));
-  log_->append(header_of(axes_) + "\n");
+  log_.emplace(path(search_file::evaluations), header_of(axes_), "");
   log_->flush();
 }
 
@@ -118,15 +110,7 @@ void SearchStore::resume(const std::string& stored) {
   finished_ = end == "finished";
   stored_ =
       restore_search(std::string_view(state).substr(static_cast<std::size_t>(in.tellg())), file);
-  saved_ = Clock::now();
-  if (exists(path(search_file::evaluations))) {
-    read_log();
-  } else if (batch_ == 0) {  // killed before there was one
-    log_.emplace(path(search_file::evaluations));
-    log_->append(header_of(axes_) + "\n");
-  } else {
-    refuse_changed("is missing");
-  }
+  open_log();
   std::int64_t before = 0;
   for (const auto& [key, row] : rows_) before += key.first <= batch_ ? 1 : 0;
   if (before != stored_->evaluations()) refuse_changed("lacks values that the checkpoint knows");
@@ -136,12 +120,18 @@ void SearchStore::refuse_changed(const std::string& how) const {
   throw InputError("'" + path(search_file::evaluations) + "' " + how + ": it was changed");
 }
 
-void SearchStore::read_log() {
+void SearchStore::open_log() {
   const std::string file = path(search_file::evaluations);
-  std::string text = read_whole(file);
-  text.resize(text.rfind('\n') + 1);  // what a kill cut off is evaluated again
-  if (text.empty() && batch_ == 0) text = header_of(axes_) + "\n", write_atomically(file, text);
-  CsvReader csv(text, file, {header_of(axes_)});
+  if (batch_ > 0 && !exists(file)) refuse_changed("is missing");
+  const std::string text = RowLog::rows_in(file);
+  // A kill may come before there is a row, but not after a batch.
+  if (!text.empty() || batch_ > 0) read_rows_from(text, file);
+  log_.emplace(file, header_of(axes_), text);
+}
+
+void SearchStore::read_rows_from(const std::string& text, const std::string& file) {
+  const std::string header = header_of(axes_);
+  CsvReader csv(text, file, {header.substr(0, header.size() - 1)});
   const auto most = std::numeric_limits<std::int64_t>::max();
   while (csv.next()) {
     const Key key{csv.whole(0, 1, most), csv.whole(1, 1, most)};
@@ -151,7 +141,6 @@ void SearchStore::read_log() {
     if (csv.text(axes_.size() + 3) != "inf") static_cast<void>(csv.number(axes_.size() + 3));
     if (!rows_.emplace(key, row).second) csv.refuse(1, "this trial is there twice");
   }
-  log_.emplace(file, static_cast<std::int64_t>(text.size()));
 }
 
 std::vector<std::optional<double>> SearchStore::known(const std::vector<Trial>& trials) const {
@@ -170,19 +159,16 @@ std::vector<std::optional<double>> SearchStore::known(const std::vector<Trial>& 
 
 void SearchStore::keep(std::size_t index, const Trial& trial, double value) {
   const auto number = static_cast<std::int64_t>(index) + 1;
-  const std::lock_guard hold(log_lock_);
   const std::string row = beginning(batch_ + 1, number, trial) +
                           (std::isfinite(value) ? shortest(value) : std::string("inf"));
+  log_->append(row);
+  const std::lock_guard hold(rows_lock_);
   rows_.emplace(Key{batch_ + 1, number}, row);
-  log_->append(with_checksum(row) + "\n");
-  if (Clock::now() - logged_ < kBetweenFlushes) return;
-  log_->flush();
-  logged_ = Clock::now();
 }
 
 void SearchStore::completed(const Search& search) {
   ++batch_;
-  if (Clock::now() - saved_ >= kBetweenCheckpoints) checkpoint(search);
+  if (since_saved_.due(kBetweenCheckpoints)) checkpoint(search);
 }
 
 void SearchStore::checkpoint(const Search& search) {
@@ -191,7 +177,6 @@ void SearchStore::checkpoint(const Search& search) {
   write_atomically(path(search_file::history), history_text(search));
   write_atomically(path(search_file::state),
                    with_checksum_line(head_of(identity_, batch_, false) + search.save()));
-  saved_ = Clock::now();
 }
 
 void SearchStore::finish(const Search& search) {
@@ -202,7 +187,7 @@ void SearchStore::finish(const Search& search) {
     return;
   }
   log_->flush();
-  std::string text = header_of(axes_) + "\n";
+  std::string text = header_of(axes_);
   for (const auto& [key, row] : rows_) text += with_checksum(row) + "\n";
   write_atomically(path(search_file::evaluations), text);
   write_atomically(path(search_file::history), history_text(search));

@@ -3,7 +3,6 @@
 // A value is logged as soon as it is there; the checkpoint only spares replaying the search from
 // its start. It is never ahead of the log, so whatever is lost in a kill is evaluated again.
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,9 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/append_file.hpp"
 #include "jobs/job_directory.hpp"
+#include "jobs/stop_watch.hpp"
 #include "lilytank/search_run.hpp"
+#include "study/row_log.hpp"
 
 namespace lilytank {
 
@@ -49,13 +49,13 @@ class SearchStore {
   void finish(const Search& search);
 
  private:
-  using Clock = std::chrono::steady_clock;
   using Key = std::pair<std::int64_t, std::int64_t>;  ///< batch and trial, from 1
 
   std::string path(const char* name) const;
   void open(const Search& fresh);
   void resume(const std::string& state);
-  void read_log();
+  void open_log();
+  void read_rows_from(const std::string& text, const std::string& file);
   void clear() const;
   [[noreturn]] void refuse_changed(const std::string& how) const;
 
@@ -67,9 +67,9 @@ class SearchStore {
   std::int64_t batch_ = 0;  ///< complete ones
   bool finished_ = false;   ///< as stored
   std::map<Key, std::string> rows_;
-  std::optional<AppendFile> log_;
-  std::mutex log_lock_;
-  Clock::time_point logged_{}, saved_{};
+  std::mutex rows_lock_;
+  std::optional<RowLog> log_;
+  StopWatch since_saved_;
 };
 
 }  // namespace lilytank

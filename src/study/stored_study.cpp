@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "statistics/csv_cells.hpp"
 #include "study/row_text.hpp"
 #include "study/run_table.hpp"
 #include "study/study_directory.hpp"
@@ -12,13 +13,6 @@
 
 namespace lilytank {
 namespace {
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
 
 std::size_t most_copies(const StudyTable& table) {
   std::size_t most = 0;
@@ -32,23 +26,21 @@ std::string table_line(const RunRow& row, const StudyPlan& plan, std::size_t tim
   const Setting& setting = plan.settings[static_cast<std::size_t>(row.setting)];
   std::string out = std::to_string(row.setting) + "," + std::to_string(row.replicate) + "," +
                     row.id + "," + std::to_string(row.seed) + "," + status_word(row.status);
-  for (const std::string& text : setting.texts) out += "," + csv_cell(text);
+  for (const std::string& text : setting.texts) out += "," + cell(text);
   out += "," + without_rounding(row.duration) + "," + std::to_string(row.possible) + "," +
          std::to_string(row.copies) + (reached_all(row) ? ",1," : ",0,") +
          std::to_string(row.illegal);
   for (std::size_t k = 0; k < times; ++k) {
     out += "," + (k < row.completion.size() ? without_rounding(row.completion[k]) : "");
   }
-  return out + "," + csv_cell(row.note) + "\n";
+  return out + "," + cell(row.note) + "\n";
 }
 
 }  // namespace
 
 StoredStudy load_study(const std::string& dir) {
-  namespace fs = std::filesystem;
-  const std::string file = (fs::path(dir) / study_file::plan).string();
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) {
+  const std::string file = (std::filesystem::path(dir) / study_file::plan).string();
+  if (!exists(file)) {
     throw InputError("'" + dir + "' is not the directory of a study: it has no study.toml");
   }
   return load_study(dir, read_plan(file));
@@ -80,7 +72,7 @@ StoredStudy load_study(const std::string& dir, const StudyPlan& plan) {
 std::string table_text(const StoredStudy& study) {
   const std::size_t times = most_copies(study.table);
   std::string out = "setting,replicate,id,seed,status";
-  for (const std::string& axis : study.table.axes) out += "," + csv_cell(axis);
+  for (const std::string& axis : study.table.axes) out += "," + cell(axis);
   out += ",duration_s,possible,copies,full_yield,illegal";
   for (std::size_t k = 1; k <= times; ++k) out += ",time_" + std::to_string(k) + "_s";
   out += ",note\n";

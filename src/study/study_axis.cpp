@@ -53,15 +53,16 @@ Assignment path_of(const TomlFields& fields) {
   return out;
 }
 
-bool log_scale(const TomlFields& fields) {
-  if (!fields.has("scale")) return false;
-  const std::vector<std::string> words{"linear", "log"};
-  const std::string word = fields.text("scale");
+std::size_t word_of(const TomlFields& fields, const std::string& name,
+                    const std::vector<std::string>& words) {
+  const std::string word = fields.text(name);
   const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end()) {
-    throw unknown_word(fields.place("scale"), fields.path("scale"), word, words);
-  }
-  return word == "log";
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  throw unknown_word(fields.place(name), fields.path(name), word, words);
+}
+
+bool log_scale(const TomlFields& fields) {
+  return fields.has("scale") && word_of(fields, "scale", {"linear", "log"}) == 1;
 }
 
 namespace {

@@ -1,5 +1,8 @@
 // One [[axis]] table, and what it shares with other tables of paths. Only for src/io.
 #pragma once
+#include <string>
+#include <vector>
+
 #include "io/toml_fields.hpp"
 #include "study/study_file.hpp"
 
@@ -19,6 +22,9 @@ struct KeyFacts {
 KeyFacts facts_of(const Assignment& path);
 /// The key `path` of a table as a path of a scenario that may be varied. Throws InputError.
 Assignment path_of(const TomlFields& fields);
+/// Which of `words` a key holds. Throws InputError with the nearest one.
+std::size_t word_of(const TomlFields& fields, const std::string& name,
+                    const std::vector<std::string>& words);
 /// The key `scale` of a table: "log" is true, "linear" and none false. Throws InputError.
 bool log_scale(const TomlFields& fields);
 

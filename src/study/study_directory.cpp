@@ -65,8 +65,7 @@ std::string file_in(const std::string& dir, const std::string& name) {
 /// The study that a directory says to be of, if it says so.
 std::optional<StudyPlan> plan_in(const std::string& dir) {
   const std::string file = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return std::nullopt;
+  if (!exists(file)) return std::nullopt;
   return read_plan(file);
 }
 
@@ -124,36 +123,19 @@ void remove_other(const std::string& dir, const StudyPlan& plan) {
   fs::remove(file_in(dir, study_file::plan), ignored);
 }
 
-/// A new file with the next free number, that no other process has.
-std::string claim_file(const std::string& dir) {
-  for (std::size_t n = rows_files(dir).size() + 1;; ++n) {
-    std::string number = std::to_string(n);
-    number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
-    const std::string file = file_in(dir, study_file::rows_prefix + number + ".csv");
-    const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (opened >= 0) {
-      ::close(opened);
-      return file;
-    }
-    if (errno != EEXIST) throw InputError(system_problem("cannot write", file, errno));
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> files_of_study(const std::string& dir) {
   std::vector<std::string> files =
       files_that(dir, [](const std::string& name) { return is_rows(name) || is_made(name); });
   const std::string plan = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (fs::exists(plan, ignored) && is_plan(read_whole(plan))) files.push_back(plan);
+  if (exists(plan) && is_plan(read_whole(plan))) files.push_back(plan);
   return files;
 }
 
 void spare_study_file(const std::string& dir) {
   const std::string file = file_in(dir, study_file::plan);
-  std::error_code ignored;
-  if (!fs::exists(file, ignored) || is_plan(read_whole(file))) return;
+  if (!exists(file) || is_plan(read_whole(file))) return;
   throw InputError("'" + file +
                    "' is not of a study's results and would be overwritten; choose "
                    "another --out");
@@ -178,9 +160,23 @@ std::vector<RunRow> read_rows(const std::string& dir, const StudyPlan& plan, std
   return rows;
 }
 
+std::string claim_rows_file(const std::string& dir) {
+  for (std::size_t n = rows_files(dir).size() + 1;; ++n) {
+    std::string number = std::to_string(n);
+    number.insert(0, number.size() < 4 ? 4 - number.size() : 0, '0');
+    const std::string file = file_in(dir, study_file::rows_prefix + number + ".csv");
+    const int opened = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (opened >= 0) {
+      ::close(opened);
+      return file;
+    }
+    if (errno != EEXIST) throw InputError(system_problem("cannot write", file, errno));
+  }
+}
+
 void check_study_directory(const std::string& dir, const StudyPlan& plan, bool force) {
   std::error_code ignored;
-  if (fs::exists(dir, ignored) && !fs::is_directory(dir, ignored)) {
+  if (exists(dir) && !fs::is_directory(dir, ignored)) {
     throw InputError("'" + dir + "' is a file; the results need a directory");
   }
   spare_study_file(dir);
@@ -206,27 +202,6 @@ void open_study_directory(const std::string& dir, const StudyPlan& plan, bool fo
     if (read_whole(file) != text) write_atomically(file, text);
   }
   if (!lock.try_take(dir, true)) throw InputError("another process is at work in '" + dir + "'");
-}
-
-// Rows of all threads that wait for the disk go there together.
-void RowWriter::write(const std::string& line) {
-  {
-    const std::lock_guard hold(waiting_lock_);
-    waiting_ += line;
-  }
-  const std::lock_guard hold(file_lock_);
-  std::string lines;
-  {
-    const std::lock_guard hold_waiting(waiting_lock_);
-    lines.swap(waiting_);
-  }
-  if (lines.empty()) return;  // another thread has taken ours along
-  if (!file_) {
-    file_.emplace(claim_file(dir_), 0);
-    lines.insert(0, row_header());
-  }
-  file_->append(lines);
-  file_->flush();
 }
 
 }  // namespace lilytank

@@ -4,13 +4,9 @@
 // another, so any number of processes, on any machines that share the directory, may come and go. A
 // file is only ever appended to, one line a run.
 #pragma once
-#include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "io/append_file.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/study.hpp"
 
@@ -43,18 +39,7 @@ void check_study_directory(const std::string& dir, const StudyPlan& plan, bool f
 void open_study_directory(const std::string& dir, const StudyPlan& plan, bool force,
                           DirectoryLock& lock);
 
-/// Writes rows as they come, from any thread.
-class RowWriter {
- public:
-  explicit RowWriter(std::string dir) : dir_(std::move(dir)) {}
-  /// On the disk on return. Throws InputError if it cannot be written.
-  void write(const std::string& line);
-
- private:
-  std::string dir_;
-  std::mutex waiting_lock_, file_lock_;
-  std::string waiting_;
-  std::optional<AppendFile> file_;
-};
+/// Makes a rows file with the next free number, which no other process has, and returns its path.
+std::string claim_rows_file(const std::string& dir);
 
 }  // namespace lilytank

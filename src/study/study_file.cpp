@@ -69,7 +69,7 @@ class Reader {
     if (fields.has("seed")) {
       out_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed));
     }
-    if (fields.has("until")) until(fields);
+    out_.until_settled = fields.has("until") && word_of(fields, "until", {"end", "settled"}) == 1;
     out_.replicates = -1;
     if (fields.has("replicates")) {
       out_.replicates = static_cast<int>(fields.whole("replicates", 1, kMostReplicates));
@@ -79,14 +79,6 @@ class Reader {
       out_.samples = static_cast<int>(fields.whole("samples", 1, kMostSamples));
       samples_place_ = fields.place("samples");
     }
-  }
-
-  void until(const TomlFields& fields) {
-    const std::vector<std::string> words{"end", "settled"};
-    const std::string word = fields.text("until");
-    out_.until_settled = word == "settled";
-    if (out_.until_settled || word == "end") return;
-    throw unknown_word(fields.place("until"), "study.until", word, words);
   }
 
   void stop(const toml::table& from) {

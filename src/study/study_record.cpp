@@ -8,6 +8,7 @@
 #include "io/scenario_values.hpp"
 #include "io/toml_fields.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -19,21 +20,14 @@ const std::vector<std::string> kHeadNames{"name",       "scenarios", "sets",    
 const std::string kFirstWords = kStudyMark;
 
 std::string quoted_list(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + toml_quoted(text);
-  return "[" + out + "]";
-}
-
-std::string number_list(const std::vector<double>& values) {
-  std::string out;
-  for (const double value : values) out += (out.empty() ? "" : ", ") + shortest(value);
-  return "[" + out + "]";
+  return "[" + joined(texts, ", ", toml_quoted) + "]";
 }
 
 std::string setting_text(const Setting& setting) {
   return "\n[[setting]]\nlabel = " + toml_quoted(setting.label) +
-         "\ntexts = " + quoted_list(setting.texts) + "\nvalues = " + number_list(setting.values) +
-         "\nduration = " + shortest(setting.duration) + "  # s\nidentity = \"" +
+         "\ntexts = " + quoted_list(setting.texts) + "\nvalues = [" +
+         joined(setting.values, ", ", [](double x) { return shortest(x); }) +
+         "]\nduration = " + shortest(setting.duration) + "  # s\nidentity = \"" +
          hex(setting.identity) + "\"\n";
 }
 

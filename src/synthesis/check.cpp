@@ -59,10 +59,10 @@ void judge_rules(const Ruleset& rules, RulesetCheck& check) {
     check.notes.push_back("some joins of " + name + " have no straight way in and are left out");
 }
 
-void judge_population(const Ruleset& rules, const std::atomic<bool>* stop, RulesetCheck& check) {
+void judge_population(const Ruleset& rules, const JobControl& control, RulesetCheck& check) {
   if (check.modules <= 0) return;
   constexpr std::int64_t kStates = 200000;
-  check.population = population_graph(rules, check.network, check.modules, kStates, stop);
+  check.population = population_graph(rules, check.network, check.modules, kStates, control);
   const PopulationGraph& graph = check.population;
   if (!graph.complete) {
     check.notes.push_back("more than " + std::to_string(graph.states - 1) + " states of " +
@@ -89,9 +89,9 @@ void judge_lattice(const Ruleset& rules, const CheckOptions& options, RulesetChe
     LatticeOptions one = options.lattice;
     one.modules = options.modules;
     one.seed = derived_seed(options.lattice.seed, static_cast<std::uint64_t>(run));
-    if (one.stop != nullptr && one.stop->load()) return;
+    one.stop = options.stop;
     check.lattice.push_back(run_lattice(rules, network, one));
-    if (options.progress) options.progress((run + 1.0) / options.lattice_runs);
+    options.report((run + 1.0) / options.lattice_runs, "of the lattice simulations");
   }
   std::int64_t illegal = 0, unrestored = 0;
   for (const LatticeResult& result : check.lattice)
@@ -179,8 +179,12 @@ RulesetCheck check_ruleset(const Ruleset& rules, const CheckOptions& options) {
   check.irreversible_size = first_irreversible_size(rules, check.network);
   judge_species(rules, check);
   judge_rules(rules, check);
-  judge_population(rules, options.lattice.stop, check);
-  judge_lattice(rules, options, check);
+  try {
+    judge_population(rules, options, check);
+    judge_lattice(rules, options, check);
+  } catch (const Stopped&) {
+    throw Stopped("stopped; lattice simulations are not kept, so the same command starts again");
+  }
   return check;
 }
 

@@ -143,7 +143,7 @@ std::vector<EndState> PopulationGraph::deadlocks() const {
 }
 
 PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& network, int modules,
-                                 std::int64_t limit, const std::atomic<bool>* stop) {
+                                 std::int64_t limit, const JobControl& control) {
   if (modules < 1 || modules > std::numeric_limits<std::int16_t>::max())
     throw InputError("a population of " + std::to_string(modules) +
                      " modules: expected 1 .. 32767");
@@ -152,7 +152,7 @@ PopulationGraph population_graph(const Ruleset& rules, const ReactionNetwork& ne
     if (rules.rules[reaction.rule].p > 0) reactions.push_back(&reaction);
   Graph graph(network, std::move(reactions), limit);
   PopulationGraph result;
-  result.complete = graph.explore(modules, stop) && network.closed;
+  result.complete = graph.explore(modules, control) && network.closed;
   result.states = graph.states();
   if (!rules.target.empty()) result.possible = modules / static_cast<int>(rules.target.size());
   if (result.complete) result.ends = graph.ends();

@@ -173,7 +173,7 @@ RateTable RateRecord::table(double time) const {
 }
 
 MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double duration,
-                            const std::atomic<bool>* stop) {
+                            const JobControl& control) {
   if (model.rulesets.size() != 1)
     throw InputError("rates are measured under one ruleset; the scenario has " +
                      std::to_string(model.rulesets.size()));
@@ -182,8 +182,7 @@ MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double durat
   AssemblyRecord copies(model);
   RateRecord rates(model.rulesets.front(), model.module.count);
   while (world.time() < duration) {
-    if (stop != nullptr && stop->load()) measured.stopped = true;
-    if (measured.stopped) break;
+    control.check_stop();
     if (world.step() == RunStatus::diverged) {
       measured.diverged = true;
       break;

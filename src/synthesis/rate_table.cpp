@@ -186,7 +186,7 @@ RateTable rates_of_run(const std::string& dir) {
   RateRecord record(rules, modules);
   const std::string file = (fs::path(dir) / "events.csv").string();
   const std::string text = read_whole(file);
-  CsvReader rows(text, file, {kEventColumns}, true);
+  CsvReader rows(whole_lines(text), file, {kEventColumns});
   while (rows.next()) {
     Event event;
     event.kind = kind_in(rows);

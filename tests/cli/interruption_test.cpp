@@ -143,9 +143,13 @@ TEST_F(InterruptionTest, AStoppedRunSaysHowToGoOn) {
   RunOptions options;
   options.out = path("a");
   options.stop = &stop;
-  const RunResult stopped = run(scenario, options);
-  EXPECT_EQ(stopped.status, RunStatus::stopped);
-  EXPECT_EQ(stopped.time, 0);
+  try {
+    run(scenario, options);
+    ADD_FAILURE() << "was not stopped";
+  } catch (const Stopped& stopped) {
+    EXPECT_TRUE(std::string(stopped.what()).starts_with("stopped at 0 s of 1500 s; "))
+        << stopped.what();
+  }
   EXPECT_FALSE(lilytank_.here.has("a/summary.txt"));
   stop = false;
   const RunResult rest = run(scenario, options);
@@ -166,7 +170,7 @@ TEST_F(InterruptionTest, ACutFileIsNoticed) {
   RunOptions options;
   options.out = path("a");
   options.stop = &stop;
-  run(scenario, options);
+  EXPECT_THROW(run(scenario, options), Stopped);
   std::filesystem::resize_file(path("a/events.csv"), 3);
   EXPECT_THROW(run(scenario, options), InputError);
 }

@@ -299,7 +299,8 @@ std::vector<Reader> file_readers() {
       {"rates", read_rates, rate_rows()},
       {"checkpoint", read_checkpoint, checkpoint()},
       {"study-rows", read_rows,
-       row_header() + row_line(around().row, around().study->plan().identity())},
+       row_header() + with_checksum(row_line(around().row, around().study->plan().identity())) +
+           "\n"},
       {"kept-rows", read_kept_rows,
        "lilytank rows 2 " + hex(7) + "\n" + with_checksum("0,1.5,0") + ";\n" +
            with_checksum("1,1.5,nan") + ";\n"},

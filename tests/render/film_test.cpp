@@ -51,7 +51,9 @@ TEST(Film, Mp4HasTheRightFramesAndSize) {
   FilmOptions options = one_second();
   double last = 0;
   bool rising = true;
-  options.progress = [&](double done) { rising = rising && done > last, last = done; };
+  options.progress = [&](double done, const std::string&) {
+    rising = rising && done > last, last = done;
+  };
   draw_film(sample::run(20), options, folder.file("a.mp4"));
   EXPECT_EQ(probe(folder.file("a.mp4")), "h264,320,180,yuv420p,20\n");
   EXPECT_TRUE(rising);
@@ -151,7 +153,7 @@ TEST(Film, StopsWhenAskedAndLeavesNothing) {
   std::atomic<bool> stop = false;
   options.stop = &stop;
   int frames = 0;
-  options.progress = [&](double) { stop = ++frames == 3; };
+  options.progress = [&](double, const std::string&) { stop = ++frames == 3; };
   EXPECT_THROW(draw_film(sample::run(20), options, folder.file("a.mp4")), Stopped);
   EXPECT_EQ(frames, 3);
   EXPECT_TRUE(folder.names().empty());

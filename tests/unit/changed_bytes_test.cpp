@@ -148,7 +148,7 @@ TEST_F(ChangedBytes, OfAStoppedRunNeverReachTheResumedOne) {
     options.out = rig_.here.path("run");
     const std::atomic<bool> stop = true;  // after the first frame
     options.stop = &stop;
-    EXPECT_EQ(run(of, options).status, RunStatus::stopped);
+    EXPECT_THROW(run(of, options), Stopped);
     const Files stored = files_in(rig_.here, "run");
     RunOptions resumed;
     resumed.out = rig_.here.path("run");

@@ -14,13 +14,19 @@ namespace {
 
 using Row = std::vector<double>;
 
+KeptRows kept_in(const TemporaryDirectory& here, std::uint64_t identity = 5, int threads = 0) {
+  KeptRows out;
+  out.file = here.path("r.rows"), out.identity = identity, out.threads = threads;
+  return out;
+}
+
 Row row_of(int i) {
   return i == 3 ? Row{} : Row{0.1 * i, 1.0 / (i + 1), -1e-300};
 }
 
 TEST(KeptRows, areReadFromTheFileAndOnlyTheMissingAreDone) {
   const TemporaryDirectory here;
-  const KeptRows kept{here.path("r.rows"), 5};
+  const KeptRows kept = kept_in(here);
   std::atomic<int> done = 0;
   const auto work = [&](int i) { return ++done, row_of(i); };
   const auto first = kept_rows(kept, 6, work);
@@ -34,7 +40,7 @@ TEST(KeptRows, areReadFromTheFileAndOnlyTheMissingAreDone) {
 
 TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
   const TemporaryDirectory here;
-  const KeptRows kept{here.path("r.rows"), 5, 1};
+  const KeptRows kept = kept_in(here, 5, 1);
   const auto whole = kept_rows(kept, 4, row_of);
   const std::string text = here.read("r.rows");
   for (std::size_t length = 0; length < text.size(); length += 7) {
@@ -45,7 +51,7 @@ TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
 
 TEST(KeptRows, aNumberThatIsNoneStaysNone) {
   const TemporaryDirectory here;
-  const KeptRows kept{here.path("r.rows"), 5};
+  const KeptRows kept = kept_in(here);
   const auto nan = [](int) { return Row{1, std::nan(""), 2}; };
   for (int time = 0; time < 2; ++time) {
     const auto rows = kept_rows(kept, 1, nan);
@@ -56,13 +62,13 @@ TEST(KeptRows, aNumberThatIsNoneStaysNone) {
 
 TEST(KeptRows, ofAnotherCalculationOrDamagedAreRefused) {
   const TemporaryDirectory here;
-  kept_rows({here.path("r.rows"), 5}, 2, row_of);
-  EXPECT_THROW(kept_rows({here.path("r.rows"), 6}, 2, row_of), InputError);
+  kept_rows(kept_in(here), 2, row_of);
+  EXPECT_THROW(kept_rows(kept_in(here, 6), 2, row_of), InputError);
   const std::string text = here.read("r.rows");
   for (const char* line : {"x,1;\n", "0,nonsense;\n", "0,1\n", "-1,2;\n"}) {
     here.write("r.rows", text + line);
     try {
-      kept_rows({here.path("r.rows"), 5}, 2, row_of);
+      kept_rows(kept_in(here), 2, row_of);
       ADD_FAILURE() << line;
     } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find("r.rows:4:1"), std::string::npos) << e.what();
@@ -73,7 +79,8 @@ TEST(KeptRows, ofAnotherCalculationOrDamagedAreRefused) {
 TEST(KeptRows, stopKeepsWhatIsDone) {
   const TemporaryDirectory here;
   std::atomic<bool> stop = false;
-  KeptRows kept{here.path("r.rows"), 5, 1, &stop};
+  KeptRows kept = kept_in(here, 5, 1);
+  kept.stop = &stop;
   const auto until_third = [&](int i) {
     stop = i >= 3;
     return row_of(i);

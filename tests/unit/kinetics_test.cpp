@@ -204,7 +204,7 @@ TEST(Kinetics, ARunCountsForTheTimeThatItSimulated) {
   RunOptions options;
   options.out = rig.here.path("run");
   options.stop = &stop;
-  ASSERT_EQ(run(whole, options).status, RunStatus::stopped);
+  ASSERT_THROW(run(whole, options), Stopped);
   try {
     rates_of_run(options.out);
     ADD_FAILURE() << "the run is not over";

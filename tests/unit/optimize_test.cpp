@@ -43,18 +43,8 @@ TEST(Fitness, RateAndYieldAreWeighed) {
   EXPECT_DOUBLE_EQ(value(Fitness::rate_and_yield, {1000, 1500, 9000}), -600 * 3 / 9000.0);
 }
 
-TEST(Fitness, NamesAreRefusedWithTheNearest) {
-  EXPECT_EQ(fitness_named("eq10"), Fitness::eq10);
-  try {
-    fitness_named("yield_aera");
-    ADD_FAILURE();
-  } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("did you mean 'yield_area'?"), std::string::npos);
-  }
-}
-
 std::vector<double> completion_of(const Scenario& scenario, std::uint64_t seed, EarlyEnd early) {
-  return run_world(scenario, seed, early, nullptr, [](double) {})->row.completion;
+  return run_world(scenario, seed, early).row.completion;
 }
 
 // Worlds of 60 s: most reach their three pairs, which part again.
@@ -81,13 +71,13 @@ TEST(Optimize, ASettledWorldHasTheRowOfTheWholeOne) {
     const Scenario scenario = rig.read(kHead + kPart, {"run.duration=60"}).scenario({p});
     double spared = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      const auto whole = run_world(scenario, seed, EarlyEnd::never, nullptr, [](double) {});
-      const auto early = run_world(scenario, seed, EarlyEnd::settled, nullptr, [](double) {});
-      EXPECT_EQ(whole->row.completion, early->row.completion);
-      EXPECT_EQ(whole->row.copies, early->row.copies);
-      EXPECT_EQ(whole->row.duration, early->row.duration);
-      EXPECT_EQ(whole->row.illegal, early->row.illegal);
-      spared += whole->simulated - early->simulated;
+      const auto whole = run_world(scenario, seed, EarlyEnd::never);
+      const auto early = run_world(scenario, seed, EarlyEnd::settled);
+      EXPECT_EQ(whole.row.completion, early.row.completion);
+      EXPECT_EQ(whole.row.copies, early.row.copies);
+      EXPECT_EQ(whole.row.duration, early.row.duration);
+      EXPECT_EQ(whole.row.illegal, early.row.illegal);
+      spared += whole.simulated - early.simulated;
     }
     // Pairs that may part are not settled.
     EXPECT_EQ(spared > 0, p == 0) << spared;
@@ -109,11 +99,11 @@ TEST(Optimize, AWorldThatAwaitsAnotherTargetIsNotSettled) {
     scenario.model.commands.clear(), scenario.model.feedback.clear();
     (by_copies ? scenario.model.feedback : scenario.model.commands).push_back(change);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const auto whole = run_world(scenario, seed, EarlyEnd::never, nullptr, [](double) {});
+      const auto whole = run_world(scenario, seed, EarlyEnd::never);
       for (const EarlyEnd early : {EarlyEnd::settled, EarlyEnd::completed}) {
-        const auto other_row = run_world(scenario, seed, early, nullptr, [](double) {});
-        EXPECT_EQ(whole->row.completion, other_row->row.completion) << seed;
-        EXPECT_EQ(whole->row.copies, other_row->row.copies) << seed;
+        const auto other_row = run_world(scenario, seed, early);
+        EXPECT_EQ(whole.row.completion, other_row.row.completion) << seed;
+        EXPECT_EQ(whole.row.copies, other_row.row.copies) << seed;
       }
     }
   }
@@ -178,7 +168,7 @@ TEST(Optimize, AgitationFollowsCopiesOrTime) {
 /// The whole run of a point's world in a search with seed 1.
 WorldRun whole_of(const Optimization& what, const Trial& trial) {
   const auto seed = derived_seed(1, static_cast<std::uint64_t>(trial.replicate)) >> 5;
-  return *run_world(what.scenario(trial.point), seed, EarlyEnd::never, nullptr, [](double) {});
+  return run_world(what.scenario(trial.point), seed, EarlyEnd::never);
 }
 
 // Four modules make two pairs, whatever the scenario's six would make; a horizon is a world's own.

@@ -87,7 +87,7 @@ TEST(SearchRun, StoppedAnywhereItEndsWithTheSameBytes) {
       ASSERT_LT(calls, 100);
       stop = false;
       std::atomic<int> evaluated{0};
-      const Objective objective = [&](const Trial& trial) -> std::optional<double> {
+      const Objective objective = [&](const Trial& trial) {
         if (++evaluated >= most) stop = true;
         return value(trial);
       };
@@ -124,7 +124,7 @@ TEST(SearchRun, SurvivesSigkill) {
     if (child == 0) {
       run_search(
           swarm(),
-          [](const Trial& trial) -> std::optional<double> {
+          [](const Trial& trial) {
             ::usleep(3000);
             return value(trial);
           },
@@ -155,7 +155,7 @@ TEST(SearchRun, DoneIsDone) {
   run_search(swarm(), value, in(directory));
   const auto again = run_search(
       swarm(),
-      [](const Trial&) -> std::optional<double> {
+      [](const Trial&) {
         ADD_FAILURE() << "evaluated again";
         return 0.0;
       },
@@ -204,9 +204,7 @@ TEST(SearchRun, RefusesChangedFiles) {
 
 TEST(SearchRun, PassesOnWhatAnEvaluationThrows) {
   const TemporaryDirectory directory;
-  const auto broken = [](const Trial&) -> std::optional<double> {
-    throw InputError("no such file");
-  };
+  const auto broken = [](const Trial&) -> double { throw InputError("no such file"); };
   EXPECT_THROW(run_search(swarm(), broken, in(directory)), InputError);
   EXPECT_EQ(run_search(swarm(), value, in(directory)).evaluated, 72);
 }

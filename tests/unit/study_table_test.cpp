@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "io/file_digest.hpp"
 #include "lilytank/run.hpp"
 #include "study/row_text.hpp"
 #include "study/run_table.hpp"
@@ -100,7 +101,8 @@ TEST_F(StudyTableTest, RowsGoThroughText) {
   row.completion = {0.1, 2.225};
   row.note = "step 139: module 3, force";
   bool foreign = false;
-  const auto back = rows_from(row_header() + row_line(row, plan.identity()), "f", plan, foreign);
+  const std::string line = with_checksum(row_line(row, plan.identity())) + "\n";
+  const auto back = rows_from(row_header() + line, "f", plan, foreign);
   ASSERT_EQ(back.size(), 1u);
   EXPECT_FALSE(foreign);
   EXPECT_EQ(back[0].status, RunStatus::diverged);
@@ -108,13 +110,12 @@ TEST_F(StudyTableTest, RowsGoThroughText) {
   EXPECT_EQ(back[0].values, row.values);
   EXPECT_EQ(back[0].note, "step 139: module 3; force");
   EXPECT_EQ(row_line(back[0], plan.identity()), row_line(row, plan.identity()));
-  std::string damaged = row_header() + row_line(row, plan.identity());
+  std::string damaged = row_header() + line;
   damaged.replace(damaged.find(",1,2,"), 5, ",1,3,");  // the id belongs to another replicate
   EXPECT_THROW(rows_from(damaged, "f", plan, foreign), InputError);
   StudyPlan other = plan;
   other.seed = 77;
-  EXPECT_TRUE(
-      rows_from(row_header() + row_line(row, plan.identity()), "f", other, foreign).empty());
+  EXPECT_TRUE(rows_from(row_header() + line, "f", other, foreign).empty());
   EXPECT_TRUE(foreign);
 }
 
@@ -178,14 +179,12 @@ TEST_F(StudyTableTest, AStopAbandonsWhatRuns) {
   options.out = out();
   options.threads = 2;
   options.stop = &stop;
-  options.progress = [&](const StudyProgress& now) {
-    EXPECT_EQ(now.left, 8);
+  options.progress = [&](double, const std::string& note) {
+    EXPECT_TRUE(note.starts_with("0 runs, 8 left, ")) << note;
     stop = true;
   };
-  const StudyResult result = run_study(study, options);
-  EXPECT_TRUE(result.stopped);
-  EXPECT_FALSE(result.complete);
-  EXPECT_EQ(result.runs, 0);
+  EXPECT_THROW(run_study(study, options), Stopped);
+  EXPECT_TRUE(load_study(out()).table.rows.empty());
 }
 
 /// Rows of made-up runs with so many copies each.
