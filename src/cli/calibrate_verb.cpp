@@ -184,8 +184,7 @@ int calibrate_verb(const Arguments& arguments) {
   refuse_point_bodies(options.positional());
   complete(options, job);
   Progress progress(job.quiet);
-  c.progress = [&](double done, const std::string& stage) { progress.show(done, stage); };
-  c.stop = &stop_signal();
+  progress.watch(c);
   if (options.has("recover")) return recover_verb(options, arguments, job, progress);
   std::vector<std::string> files = options.positional();
   const Experiment experiment = load_experiment(files, job.sets);

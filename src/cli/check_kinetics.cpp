@@ -118,9 +118,8 @@ Counted measure(const CheckJob& of, const CheckInput& input, const std::string& 
   job.duration = scenario.duration;
   job.out = dir;
   job.identity = identity_of(scenario, input.rules);
-  job.stop = &stop_signal();
   Progress progress(of.quiet);
-  job.progress = [&](double done) { progress.show(done, "of the simulations"); };
+  progress.watch(job);
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
   Counted counted;

@@ -80,11 +80,10 @@ int check_verb(const Arguments& arguments) {
   const CheckInput input = check_input(job);
   job.check.modules = input.modules;
   job.check.lattice.seed = job.measured.seed;
-  job.check.lattice.stop = &stop_signal();
   RulesetCheck check;
   {
     Progress progress(job.quiet);
-    job.check.progress = [&](double done) { progress.show(done, "of the lattice simulations"); };
+    progress.watch(job.check);
     check = check_ruleset(input.rules, job.check);
     progress.clear();
   }

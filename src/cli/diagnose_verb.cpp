@@ -53,9 +53,8 @@ int diagnose_verb(const Arguments& arguments) {
     return Exit::done;
   }
   if (!options.has("tank")) options.refuse_given({"tank-results"}, "goes with --tank");
-  job.stop = &stop_signal();
   Progress progress(quiet);
-  job.progress = [&](double done, const std::string& stage) { progress.show(done, stage); };
+  progress.watch(job);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   Diagnosis found;

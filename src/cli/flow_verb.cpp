@@ -73,9 +73,10 @@ void estimate(const std::string& word, const std::vector<Recording>& recordings,
 void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings,
                   FlowReport& report) {
   Progress progress(job.quiet);
-  report.bias =
-      measure_flow_bias(recordings, report.estimates.back(), report.ball, report.options, job.seed,
-                        [&](double done) { progress.show(done, "of the biases"); });
+  JobControl control;
+  progress.watch(control);
+  report.bias = measure_flow_bias(recordings, report.estimates.back(), report.ball, report.options,
+                                  job.seed, control);
   progress.clear();
 }
 

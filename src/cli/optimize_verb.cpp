@@ -57,7 +57,7 @@ OptimizationResult run_with_progress(const Optimization& what, OptimizationOptio
                                      bool quiet) {
   Progress progress(quiet);
   if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
-  job.progress = [&](double done, const std::string& note) { progress.show(done, note); };
+  progress.watch(job);
   return run_optimization(what, job);
 }
 
@@ -69,9 +69,9 @@ int compare(const Optimization& what, const OptimizationResult& result,
   job.out = (fs::path(options.out) / "compare").string();
   job.threads = options.threads, job.force = options.force;
   Progress progress(quiet);
-  job.progress = [&](const StudyProgress& now) {
-    progress.show(now.done, "comparing: " + std::to_string(now.runs) + " runs, " +
-                                std::to_string(now.left) + " left");
+  progress.watch(job);
+  job.progress = [&](double share, const std::string& note) {
+    progress.show(share, "comparing: " + note);
   };
   const StudyResult done = run_study(study, job);
   progress.clear();
@@ -109,7 +109,6 @@ int optimize_verb(const Arguments& arguments) {
   spare_read(options, files_of_search(job.out), what.source().inputs());
   check_search_directory(what.source(), job.out, job.force);
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
-  job.stop = &stop_signal();
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   const OptimizationResult result = run_with_progress(what, job, quiet);

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <system_error>
 
-#include "cli/stop_signal.hpp"
 #include "text/printable.hpp"
 
 namespace lilytank::cli {
@@ -64,6 +63,11 @@ Progress::~Progress() {
   end_.notify_all();
   if (clock_.joinable()) clock_.join();
   clear();
+}
+
+void Progress::watch(JobControl& job) {
+  job.stop = &stop_signal();
+  job.progress = [this](double done, const std::string& note) { show(done, note); };
 }
 
 void Progress::show(double done, const std::string& note) {

@@ -19,7 +19,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `done` is the share done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
+  /// Shows the job's progress, and stops the job on a signal. The job must not outlive this object.
+  void watch(JobControl& job);
+  /// `done` is the fraction done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
   void show(double done, const std::string& note);
   /// Takes the changing line away, before other output.
   void clear();

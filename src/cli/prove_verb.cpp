@@ -108,10 +108,7 @@ int prove_verb(const Arguments& arguments) {
   job.diagnosis.out = options.out("out/proof");
   const std::filesystem::path dir(job.diagnosis.out);
   Progress progress(quiet);
-  job.diagnosis.stop = &stop_signal();
-  job.diagnosis.progress = [&](double done, const std::string& stage) {
-    progress.show(done, stage);
-  };
+  progress.watch(job.diagnosis);
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
     std::cout << "ground truth recorded; its SHA-256: " << hash << std::endl;

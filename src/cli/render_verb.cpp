@@ -52,8 +52,7 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   if (!options.has("at")) at = run.trajectory.time.back();
   warn_if_seldom(options, run, film, at);
   Progress progress(quiet);
-  film.stop = &stop_signal();
-  film.progress = [&](double done) { progress.show(done, "of the film"); };
+  progress.watch(film);
   NamedContents pictures;
   std::vector<std::string> made;
   for (const char* name : {"png", "svg"}) {

@@ -53,8 +53,8 @@ void draw(const RunOptions& job, const ReportProvenance& origin, bool quiet) {
     film.length = 35, film.style.size = 720;  // 10 MB at most; `lilytank render` draws larger ones
     std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
     Progress progress(quiet);
-    film.force = job.force, film.stop = job.stop;
-    film.progress = [&](double done) { progress.show(done, "of the film"); };
+    film.force = job.force;
+    progress.watch(film);
     draw_film(stored, film, (fs::path(job.out) / "video.mp4").string());
     ReportDocument report = run_report(stored, job.out);
     report.provenance = origin;
@@ -88,10 +88,6 @@ void say_time(const RunResult& result, const std::string& out) {
 /// What to print, and the exit code. `film`: where the numbers come from, if the run is drawn.
 int finish(const Scenario& scenario, const RunResult& result, const RunOptions& job,
            const std::optional<ReportProvenance>& film, bool quiet) {
-  if (result.status == RunStatus::stopped) {
-    throw Stopped("stopped at " + without_rounding(result.time) + " s of " +
-                  shortest(scenario.duration) + " s; the same command resumes from there");
-  }
   if (!quiet) say_time(result, job.out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
@@ -132,11 +128,7 @@ int run_verb(const Arguments& arguments) {
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
   Progress progress(quiet);
-  job.progress = [&](double done, double rate) {
-    char note[48];
-    std::snprintf(note, sizeof note, "%.0f times real time", rate);
-    progress.show(done, note);
-  };
+  progress.watch(job);
   const RunResult result = run(scenario, job);
   progress.clear();
   std::optional<ReportProvenance> film;

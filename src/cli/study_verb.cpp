@@ -57,14 +57,7 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
     if (quiet) return;
     std::cerr << plan_line(study.plan(), job) << "; " << counted(runs, "run") << " to do\n";
   };
-  job.progress = [&](const StudyProgress& now) {
-    char note[120];
-    std::snprintf(note, sizeof note, "%d runs, %d left, %.3g simulations/s, %.3g simulated h/s%s%s",
-                  now.runs, now.left, now.worlds_per_second, now.hours_per_second,
-                  now.failed > 0 ? ", diverged: " : "",
-                  now.failed > 0 ? std::to_string(now.failed).c_str() : "");
-    progress.show(now.done, note);
-  };
+  progress.watch(job);
   return run_study(study, job);
 }
 
@@ -117,7 +110,6 @@ int run_one(const Arguments& arguments) {
   job.shard = shard_of(options);
   spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
-  job.stop = &stop_signal();
   return finish(study.plan(), run_with_progress(study, job, quiet), job);
 }
 
