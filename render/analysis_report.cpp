@@ -4,6 +4,7 @@
 
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/median.hpp"
 #include "statistics/undefined.hpp"
 
 namespace lilytank {
@@ -162,7 +163,7 @@ Plot difference_plot(const Analysis& analysis, const AnalysisCurves& set, const 
 }
 
 // Where tracks end early, how many there are at each lag.
-bool add_track_numbers(const Analysis& analysis, const AnalysisCurves& set, PlotPage& page) {
+void add_track_numbers(const Analysis& analysis, const AnalysisCurves& set, PlotPage& page) {
   Plot plot = empty_plot(set, {"s", 1}, {"", 1});
   plot.height = kLowHeight;
   plot.y_label = "tracks", plot.legend_title = shared_key(analysis);
@@ -176,30 +177,22 @@ bool add_track_numbers(const Analysis& analysis, const AnalysisCurves& set, Plot
     plot.curves.push_back(std::move(curve));
   }
   if (varies) page.plots.push_back(std::move(plot));
-  return varies;
 }
 
-PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set) {
+PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set, bool logarithmic) {
   const Shown x = shown(set.x_unit), y = shown(set.y_unit);
-  PlotPage page{overlays(analysis, set, x, y), 1};
+  PlotPage page{overlays(analysis, set, x, y)};
   page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
-  if (page.plots.size() > 1) {
-    share_x(page.plots);
-    return page;
+  const bool several = page.plots.size() > 1;
+  if (logarithmic) {
+    for (Plot& plot : page.plots) plot.log_x = plot.log_y = true, plot.y_low = plot.y_high = 0;
+  } else if (!several) {
+    if (!set.difference.value.empty()) {
+      page.plots.push_back(difference_plot(analysis, set, x, y));
+    }
+    if (set.name.starts_with("msd")) add_track_numbers(analysis, set, page);
   }
-  if (!set.difference.value.empty()) {
-    page.plots.push_back(difference_plot(analysis, set, x, y));
-  }
-  if (set.name.starts_with("msd")) add_track_numbers(analysis, set, page);
-  share_x(page.plots);
-  return page;
-}
-
-PlotPage logarithmic(const Analysis& analysis, const AnalysisCurves& set) {
-  PlotPage page{overlays(analysis, set, shown(set.x_unit), shown(set.y_unit)), 1};
-  page.columns = static_cast<int>(std::min<std::size_t>(3, page.plots.size()));
-  for (Plot& plot : page.plots) plot.log_x = plot.log_y = true, plot.y_low = plot.y_high = 0;
-  if (page.plots.size() > 1) share_x(page.plots);
+  if (several || !logarithmic) share_x(page.plots);
   return page;
 }
 
@@ -273,10 +266,10 @@ double usual_most(const std::vector<const std::vector<double>*>& all) {
     }
   }
   if (sizes.empty()) return 1;
-  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(0.98 * (sizes.size() - 1.0));
-  std::nth_element(sizes.begin(), at, sizes.end());
-  const double step = std::pow(10.0, std::floor(std::log10(std::max(*at, 1e-9)))) / 2;
-  return step * std::ceil(*at / step);
+  const auto rank = static_cast<std::size_t>(0.98 * (sizes.size() - 1.0));
+  const double usual = ranked(std::move(sizes), rank);
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(usual, 1e-9)))) / 2;
+  return step * std::ceil(usual / step);
 }
 
 void add_row(Map& map, const VelocityMap& v, const std::string& name, const std::string& what,
@@ -327,8 +320,8 @@ std::vector<Figure> analysis_plots(const Analysis& analysis) {
     figures.push_back({name, caption_of(name), page, {}});
   };
   for (const AnalysisCurves& set : analysis.curves) {
-    add(set.name, page_of(analysis, set));
-    if (set.name == "msd_all") add("msd_all_log", logarithmic(analysis, set));
+    add(set.name, page_of(analysis, set, false));
+    if (set.name == "msd_all") add("msd_all_log", page_of(analysis, set, true));
   }
   if (analysis.options.msd_only) return figures;
   Figure contacts = contact_plot(analysis);

@@ -5,6 +5,7 @@
 
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
+#include "statistics/median.hpp"
 #include "statistics/undefined.hpp"
 #include "text/number.hpp"
 
@@ -113,9 +114,8 @@ double scale_of(const std::vector<MapPanel>& panels) {
     }
   }
   if (sizes.empty()) return 1;
-  const auto high = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 99 / 100);
-  std::nth_element(sizes.begin(), high, sizes.end());
-  return *high;
+  const std::size_t rank = sizes.size() * 99 / 100;
+  return ranked(std::move(sizes), rank);
 }
 
 Map error_map(const FlowReport& report) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include "modules.hpp"
+#include "bodies.hpp"
 #include "palette.hpp"
 #include "panel.hpp"
 #include "pumps.hpp"

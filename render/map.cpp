@@ -9,7 +9,7 @@ namespace lilytank {
 namespace {
 
 constexpr double kLeft = 62, kTop = 40, kBottom = 54;  // room around a panel, units
-constexpr double kKey = 30;                            // below all panels, units
+constexpr double kKeyHeight = 30;                      // below all panels, units
 constexpr double kScale = 116, kClassLegend = 170,
                  kRightGap = 12;  // to its right: bar, legend, nothing
 
@@ -51,7 +51,7 @@ MapPage page_of(const Map& map) {
     y += kTop + size + kBottom;
   }
   page.key = !map.hatching.empty() && std::any_of(map.panels.begin(), map.panels.end(), is_hatched);
-  page.height = std::max(y + (page.key ? kKey : 0), 100.0);
+  page.height = std::max(y + (page.key ? kKeyHeight : 0), 100.0);
   page.width = std::max(page.width, 100.0);
   return page;
 }

@@ -7,6 +7,7 @@
 
 #include "axes.hpp"
 #include "palette.hpp"
+#include "statistics/median.hpp"
 
 namespace lilytank {
 namespace {
@@ -142,9 +143,8 @@ double usual_most(const std::vector<Arrow>& arrows) {
   std::vector<double> lengths;
   for (const Arrow& a : arrows) lengths.push_back(std::hypot(a.vx, a.vy));
   if (lengths.empty()) return 0;
-  const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(0.95 * (lengths.size() - 1.0));
-  std::nth_element(lengths.begin(), at, lengths.end());
-  return *at;
+  const auto rank = static_cast<std::size_t>(0.95 * (lengths.size() - 1.0));
+  return ranked(std::move(lengths), rank);
 }
 
 void arrow_line(const Canvas& canvas, double x0, double y0, double x1, double y1) {

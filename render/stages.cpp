@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "canvas.hpp"
-#include "io/atomic_file.hpp"
 #include "lilytank/math.hpp"
 #include "lilytank/render.hpp"
 #include "palette.hpp"
@@ -21,7 +20,7 @@ constexpr std::array<int, 4> kX = {1, 0, -1, 0}, kY = {0, 1, 0, -1};
 const TextStyle kRuleName{15, palette::ink, true, Align::left};
 const TextStyle kSmall{12, palette::muted, false, Align::left};
 
-constexpr char kKey[] = "connector engaged last (hop 1); at the faces: hops; bold: control state";
+constexpr char kSigns[] = "connector engaged last (hop 1); at the faces: hops; bold: control state";
 
 // Where the stages lie on the page.
 struct Grid {
@@ -139,7 +138,7 @@ void draw_stage(const Canvas& canvas, const Target& target, const Stage& stage, 
 // What the signs mean, below the stages.
 void draw_key(const Canvas& canvas, double x, double y) {
   canvas.line(x, y - 4, x + 22, y - 4, palette::accent, 4.6);
-  canvas.text(x + 30, y, kKey, kSmall);
+  canvas.text(x + 30, y, kSigns, kSmall);
 }
 
 }  // namespace
@@ -151,7 +150,7 @@ std::string stages_picture(const Target& target, const std::vector<Stage>& stage
   const Grid grid = grid_of(ruler, target, stages);
   const double head = title.empty() ? 0 : kHead;
   const double width =
-      std::ceil(2 * kPageMargin + std::max(30 + ruler.width_of(kKey, kSmall),
+      std::ceil(2 * kPageMargin + std::max(30 + ruler.width_of(kSigns, kSmall),
                                            grid.columns * (grid.width + kStageGap) - kStageGap));
   const double height =
       2 * kPageMargin + head + kFoot + grid.rows * (grid.height + kStageGap) - kStageGap;
@@ -172,11 +171,6 @@ std::string stages_picture(const Target& target, const std::vector<Stage>& stage
   }
   draw_key(canvas, kPageMargin, height - kPageMargin);
   return std::string(canvas.encoded());
-}
-
-void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
-                 const std::string& file) {
-  write_atomically(file, stages_picture(target, stages, title, file));
 }
 
 }  // namespace lilytank

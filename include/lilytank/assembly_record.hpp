@@ -11,23 +11,17 @@ namespace lilytank {
 
 /// A kind of assembly: cells and bonds, up to turning, with the modules' ruleset states.
 struct Species {
-  /// Canonical text, equal for equal species.
-  std::string key;
-  /// Number of modules.
-  int size = 1;
-  /// Reachable by the ruleset from single modules.
-  bool legal = true;
-  /// Whether it has the target's shape, rotated but not mirrored.
-  bool target = false;
-  /// Rows joined by '/', '#' a module, for reports.
-  std::string drawing;
+  std::string key;      ///< canonical text, equal for equal species
+  int size = 1;         ///< number of modules
+  bool legal = true;    ///< reachable by the ruleset from single modules
+  bool target = false;  ///< whether it has the target's shape, rotated but not mirrored
+  std::string drawing;  ///< rows joined by '/', '#' a module, for reports
 };
 
 /// All species that a ruleset can make, by applying its rules to single modules until nothing new
 /// comes; `closed` is false where a limit stopped it, and legality is then not judged.
 struct SpeciesTable {
-  /// In the order of discovery.
-  std::vector<Species> species;
+  std::vector<Species> species;  ///< in the order of discovery
   /// Whether the exploration ended by itself: then no other species is reachable.
   bool closed = true;
   /// Whether a species with this key is in the table.

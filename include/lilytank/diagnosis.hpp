@@ -142,6 +142,17 @@ struct Diagnosis {
 /// it was stopped. Throws InputError.
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options);
 
+/// An earlier diagnosis in the same tank: its flow map, baseline, null experiments and fingerprints
+/// serve for further recordings.
+struct DiagnosedTank {
+  Experiment experiment;  ///< with the same values of the model
+  std::string directory;  ///< of its results; what is missing there is simulated
+};
+/// The same with an earlier diagnosis of the tank, by the same seed and budget. The recordings that
+/// are fitted must be as many, of the same length, rate and number of modules. Throws InputError.
+Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& tank,
+                   const DiagnosisOptions& options);
+
 /// The report, without its provenance.
 ReportDocument diagnosis_report(const Diagnosis& diagnosis);
 std::string diagnosis_text(const Diagnosis& diagnosis);

@@ -10,8 +10,7 @@ namespace lilytank {
 
 /// Bins of equal width over low .. high; the last one holds `high`.
 struct Bins {
-  /// In the unit of the binned quantity.
-  double low = 0, high = 1;
+  double low = 0, high = 1;  ///< in the unit of the binned quantity
   int count = 50;
   /// Width of a bin.
   double width() const { return (high - low) / count; }
@@ -24,14 +23,12 @@ struct Bins {
 /// Scalars of a smoothed track that have a distribution. Outward and around refer to the tank's
 /// centre.
 enum class Quantity : std::uint8_t {
-  speed,       ///< m/s
-  velocity_x,  ///< m/s
-  velocity_y,  ///< m/s
-  /// Away from the tank's centre, m/s.
-  velocity_out,
-  /// About the tank's centre, counter-clockwise, m/s.
-  velocity_around,
-  spin,  ///< rad/s
+  speed,            ///< m/s
+  velocity_x,       ///< m/s
+  velocity_y,       ///< m/s
+  velocity_out,     ///< away from the tank's centre, m/s
+  velocity_around,  ///< about the tank's centre, counter-clockwise, m/s
+  spin,             ///< rad/s
 };
 
 /// Probability density of a quantity (1 over its unit). Values beyond the bins count as samples.
@@ -58,39 +55,30 @@ BodySums nearest_distance(const SmoothRecording& recording);
 
 /// When two bodies touch.
 struct ContactRule {
-  /// Side of squares or diameter of discs, m.
-  double size = 0.035;
-  /// Else discs; squares need headings.
-  bool squares = true;
-  /// Gap at which a contact begins, m.
-  double touching = 0.001;
-  double apart = 0.002;  ///< m, gap above which it ends
+  double size = 0.035;      ///< side of squares or diameter of discs, m
+  bool squares = true;      ///< else discs; squares need headings
+  double touching = 0.001;  ///< gap at which a contact begins, m
+  double apart = 0.002;     ///< m, gap above which it ends
 };
 /// Contacts between bodies of a recording.
 struct Contacts {
   /// Duration of every contact that was seen to begin; censored where a body is lost or the
   /// recording ends.
   std::vector<Duration> durations;
-  /// Contacts begun by a body, a second (one bin): a contact counts for both.
-  BodySums begun;
-  /// Share of the time in which a body touches at least one other (one bin).
-  BodySums touching;
+  BodySums begun;     ///< contacts started by a body, a second (one bin): a contact counts for both
+  BodySums touching;  ///< fraction of the time in which a body touches at least one other (one bin)
 };
 /// The gap between two squares is the largest one along the axes of either.
 Contacts find_contacts(const SmoothRecording& recording, const ContactRule& rule);
 
 /// Mean velocity by place: cells as in FlowField.
 struct VelocityMap {
-  /// Cells along one side.
-  int cells = 0;
-  /// Half of the map's side, m.
-  double extent = 0;
-  std::vector<double> vx, vy;  ///< m/s, NaN: no data
-  /// Standard error over bodies; NaN with fewer than two there.
-  std::vector<double> se_x, se_y;
+  int cells = 0;                      ///< cells along one side
+  double extent = 0;                  ///< half of the map's side, m
+  std::vector<double> vx, vy;         ///< m/s, NaN: no data
+  std::vector<double> se_x, se_y;     ///< standard error over bodies; NaN with fewer than two there
   std::vector<std::int64_t> samples;  ///< frames
-  /// Number of bodies that passed the cell.
-  std::vector<int> bodies;
+  std::vector<int> bodies;            ///< number of bodies that passed the cell
 };
 /// Averages the smoothed velocities of all recordings over cells x cells squares on [-extent,
 /// extent]^2 (m). Frames count once per body; standard errors take bodies as independent.

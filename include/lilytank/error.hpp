@@ -10,12 +10,9 @@ namespace lilytank {
 
 /// A place in a user's file. Lines and columns count from 1; 0 means unknown.
 struct SourcePlace {
-  /// Path as the user gave it.
-  std::string file;
-  /// From 1; 0: unknown.
-  int line = 0;
-  /// From 1; 0: unknown.
-  int column = 0;
+  std::string file;  ///< path as the user gave it
+  int line = 0;      ///< from 1; 0: unknown
+  int column = 0;    ///< from 1; 0: unknown
   /// "tank.toml:14:3"; "tank.toml:14" without a column, "tank.toml" without a line.
   std::string text() const;
 };

@@ -8,36 +8,24 @@ namespace lilytank {
 
 /// Kinds of events. Rules are those of the ruleset in force.
 enum class EventKind : std::uint8_t {
-  /// Two faces came within capture distance and angle and hold each other.
-  latch,
-  /// A new latch was released: no rule applies to the pair's labels.
-  unlatch,
-  /// A link rule made the latch a bond.
-  link,
-  /// An unlink rule released a bond.
-  unlink,
-  /// An update rule changed labels on a bond.
-  update,
-  /// A module answered a query with its state.
-  report,
-  /// The base station gave a command: command_at(model, Event::a).
-  command,
+  latch,    ///< two faces came within capture distance and angle and hold each other
+  unlatch,  ///< a new latch was released: no rule applies to the pair's labels
+  link,     ///< a link rule made the latch a bond
+  unlink,   ///< an unlink rule released a bond
+  update,   ///< an update rule changed labels on a bond
+  report,   ///< a module answered a query with its state
+  command,  ///< the base station gave a command: command_at(model, Event::a)
 };
 
 /// Something that a module reported by radio, or the base station did, during a step. Fields that
 /// do not apply to the kind keep their defaults.
 struct Event {
-  /// The step in which it happened; its time is step * dt.
-  std::int64_t step = 0;
+  std::int64_t step = 0;  ///< the step in which it happened; its time is step * dt
   EventKind kind = EventKind::latch;
-  /// Modules; -1: none.
-  std::int32_t a = -1, b = -1;
-  /// Their connectors, 0..3; -1: none.
-  std::int8_t face_a = -1, face_b = -1;
-  /// Index into the rules of the ruleset in force; -1: none.
-  std::int16_t rule = -1;
-  /// Control states l_a after the event.
-  std::int32_t label_a = 0, label_b = 0;
+  std::int32_t a = -1, b = -1;           ///< modules; -1: none
+  std::int8_t face_a = -1, face_b = -1;  ///< their connectors, 0..3; -1: none
+  std::int16_t rule = -1;                ///< index into the rules of the ruleset in force; -1: none
+  std::int32_t label_a = 0, label_b = 0;  ///< control states l_a after the event
   /// Connectors engaged last, l_n, after the event; -1: isolated.
   std::int8_t last_a = -1, last_b = -1;
 };
@@ -53,13 +41,11 @@ inline constexpr std::string_view kStalled = "contact_solver";
 /// Why a simulation was given up.
 struct Divergence {
   std::int64_t step = 0;
-  /// The fastest body, or one of the assembly that stalled.
-  int body = 0;
+  int body = 0;  ///< the fastest body, or one of the assembly that stalled
   /// Name of the term with the largest force on that body's assembly; "none" if all are 0; or
   /// kStalled.
   std::string_view force;
-  /// Size of that force, N. Of kStalled: the visits allowed in one step.
-  double size = 0;
+  double size = 0;  ///< size of that force, N. Of kStalled: the visits allowed in one step
 };
 
 /// Counts of work since a World was made. Not part of the state: a run that resumes adds those of
@@ -77,10 +63,8 @@ struct Tallies {
 
 /// The deepest overlap in a state.
 struct Overlap {
-  /// m; 0: nothing overlaps.
-  double depth = 0;
-  /// Bodies, a < b; a = -1: b and the wall.
-  int a = -1, b = -1;
+  double depth = 0;    ///< m; 0: nothing overlaps
+  int a = -1, b = -1;  ///< bodies, a < b; a = -1: b and the wall
 };
 
 }  // namespace lilytank

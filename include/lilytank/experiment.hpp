@@ -12,31 +12,23 @@ namespace lilytank {
 
 /// A [[recording]] of an experiment file.
 struct RecordingSource {
-  /// Path, relative to the working directory.
-  std::string file;
-  /// Format, units, checks and treatment of this recording.
-  RecordingOptions options;
-  /// Where the experiment file names it.
-  SourcePlace place;
+  std::string file;          ///< path, relative to the working directory
+  RecordingOptions options;  ///< format, units, checks and treatment of this recording
+  SourcePlace place;         ///< where the experiment file names it
 };
 
 /// An experiment file with all that it names.
 struct Experiment {
-  /// From [experiment], or the file's name.
-  std::string name;
-  /// What the scenario's keys set; base.model holds the tank and the bodies.
-  Scenario base;
-  /// All [[recording]] tables, read or not.
-  std::vector<RecordingSource> sources;
-  /// The recordings that were read, in the order of `sources`.
-  std::vector<Recording> recordings;
-  /// Findings of their checks, in the same order.
-  std::vector<Finding> findings;
+  std::string name;  ///< from [experiment], or the file's name
+  Scenario base;     ///< what the scenario's keys set; base.model holds the tank and the bodies
+  std::vector<RecordingSource> sources;  ///< all [[recording]] tables, read or not
+  std::vector<Recording> recordings;  ///< the recordings that were read, in the order of `sources`
+  std::vector<Finding> findings;      ///< findings of their checks, in the same order
 };
 
-/// Reads an experiment: files laid over each other as scenarios are (later wins; recordings of a
-/// later file replace those of earlier ones), then `sets` ("path=value"). Recordings are read for
-/// which `wanted` is true (all if it is empty). Throws InputError.
+/// Reads an experiment: files override each other as those of scenarios do (later wins; recordings
+/// of a later file replace those of earlier ones), then `sets` ("path=value"). Recordings are read
+/// for which `wanted` is true (all if it is empty). Throws InputError.
 Experiment load_experiment(const std::vector<std::string>& files,
                            const std::vector<std::string>& sets = {},
                            const std::function<bool(const RecordingSource&)>& wanted = {});

@@ -1,9 +1,10 @@
 // The water's velocity from the tracks of balls that float in it [paper, section 3.2].
 //
-// Two estimators of the same two things, the mean mu and the deviation sigma of Eq. 4 in each cell:
+// Two estimators of the same two things, the mean mu and the standard deviation sigma of Eq. 4 in
+// each cell:
 //
 // `estimate_paper` is Eq. 3: the water's velocity in every frame from a ball's velocity and
-// acceleration, then mean and deviation of these over the frames that fall into a cell.
+// acceleration, then mean and standard deviation of these over the frames that fall into a cell.
 //
 // `estimate_smooth` finds the flow for which the balls' equation of motion (drag under gusts,
 // random force, damping) agrees with the tracks on average; the data determine the smoothness of
@@ -27,22 +28,15 @@ namespace lilytank {
 
 /// What is known of the balls and the tank beforehand.
 struct BallPhysics {
-  /// Mass of a ball, kg.
-  double mass = 0.0131;
-  /// Radius of a ball, m.
-  double radius = 0.015;
-  double drag_area = 7e-4;  ///< m^2 [paper, section 3.2]
-  /// C of Eq. 2, of a sphere [paper, section 3.2].
-  double drag_coefficient = 0.47;
-  /// Density of the water, kg/m^3.
-  double rho = 1000;
-  /// Independent gusts that a ball averages over (model).
-  double draws = 10;
-  /// For which a gust and a random force are held, s.
-  double gust_interval = kTick;
-  double damping = 0.4034671;  ///< 1/s, -ln(1 - D_linear)
-  /// Inner radius of the tank, m.
-  double tank_radius = 0.30;
+  double mass = 0.0131;            ///< mass of a ball, kg
+  double radius = 0.015;           ///< radius of a ball, m
+  double drag_area = 7e-4;         ///< m^2 [paper, section 3.2]
+  double drag_coefficient = 0.47;  ///< C of Eq. 2, of a sphere [paper, section 3.2]
+  double rho = 1000;               ///< density of the water, kg/m^3
+  double draws = 10;               ///< independent gusts that a ball averages over (model)
+  double gust_interval = kTick;    ///< for which a gust and a random force are held, s
+  double damping = 0.4034671;      ///< 1/s, -ln(1 - D_linear)
+  double tank_radius = 0.30;       ///< inner radius of the tank, m
   /// 1/m: acceleration is this times |w| w, w the water's velocity relative to the ball.
   double drag_rate() const { return 0.5 * rho * drag_area * drag_coefficient / mass; }
 };
@@ -55,15 +49,12 @@ BallPhysics ball_physics(const Scenario& scenario);
 
 /// Settings of both estimators.
 struct FlowOptions {
-  /// Along a side of the grid over the tank.
-  int cells = 50;
+  int cells = 50;  ///< along a side of the grid over the tank
   SmoothingOptions smoothing{SmoothingMethod::polynomial, 0.3, 3};  ///< of Eq. 3
-  /// Frames; a cell with fewer is filled.
-  int least_samples = 20;
+  int least_samples = 20;  ///< frames; a cell with fewer is filled
   /// Level of the normality tests in the cells, and rate of false discoveries over all cells.
   double significance = 0.05;
-  /// Fields from the posterior, for whoever uses the flow (smooth only).
-  int draws = 0;
+  int draws = 0;  ///< number of draws from the posterior (smooth only)
 };
 
 /// One field's difference from another, cell by cell, m/s.
@@ -71,19 +62,14 @@ using FlowDifference = std::vector<FlowSample>;
 
 /// One cell of an estimate. Errors are standard errors.
 struct FlowCell {
-  /// m/s; where not measured, filled from the cells around.
-  FlowSample flow;
-  FlowSample error;  ///< m/s; NaN where unknown
-  /// Frames (paper) or momentum balances (smooth) in this cell.
-  int samples = 0;
-  /// Visits of balls that count as independent (paper only).
-  int stays = 0;
-  /// False: without enough data, filled.
-  bool measured = false;
+  FlowSample flow;        ///< m/s; where not measured, filled from the cells around
+  FlowSample error;       ///< m/s; NaN where unknown
+  int samples = 0;        ///< frames (paper) or momentum balances (smooth) in this cell
+  int stays = 0;          ///< visits of balls that count as independent (paper only)
+  bool measured = false;  ///< false: without enough data, filled
   /// Normality of all frames as if they were independent, one reading of Fig. 3 (paper only).
   NormalityTest all_x, all_y;
-  /// Normality of one sample per stay (paper only).
-  NormalityTest normal_x, normal_y;
+  NormalityTest normal_x, normal_y;  ///< normality of one sample per stay (paper only)
 };
 
 /// What moves the balls besides the mean flow, each with its standard error.
@@ -92,30 +78,23 @@ struct NoiseBudget {
   double tracking = 0, tracking_error = 0;
   /// Standard deviation sigma_stoch of the random force, N, one draw per gust interval.
   double stochastic = 0, stochastic_error = 0;
-  /// Mean deviation over the measured cells, m/s.
-  double gusts = 0, gusts_error = 0;
+  double gusts = 0, gusts_error = 0;  ///< mean standard deviation over the measured cells, m/s
 };
 
 /// An estimated field with its errors. Cells lie as in FlowField.
 struct FlowEstimate {
   std::string name;  ///< "paper" or "smooth"
   int cells = 0;
-  /// The grid covers [-extent, extent]^2, m.
-  double extent = 0;
-  /// Iy * cells + ix, as in FlowField.
-  std::vector<FlowCell> cell;
+  double extent = 0;                 ///< the grid covers [-extent, extent]^2, m
+  std::vector<FlowCell> cell;        ///< iy * cells + ix, as in FlowField
   std::optional<NoiseBudget> noise;  ///< smooth only
   /// Draws from the posterior of mean and deviation together, less the estimate: fields that the
   /// data and their smoothness allow as well. Zero outside the tank.
   std::vector<FlowDifference> draws;
-  /// s between samples of a track that count as independent (paper only).
-  double thinning = 0;
-  /// Effective number of free values of the mean field (smooth only).
-  double smoothness = 0;
-  /// Used, and left out because of a contact or the wall.
-  std::int64_t samples = 0, dropped = 0;
-  /// What was done to the tracks, one sentence.
-  std::string filter;
+  double thinning = 0;    ///< s between samples of a track that count as independent (paper only)
+  double smoothness = 0;  ///< effective number of free values of the mean field (smooth only)
+  std::int64_t samples = 0, dropped = 0;  ///< used, and excluded: a contact or the wall
+  std::string filter;                     ///< what was done to the tracks, one sentence
   /// Centre of cell i, m.
   double x(int i) const { return (i % cells + 0.5) * 2 * extent / cells - extent; }
   /// Centre of cell i, m.
@@ -144,8 +123,7 @@ FlowField field_of(const FlowEstimate& estimate, Interpolation interpolation);
 /// with or without `measured`; cells that are not in it (or not measured) are NaN.
 struct FlowTruth {
   int cells = 0;
-  /// [cells * cells] As in FlowField; NaN: not known.
-  std::vector<FlowSample> sample;
+  std::vector<FlowSample> sample;  ///< [cells * cells] as in FlowField; NaN: not known
 };
 /// Throws InputError with file, line and column, and if a row is not of a `cells` x `cells` grid.
 FlowTruth read_flow_truth(const std::string& file, int cells);
@@ -153,20 +131,14 @@ FlowTruth read_flow_truth(const std::string& file, int cells);
 /// Differences of an estimate from a truth, over cells that are in both.
 struct FlowError {
   int cells = 0;
-  /// Root mean square error of mu per axis, m/s.
-  double mean_rms = 0;
-  /// Average of the difference outwards, m/s.
-  double mean_radial = 0;
-  /// Average of the difference counter-clockwise, m/s.
-  double mean_around = 0;
-  /// Root mean square error of sigma per axis, m/s.
-  double deviation_rms = 0;
-  /// Mean error of sigma, m/s.
-  double deviation_bias = 0;
+  double mean_rms = 0;        ///< root mean square error of mu per axis, m/s
+  double mean_radial = 0;     ///< average of the difference outwards, m/s
+  double mean_around = 0;     ///< average of the difference counter-clockwise, m/s
+  double deviation_rms = 0;   ///< root mean square error of sigma per axis, m/s
+  double deviation_bias = 0;  ///< mean error of sigma, m/s
   /// Fraction of differences of mu within 1.96 standard errors; 0.95 is nominal.
   double mean_coverage = 0;
-  /// Fraction of differences of sigma within 1.96 standard errors.
-  double deviation_coverage = 0;
+  double deviation_coverage = 0;  ///< fraction of differences of sigma within 1.96 standard errors
 };
 /// Over the measured cells, or over all.
 FlowError compare_flow(const FlowEstimate& estimate, const FlowTruth& truth, bool measured_only);

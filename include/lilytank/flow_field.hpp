@@ -73,19 +73,15 @@ FlowField scaled(const FlowField& field, double factor);
 /// Settings of the built-in flow, an analytic form fitted to the published figures of the paper's
 /// tank: no measured data.
 struct AnalyticTank {
-  /// m
-  double radius = 0.30;
-  /// Percent of a pump's full flow (9 l/min).
-  double pump_power = 69;
+  double radius = 0.30;    ///< m
+  double pump_power = 69;  ///< percent of a pump's full flow (9 l/min)
   /// Height of the water below the tank's upper border, m, negative. Lower water has a stronger
   /// surface flow.
   double water_level = -0.08;
-  /// Inlets around the wall, evenly spaced.
-  int inlets = 7;
+  int inlets = 7;  ///< inlets around the wall, evenly spaced
   /// Angle of each inlet from the radius, rad (15 degrees).
   double inlet_angle = 0.2617993877991494;
-  /// Cells along one side of the field's grid.
-  int cells = 50;
+  int cells = 50;  ///< cells along one side of the field's grid
   /// Surface flow relative to that at 69 % and -8 cm: proportional to pump power, and 15 % more
   /// for each centimetre that the water is lower; 0 where the level is within 1.3 cm of the
   /// tank's upper border.

@@ -16,12 +16,10 @@ namespace lilytank {
 /// What was switched off or changed in synthetic recordings, and how far estimates then are from
 /// the field that was simulated.
 struct FlowBiasRow {
-  /// "as recorded", "no tracking noise", ...
-  std::string what;
+  std::string what;       ///< "as recorded", "no tracking noise", ...
   std::string estimator;  ///< "paper" or "smooth"
   FlowError error;        ///< over the measured cells
-  /// Why there is no error, as too little data; empty: there is one.
-  std::string missing;
+  std::string missing;    ///< why there is no error, as too little data; empty: there is one
 };
 
 /// What `lilytank flow` writes.
@@ -29,15 +27,13 @@ struct FlowReport {
   std::string name;
   BallPhysics ball;
   FlowOptions options;
-  /// In the order of the report; their names differ.
-  std::vector<FlowEstimate> estimates;
+  std::vector<FlowEstimate> estimates;  ///< in the order of the report; their names differ
   /// Of the last estimate where the experiment's Lilies went; empty: it has none.
   std::optional<Coverage> coverage;
   /// Known field to compare with, and the file that it was read from.
   std::optional<FlowTruth> truth;
   std::string truth_file;
-  /// Empty if biases were not measured.
-  std::vector<FlowBiasRow> bias;
+  std::vector<FlowBiasRow> bias;  ///< empty if biases were not measured
 };
 
 /// Simulates recordings like those given (bodies, frames, rate) in the flow of a smooth estimate,

@@ -18,8 +18,7 @@ namespace lilytank {
 
 /// Two species by Species::key, a <= b.
 struct SpeciesPair {
-  /// Keys in ascending order.
-  std::string a, b;
+  std::string a, b;  ///< keys in ascending order
   friend auto operator<=>(const SpeciesPair&, const SpeciesPair&) = default;
 };
 
@@ -27,36 +26,24 @@ struct SpeciesPair {
 struct RateTable {
   /// Encounters of two species.
   struct Meeting {
-    /// Latches between two assemblies of these species.
-    std::int64_t dockings = 0;
+    std::int64_t dockings = 0;  ///< latches between two assemblies of these species
     /// Time of pairs, s: n_a n_b dt, or n (n - 1) / 2 dt for a species with itself.
     double exposure = 0;
-    /// Links that followed, by the rule's name.
-    std::map<std::string, std::int64_t> links;
+    std::map<std::string, std::int64_t> links;  ///< links that followed, by the rule's name
   };
   /// Changes within assemblies of one species.
   struct Standing {
-    /// Time of assemblies, s: n dt.
-    double exposure = 0;
-    /// Unlinks and updates, by the rule's name.
-    std::map<std::string, std::int64_t> changes;
+    double exposure = 0;                          ///< time of assemblies, s: n dt
+    std::map<std::string, std::int64_t> changes;  ///< unlinks and updates, by the rule's name
   };
-  /// Simulation runs that were counted.
-  int worlds = 0;
-  /// Simulated time of all runs, s.
-  double seconds = 0;
-  /// By pair of species.
-  std::map<SpeciesPair, Meeting> meetings;
-  /// By Species::key.
-  std::map<std::string, Standing> standing;
-  /// Evaluations of standing bonds; -1 where they were not counted.
-  std::int64_t evaluations = 0;
-  /// Time that bonds stood, summed over bonds, s.
-  double bond_seconds = 0;
-  /// New latches that were decided, by a link or a release.
-  std::int64_t contacts = 0;
-  /// Time that new latches waited for a decision, summed, s.
-  double contact_seconds = 0;
+  int worlds = 0;                            ///< simulation runs that were counted
+  double seconds = 0;                        ///< simulated time of all runs, s
+  std::map<SpeciesPair, Meeting> meetings;   ///< by pair of species
+  std::map<std::string, Standing> standing;  ///< by Species::key
+  std::int64_t evaluations = 0;  ///< evaluations of standing bonds; -1 where they were not counted
+  double bond_seconds = 0;       ///< time that bonds stood, summed over bonds, s
+  std::int64_t contacts = 0;     ///< new latches that were decided, by a link or a release
+  double contact_seconds = 0;    ///< time that new latches waited for a decision, summed, s
 
   /// Adds counts and exposures.
   void add(const RateTable& other);
@@ -75,7 +62,7 @@ class RateRecord {
   void observe(const Event& event, double time);
   /// After every step; takes the number of evaluations from the world.
   void observe(const World& world);
-  /// Exchanges completed so far, those over new latches included, where no world is there to ask.
+  /// Exchanges completed so far, those over new latches included, where there is no World.
   void count_evaluations(std::int64_t exchanges) { evaluations_ = exchanges; }
   /// The counts up to `time` (s).
   RateTable table(double time) const;
@@ -109,10 +96,8 @@ class RateRecord {
 
 /// Counts of one simulation run, and when its copies first stood.
 struct MeasuredWorld {
-  /// Up to the end of the run.
-  RateTable rates;
-  /// When 1, 2, ... copies first stood, s.
-  std::vector<double> completion;
+  RateTable rates;                 ///< up to the end of the run
+  std::vector<double> completion;  ///< when 1, 2, ... copies first stood, s
   /// Ended early, by the signal or by a divergence; the counts are valid up to then.
   bool stopped = false, diverged = false;
 };
@@ -136,16 +121,13 @@ inline constexpr double kStandardFaceRate = 7.7e-4, kStandardEvaluationRate = 0.
 
 /// A ruleset's reactions with their rates.
 struct Kinetics {
-  /// Species and reactions, explored from single modules.
-  ReactionNetwork network;
+  ReactionNetwork network;  ///< Species and reactions, explored from single modules
   /// Rate constants, 1/s, by reaction: of one pair of assemblies, or of one assembly.
   std::vector<double> rate;
-  /// Events that each constant rests on.
-  std::vector<std::int64_t> seen;
+  std::vector<std::int64_t> seen;  ///< events that each constant rests on
   /// Evaluations of a bond, 1/s; kStandardEvaluationRate where they were not counted.
   double evaluation_rate = 0;
-  /// Links of one pair of faces that fit, 1/s, averaged over all reactions.
-  double face_rate = 0;
+  double face_rate = 0;  ///< links of one pair of faces that fit, 1/s, averaged over all reactions
 };
 /// Links: counts over exposure, drawn towards face_rate times places by the weight of one event, so
 /// that what was never seen has a rate, too. Unlinks: p times the evaluation rate times places.
@@ -156,23 +138,16 @@ Kinetics kinetics_of(const Ruleset& rules, double face_rate, double evaluation_r
 
 /// One run of the well-mixed model.
 struct GillespieOptions {
-  /// Single modules at the start.
-  int modules = 15;
-  /// End of the run, s.
-  double duration = 14400;
-  /// Key of the draws (Stream::gillespie).
-  std::uint64_t seed = 1;
+  int modules = 15;         ///< single modules at the start
+  double duration = 14400;  ///< end of the run, s
+  std::uint64_t seed = 1;   ///< key of the draws (Stream::gillespie)
 };
 /// Its outcome.
 struct GillespieResult {
-  /// When 1, 2, ... copies first stood, s.
-  std::vector<double> completion;
-  /// Assemblies of each species of the network at the end.
-  std::vector<int> counts;
-  /// Copies of the target at the end.
-  int copies = 0;
-  /// Reactions that fired.
-  std::int64_t reactions = 0;
+  std::vector<double> completion;  ///< when 1, 2, ... copies first stood, s
+  std::vector<int> counts;         ///< assemblies of each species of the network at the end
+  int copies = 0;                  ///< copies of the target at the end
+  std::int64_t reactions = 0;      ///< reactions that fired
 };
 /// Reactions by Gillespie's direct method, from single modules. Draws depend on the seed and the
 /// number of reactions so far only.

@@ -21,13 +21,10 @@ namespace lilytank {
 
 /// One thing that can happen to one assembly or to a pair of them.
 struct Reaction {
-  /// Index into Ruleset::rules.
-  int rule = -1;
+  int rule = -1;  ///< index into Ruleset::rules
   RuleKind kind = RuleKind::link;
-  /// One species (unlink, update, closing a loop) or two.
-  std::vector<int> from;
-  /// Species that result, by index, ascending.
-  std::vector<int> to;
+  std::vector<int> from;  ///< one species (unlink, update, closing a loop) or two
+  std::vector<int> to;    ///< Species that result, by index, ascending
   /// Pairs of faces, or bonds, at which it happens, of one pair or assembly. A half: either module
   /// of two with equal labels may take the first of two right sides, each in half of the cases.
   double places = 1;
@@ -35,10 +32,8 @@ struct Reaction {
 
 /// What a ruleset makes of single modules.
 struct ReactionNetwork {
-  /// [0] is a single module with label (0,0).
-  std::vector<Species> species;
-  /// In the order of exploration.
-  std::vector<Reaction> reactions;
+  std::vector<Species> species;     ///< [0] is a single module with label (0,0)
+  std::vector<Reaction> reactions;  ///< in the order of exploration
   /// Joins that fit on the lattice but that no straight way leads to (see
   /// src/synthesis/steric.hpp); `to` is empty where nothing else makes what they would make.
   std::vector<Reaction> blocked;
@@ -52,14 +47,10 @@ struct ReactionNetwork {
 
 /// What is explored, and how far.
 struct NetworkOptions {
-  /// Whether rules with p = 0 fire, too.
-  bool never = false;
-  /// Leave joins out that no straight way leads to.
-  bool sterics = true;
-  /// Most species to explore.
-  int limit = 4096;
-  /// Most modules of one assembly.
-  int largest = 64;
+  bool never = false;   ///< whether rules with p = 0 fire, too
+  bool sterics = true;  ///< leave joins out that no straight way leads to
+  int limit = 4096;     ///< most species to explore
+  int largest = 64;     ///< most modules of one assembly
 };
 /// Explores from single modules. The state that each unlink rule leaves is checked against its link
 /// rule on the way, whatever its p.
@@ -69,23 +60,16 @@ ReactionNetwork reaction_network(const Ruleset& rules, const NetworkOptions& opt
 struct EndState {
   /// Assemblies of each species of the network, in one of the set's states.
   std::vector<int> counts;
-  /// States in the set; 1: nothing happens any more.
-  int states = 1;
-  /// Most copies in any state of the set.
-  int copies = 0;
-  /// Fewest copies in any state of the set.
-  int fewest_copies = 0;
+  int states = 1;         ///< states in the set; 1: nothing happens any more
+  int copies = 0;         ///< most copies in any state of the set
+  int fewest_copies = 0;  ///< fewest copies in any state of the set
 };
 /// All states of a population of modules, and where they end.
 struct PopulationGraph {
-  /// False: more states than the limit, nothing is proved.
-  bool complete = true;
-  /// Number of states that can be reached.
-  std::int64_t states = 0;
-  /// Largest number of copies: floor(M / n).
-  int possible = 0;
-  /// All sets of states that are never left.
-  std::vector<EndState> ends;
+  bool complete = true;        ///< false: more states than the limit, nothing is proved
+  std::int64_t states = 0;     ///< number of states that can be reached
+  int possible = 0;            ///< largest number of copies: floor(M / n)
+  std::vector<EndState> ends;  ///< all sets of states that are never left
   /// Ends in which some copy is always missing.
   std::vector<EndState> deadlocks() const;
 };
@@ -108,38 +92,28 @@ bool serial_deadlock(int modules, int irreversible_size, int target_size);
 /// One run of the Monte Carlo.
 struct LatticeOptions {
   int modules = 15;
-  /// Meetings of two assemblies; ends before that at full yield.
-  std::int64_t attempts = 100000;
-  /// Mean number of evaluations of every bond per attempt, at most 1.
-  double evaluations = 0.2;
+  std::int64_t attempts = 100000;  ///< meetings of two assemblies; ends before that at full yield
+  double evaluations = 0.2;  ///< mean number of evaluations of every bond per attempt, at most 1
   std::uint64_t seed = 1;
-  /// Whether it goes on after full yield, up to `attempts`.
-  bool to_the_end = false;
+  bool to_the_end = false;  ///< whether it goes on after full yield, up to `attempts`
   const std::atomic<bool>* stop = nullptr;
 };
 /// What a lattice world came to.
 struct LatticeResult {
-  /// Encounters that were tried.
-  std::int64_t attempts = 0;
+  std::int64_t attempts = 0;  ///< encounters that were tried
   /// Rules that fired, and latches that no rule made a bond.
   std::int64_t links = 0, unlinks = 0, refusals = 0;
   /// Encounters refused because no straight path leads to the docked pose.
   std::int64_t blocked = 0;
-  /// Encounters refused because cells would have overlapped.
-  std::int64_t crowded = 0;
-  /// Appearances of assemblies that the network does not know.
-  std::int64_t illegal = 0;
-  /// Drawing of the first of these.
-  std::string first_illegal;
-  /// Meetings that made more than one bond (closures).
-  std::int64_t double_bonds = 0;
-  /// Joins that were undone on a copy, and compared.
-  std::int64_t restored = 0, unrestored = 0;
+  std::int64_t crowded = 0;       ///< encounters refused because cells would have overlapped
+  std::int64_t illegal = 0;       ///< appearances of assemblies that the network does not know
+  std::string first_illegal;      ///< drawing of the first of these
+  std::int64_t double_bonds = 0;  ///< meetings that made more than one bond (closures)
+  std::int64_t restored = 0, unrestored = 0;  ///< joins that were undone on a copy, and compared
   /// Copies of the target at the end, and the most that the modules can form.
   int copies = 0, possible = 0;
-  /// Attempts until 1, 2, ... copies stood.
-  std::vector<std::int64_t> completion;
-  std::map<std::string, int> standing;  ///< by species' drawing
+  std::vector<std::int64_t> completion;  ///< attempts until 1, 2, ... copies stood
+  std::map<std::string, int> standing;   ///< by species' drawing
 };
 /// Monte Carlo: two assemblies, a free face of a module of each, and if there is room they meet
 /// there; all pairs of faces that then touch latch and are evaluated in random order, until each is
@@ -152,14 +126,10 @@ struct RulesetCheck {
   ReactionNetwork network;     ///< of the rules that can fire
   PopulationGraph population;  ///< only if modules > 0
   int modules = 0, target_size = 0;
-  /// first_irreversible_size() of the network.
-  int irreversible_size = 0;
-  /// Some species has the target's shape.
-  bool target_reached = false;
-  /// No species of that shape can be taken apart.
-  bool target_stable = false;
-  /// Species of the target's size or more with another shape.
-  std::vector<int> other_finals;
+  int irreversible_size = 0;      ///< first_irreversible_size() of the network
+  bool target_reached = false;    ///< some species has the target's shape
+  bool target_stable = false;     ///< no species of that shape can be taken apart
+  std::vector<int> other_finals;  ///< Species of the target's size or more with another shape
   std::map<int, std::string> unrestored;
   std::vector<LatticeResult> lattice;
   /// Sentences, one a fault; empty: proved as far as `notes` say.
@@ -168,8 +138,7 @@ struct RulesetCheck {
 /// What `lilytank check` computes.
 struct CheckOptions {
   int modules = 15;
-  /// Monte Carlo runs, with seeds derived from lattice.seed; 0: none.
-  int lattice_runs = 0;
+  int lattice_runs = 0;  ///< Monte Carlo runs, with seeds derived from lattice.seed; 0: none
   LatticeOptions lattice;
   std::function<void(double done)> progress;
 };

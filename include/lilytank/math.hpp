@@ -19,32 +19,25 @@ constexpr double kPi = 3.14159265358979323846;
 /// A heading as a unit vector. Rotations compose by products alone, without an angle that could
 /// need trigonometric functions or wrap.
 struct Rot {
-  /// Cosine and sine of the counter-clockwise angle from +x.
-  double c = 1, s = 0;
+  double c = 1, s = 0;  ///< cosine and sine of the counter-clockwise angle from +x
 };
 
 /// Position and heading of a body.
 struct Pose {
-  /// The body's centre, m.
-  double x = 0, y = 0;
-  /// Heading of the body's +x axis.
-  Rot r;
+  double x = 0, y = 0;  ///< the body's centre, m
+  Rot r;                ///< heading of the body's +x axis
 };
 
 /// Velocity of a body.
 struct Twist {
-  /// Velocity of the centre, m/s, in the tank's frame.
-  double vx = 0, vy = 0;
-  /// Angular velocity, rad/s, counter-clockwise.
-  double omega = 0;
+  double vx = 0, vy = 0;  ///< velocity of the centre, m/s, in the tank's frame
+  double omega = 0;       ///< angular velocity, rad/s, counter-clockwise
 };
 
 /// Force and torque on a body.
 struct Wrench {
-  /// Force that acts at the body's centre, N, in the tank's frame.
-  double fx = 0, fy = 0;
-  /// Torque about the centre, N m, counter-clockwise.
-  double torque = 0;
+  double fx = 0, fy = 0;  ///< force that acts at the body's centre, N, in the tank's frame
+  double torque = 0;      ///< torque about the centre, N m, counter-clockwise
 };
 
 /// A vector from the body's frame to the tank's.

@@ -12,20 +12,14 @@ namespace lilytank {
 
 /// How many simulations, of what length, kept where.
 struct MeasureOptions {
-  /// Number of simulation runs.
-  int worlds = 20;
-  /// Run k has derived_seed(seed, k).
-  std::uint64_t seed = 1;
-  /// Simulated time of each run, s.
-  double duration = 14400;
-  /// Runs at a time; 0: one per core.
-  int threads = 0;
-  /// Directory, made if absent, for world-<seed>-<k>.csv; empty: none.
-  std::string out;
+  int worlds = 20;          ///< number of simulation runs
+  std::uint64_t seed = 1;   ///< run k has derived_seed(seed, k)
+  double duration = 14400;  ///< simulated time of each run, s
+  int threads = 0;          ///< runs at a time; 0: one per core
+  std::string out;          ///< directory, made if absent, for world-<seed>-<k>.csv; empty: none
   /// Hash of everything that decides a run. Files in `out` of another identity are refused.
   std::uint64_t identity = 0;
-  /// Set by a signal: running worlds are abandoned.
-  const std::atomic<bool>* stop = nullptr;
+  const std::atomic<bool>* stop = nullptr;  ///< set by a signal: running worlds are abandoned
   /// Fraction of the runs done; called by one thread at a time.
   std::function<void(double done)> progress;
 };

@@ -23,8 +23,7 @@ Recording as_recording(const Trajectory& trajectory, BodyKind body);
 
 /// A curve's sums, kept by body. Tracks that share an id in one recording are one body.
 struct BodySums {
-  /// Bins of the curve: the length of a body's row.
-  int bins = 0;
+  int bins = 0;                      ///< bins of the curve: the length of a body's row
   std::vector<double> sum, weight;   ///< [body * bins + bin]
   std::vector<std::int64_t> tracks;  ///< [bin] tracks that add to it
   int bodies() const { return bins == 0 ? 0 : static_cast<int>(sum.size()) / bins; }
@@ -37,8 +36,7 @@ enum class Origins : std::uint8_t {
   /// Each track's first frame, of tracks that begin within a second of the recording's begin
   /// [paper, Eq. 8].
   first,
-  /// Every frame: less noise, for motion that has settled.
-  all,
+  all,  ///< every frame: less noise, for motion that has settled
 };
 
 /// Squared displacements (m^2) at lags in seconds, rising. A lag between two frames is interpolated
@@ -56,18 +54,14 @@ BodySums spin_products(const SmoothRecording& recording, const std::vector<doubl
 
 /// How bands are made.
 struct Bootstrap {
-  /// Fixes the resampling (Stream::bootstrap).
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< fixes the resampling (Stream::bootstrap)
   int resamples = 1000;
-  /// Two-sided coverage of bands and intervals.
-  double level = 0.95;
-  /// Whether each curve is divided by its own first bin.
-  bool relative = false;
+  double level = 0.95;    ///< Two-sided coverage of bands and intervals
+  bool relative = false;  ///< whether each curve is divided by its own first bin
 };
 /// A curve with its pointwise band. Bins without data are NaN. One body gives no band (infinite).
 struct CurveEstimate {
-  /// [bins] Value and ends of the band, in the curve's unit.
-  std::vector<double> value, low, high;
+  std::vector<double> value, low, high;  ///< [bins] value and ends of the band, in the curve's unit
 };
 /// Ratio of the sums over all bodies; NaN where there is no weight.
 std::vector<double> ratio_values(const BodySums& sums, bool relative = false);
@@ -85,8 +79,7 @@ Estimate ratio_functional(const BodySums& sums,
 /// Motion between two lags read as diffusion: MSD = 4 D lag + a constant, as measurement noise
 /// adds.
 struct Diffusion {
-  /// m^2/s; NaN where no lags were found.
-  Estimate D;
+  Estimate D;               ///< m^2/s; NaN where no lags were found
   double from = 0, to = 0;  ///< s, lags that were fitted
 };
 /// D from the widest range of lags (by their ratio, at least 2) in which the MSD's local exponent

@@ -17,44 +17,35 @@ constexpr double kTick = 0.025;
 
 /// The tank: a round basin with a smooth vertical wall, its centre at the origin.
 struct TankParameters {
-  /// Inner radius, m, 0.05 .. 5 in scenarios.
-  double radius = 0.30;
+  double radius = 0.30;  ///< inner radius, m, 0.05 .. 5 in scenarios
 };
 
 /// A Lily: a floating square with a latch on each face. Faces 0..3 look along +x, +y, -x, -y of
 /// the module's own frame. Mass and water act as on a uniform square.
 struct ModuleParameters {
-  /// Modules in the tank: bodies [0, count).
-  int count = 15;
-  /// Side of the square, m; also the pitch of an assembly's lattice.
-  double side = 0.035;
+  int count = 15;       ///< modules in the tank: bodies [0, count)
+  double side = 0.035;  ///< side of the square, m; also the pitch of an assembly's lattice
   /// kg; the mass of the displaced water is not included (see the force term added_mass).
   double mass = 0.035;
   /// Immersion depth, m: height of the face that the water pushes on, in Eq. 5.
   double draught = 0.035;
-  /// Whether a face that a latched neighbour covers feels no drag.
-  bool shadowing = true;
+  bool shadowing = true;  ///< whether a face that a latched neighbour covers feels no drag
   /// Moment of inertia about the centre, kg m^2: m a^2 / 6 of a uniform square.
   double inertia() const { return mass * side * side / 6; }
 };
 
 /// A ball of the flow measurements: a disc that does not rotate and has no latches.
 struct BallParameters {
-  /// Balls in the tank: bodies [module.count, module.count + count).
-  int count = 0;
-  /// m
-  double radius = 0.015;
-  /// kg
-  double mass = 0.0131;
-  /// Wetted cross-section in the drag law, m^2.
-  double drag_area = 7e-4;
+  int count = 0;            ///< balls in the tank: bodies [module.count, module.count + count)
+  double radius = 0.015;    ///< m
+  double mass = 0.0131;     ///< kg
+  double drag_area = 7e-4;  ///< wetted cross-section in the drag law, m^2
 };
 
 /// Contacts between bodies, and between a body and the wall: Coulomb friction and Newton's
 /// restitution, solved by sequential impulses (src/physics/contact_solver.hpp).
 struct ContactParameters {
-  /// Coulomb's coefficient, the same for all pairs and for the wall.
-  double friction = 0.2;
+  double friction = 0.2;  ///< Coulomb's coefficient, the same for all pairs and for the wall
   /// Separation speed divided by approach speed, 0 (inelastic) .. 1 (elastic).
   double restitution = 0.2;
   /// Approach speed below which restitution is 0, m/s, so that bodies at rest do not jitter.
@@ -64,10 +55,8 @@ struct ContactParameters {
 /// How the gusts xi of Eq. 4 are drawn for the drag points of a module. Each is a standard normal
 /// per axis and holds for one tick.
 enum class Gusts {
-  /// One draw for each drag point [authors' simulation].
-  per_point,
-  /// One draw for the whole module [paper, Eq. 4 read literally].
-  per_module,
+  per_point,   ///< one draw for each drag point [authors' simulation]
+  per_module,  ///< one draw for the whole module [paper, Eq. 4 read literally]
   /// The wrench is drawn from a normal law with the mean and covariance that per_point has: about
   /// three times faster.
   moment_matched,
@@ -93,12 +82,10 @@ enum class Handshake {
 
 /// The flow at a point: K_v (mu + sigma xi) [paper, Eq. 4].
 struct FlowParameters {
-  /// Factor on the field's mean and standard deviation; dimensionless.
-  double K_v = 1.365;
+  double K_v = 1.365;  ///< factor on the field's mean and standard deviation; dimensionless
   Gusts gusts = Gusts::per_point;
   FlowAt at = FlowAt::points;
-  /// Density of the water, kg/m^3.
-  double rho = 1000;
+  double rho = 1000;  ///< density of the water, kg/m^3
 };
 
 /// Upper bound of ControlParameters::reply_ticks: Firmware::waiting, a byte, begins at 2 more.
@@ -114,12 +101,9 @@ struct ControlParameters {
   double capture_distance = 0.005;
   /// ... and their normals within this angle of anti-parallel, rad, 0 .. 0.75.
   double capture_angle = 0.2;
-  /// Probability per tick that an idle module begins an exchange.
-  double initiative = 0.1;
-  /// Ticks that an initiator waits for the answer, 1 .. kMostReplyTicks.
-  int reply_ticks = 5;
-  /// Evaluations per bond, 1/s, of Clock::events.
-  double evaluation_rate = 0.68;
+  double initiative = 0.1;  ///< probability per tick that an idle module begins an exchange
+  int reply_ticks = 5;      ///< ticks that an initiator waits for the answer, 1 .. kMostReplyTicks
+  double evaluation_rate = 0.68;  ///< evaluations per bond, 1/s, of Clock::events
   /// A released face returns in a tick with probability (ticks since its release) / off_scale.
   double off_scale = 256;
   // Faults, all of them probabilities; 0: ideal channel and latches.
@@ -138,17 +122,12 @@ enum class CommandKind { pause, resume, switch_off, replace_ruleset, query, pump
 
 /// A command of the base station. It takes effect in the first tick that does not begin before it.
 struct Command {
-  /// s from the start; of Model::commands.
-  double at = 0;
+  double at = 0;  ///< s from the start; of Model::commands
   CommandKind kind = CommandKind::query;
-  /// Modules that it addresses; empty: all.
-  std::vector<int> modules;
-  /// Index into Model::rulesets, of replace_ruleset.
-  int ruleset = 0;
-  /// Completed copies from which on it holds; of Model::feedback.
-  int copies = 0;
-  /// Of pump_power: 0 is Model::field, i is Model::other_fields[i - 1].
-  int field = 0;
+  std::vector<int> modules;  ///< modules that it addresses; empty: all
+  int ruleset = 0;           ///< index into Model::rulesets, of replace_ruleset
+  int copies = 0;            ///< completed copies from which on it holds; of Model::feedback
+  int field = 0;             ///< of pump_power: 0 is Model::field, i is Model::other_fields[i - 1]
 };
 
 /// random: uniform in a disc. lattice: a square grid. poses: StartParameters::poses.
@@ -157,21 +136,17 @@ enum class Layout { random, lattice, poses };
 /// Initial positions of the bodies. All start at rest with nothing latched.
 struct StartParameters {
   Layout layout = Layout::random;
-  /// Radius of the disc that holds all centres, m (random).
-  double radius = 0.20;
+  double radius = 0.20;  ///< radius of the disc that holds all centres, m (random)
   /// Least distance of two centres, m (random); pitch of the grid (lattice).
   double distance = 0.05;
-  /// One for each body, modules first (poses).
-  std::vector<Pose> poses;
+  std::vector<Pose> poses;  ///< one for each body, modules first (poses)
 };
 
 /// Everything that a simulation does not change. The defaults are no valid model: begin with
 /// standard_model() (start.hpp) or load_scenario() (scenario.hpp).
 struct Model {
-  /// Time step, s: kTick / steps_per_tick.
-  double dt = kTick;
-  /// Steps in a tick, 1 .. 256.
-  int steps_per_tick = 1;
+  double dt = kTick;       ///< time step, s: kTick / steps_per_tick
+  int steps_per_tick = 1;  ///< steps in a tick, 1 .. 256
   TankParameters tank;
   ModuleParameters module;
   BallParameters ball;
@@ -179,8 +154,7 @@ struct Model {
   FlowParameters flow;
   ControlParameters control;
   StartParameters start;
-  /// The flow at the start; never null.
-  std::shared_ptr<const FlowField> field;
+  std::shared_ptr<const FlowField> field;  ///< the flow at the start; never null
   /// Flows at other pump powers, which pump_power commands set.
   std::vector<std::shared_ptr<const FlowField>> other_fields;
   /// Active force terms with their parameters, in the order of force_library(). The order of sums
@@ -188,8 +162,7 @@ struct Model {
   std::vector<ActiveForce> forces;
   /// [0] is in force at the start. Empty: latched modules never separate.
   std::vector<Ruleset> rulesets;
-  /// Commands by time, ascending.
-  std::vector<Command> commands;
+  std::vector<Command> commands;  ///< commands by time, ascending
   /// Rulesets and pump powers that depend on the number of completed copies that the modules
   /// report, ascending in Command::copies. Of each kind, the last one whose number is reached
   /// holds; before the first one, what `commands` set.

@@ -52,14 +52,10 @@ class ModelNumber {
 
 /// Name, unit and bounds of a number that may vary.
 struct ParameterInfo {
-  /// Dotted path: "forces.face_drag.K_F".
-  std::string path;
-  /// SI; "1" if dimensionless.
-  std::string unit;
-  /// Bounds, inclusive.
-  double low = 0, high = 0;
-  /// One sentence from the table of keys.
-  std::string meaning;
+  std::string path;          ///< dotted path: "forces.face_drag.K_F"
+  std::string unit;          ///< SI; "1" if dimensionless
+  double low = 0, high = 0;  ///< bounds, inclusive
+  std::string meaning;       ///< one sentence from the table of keys
 };
 
 /// A number of a Model, as the table of scenario keys has it.

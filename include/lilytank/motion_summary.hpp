@@ -17,20 +17,18 @@ namespace lilytank {
 struct MotionSummary {
   double tank_radius = 0.30;  ///< m
   double body_size = 0.035;   ///< m, side or diameter
-  /// Frames per second; lags are whole frames of it.
-  double rate = 30;
-  double longest = 60;  ///< s, of the MSD
+  double rate = 30;           ///< frames per second; lags are whole frames of it
+  double longest = 60;        ///< s, of the MSD
   bool headings = true;
   /// The mean flow that the balance of momentum is taken against: any field near the truth, the
-  /// same for all that is compared. Without one these numbers are left out.
+  /// same for all that is compared. Without one these numbers are absent.
   std::shared_ptr<const FlowField> field;
 };
 
 /// Names of the numbers, "msd 0.4 s", and the group of each: displacement, velocity, place, kicks,
 /// balance, turning, neighbours.
 struct SummaryEntry {
-  /// The name is unique and has the lag or distance with its unit.
-  std::string group, name;
+  std::string group, name;  ///< the name is unique and has the lag or distance with its unit
 };
 /// Depends on the settings alone, not on data: vectors of equal settings can be compared.
 std::vector<SummaryEntry> summary_entries(const MotionSummary& summary);
@@ -43,14 +41,11 @@ std::vector<double> summarise(const std::vector<Recording>& recordings,
 
 /// At which lags MSDs are compared by Eq. 9.
 struct Eq9 {
-  double seconds = 60;  ///< longest lag
-  /// s between lags: whole frames at 30 Hz, whole steps of 25 ms.
-  double lag = 0.1;
-  /// s between starts of displacements.
-  double origins = 0.2;
+  double seconds = 60;   ///< longest lag
+  double lag = 0.1;      ///< s between lags: whole frames at 30 Hz, whole steps of 25 ms
+  double origins = 0.2;  ///< s between starts of displacements
   bool first_origin =
-      /// The first frame is the only start, as in a piece of just that length.
-      false;
+      false;  ///< the first frame is the only start, as in a piece of just that length
 };
 /// The MSD that Eq. 9 compares, m^2: at lags 0.1 s, 0.2 s, ... (the nearest frames), aggregated
 /// over all bodies of all recordings. NaN at lags for which there is nothing.

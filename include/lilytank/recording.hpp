@@ -17,36 +17,25 @@ enum class BodyKind : std::uint8_t { lily, ball, point };
 /// recording's clock. A frame in which it was not seen holds NaN in every array; the first and last
 /// do not. Headings are continuous (unwrapped), and empty where none was tracked.
 struct Track {
-  /// As in the file; tracks that a check cut apart share it.
-  std::int64_t id = 0;
-  /// Frame of the first sighting, on the recording's clock.
-  int first = 0;
+  std::int64_t id = 0;  ///< as in the file; tracks that a check cut apart share it
+  int first = 0;        ///< frame of the first sighting, on the recording's clock
   /// [frames] Position of the centre, m, tank centre at the origin, y up.
   std::vector<double> x, y;
-  /// [frames] Heading, rad, counter-clockwise from +x.
-  std::vector<double> theta;
+  std::vector<double> theta;  ///< [frames] heading, rad, counter-clockwise from +x
   /// Frame of the last sighting.
   int last() const { return first + static_cast<int>(x.size()) - 1; }
 };
 
 /// Tracks on one even clock: frame f was taken at start + f / rate.
 struct Recording {
-  /// File or run that it came from, for messages and reports.
-  std::string name;
-  /// All tracks are of this kind.
-  BodyKind body = BodyKind::lily;
-  /// Frames per second.
-  double rate = 30;
-  /// Time of frame 0, s.
-  double start = 0;
-  /// Length of the clock: frames are numbered [0, frames).
-  int frames = 0;
-  /// Sorted by id, then first frame.
-  std::vector<Track> tracks;
-  /// False: the modules' latches were off.
-  bool latches = true;
-  /// Reserved for testing a fit: calibration and diagnosis do not fit it.
-  bool held_out = false;
+  std::string name;                ///< file or run that it came from, for messages and reports
+  BodyKind body = BodyKind::lily;  ///< all tracks are of this kind
+  double rate = 30;                ///< frames per second
+  double start = 0;                ///< time of frame 0, s
+  int frames = 0;                  ///< length of the clock: frames are numbered [0, frames)
+  std::vector<Track> tracks;       ///< sorted by id, then first frame
+  bool latches = true;             ///< false: the modules' latches were off
+  bool held_out = false;  ///< reserved for testing a fit: calibration and diagnosis do not fit it
   /// Time of a frame, s.
   double time(int frame) const { return start + frame / rate; }
   /// Whether headings were tracked. All tracks of a recording have them or none.

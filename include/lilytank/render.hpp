@@ -193,11 +193,8 @@ Map velocity_maps(const Analysis& analysis);
 /// false discoveries; "errors" where the truth is known.
 std::vector<Figure> flow_maps(const FlowReport& report);
 /// The stages of an assembly, one after each join [paper, Figs. 9 and 11]: control states in the
-/// modules, hops at their faces, the connector engaged last in blue, the rule above; .png, .svg or
-/// .pdf by the ending. Throws InputError if it cannot be written.
-void draw_stages(const Target& target, const std::vector<Stage>& stages, const std::string& title,
-                 const std::string& file);
-/// The bytes that draw_stages() writes to `file`.
+/// modules, hops at their faces, the connector engaged last in blue, the rule above. The bytes of a
+/// picture for `file`: .png, .svg or .pdf by the ending; throws InputError for another one.
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
                            const std::string& title, const std::string& file);
 

@@ -8,23 +8,17 @@ namespace lilytank {
 
 /// A table of cells that are ready to print.
 struct ReportTable {
-  /// Titles of the columns, with units.
-  std::vector<std::string> head;
-  /// As many cells each as the head.
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> head;               ///< titles of the columns, with units
+  std::vector<std::vector<std::string>> rows;  ///< as many cells each as the head
 };
 
 /// A heading with paragraphs, a table, and paragraphs below the table; each may be empty.
 struct ReportSection {
-  /// "Diagnosis of tank".#2
-  std::string title;
-  /// Paragraphs between heading and table.
-  std::vector<std::string> above;
+  std::string title;               ///< "Diagnosis of tank".#2
+  std::vector<std::string> above;  ///< paragraphs between heading and table
   ReportTable table;
-  /// Paragraphs below the table: notes, units, sources.
-  std::vector<std::string> below;
-  /// Folded on a page until the reader opens it.
-  bool detail = false;
+  std::vector<std::string> below;  ///< paragraphs below the table: notes, units, sources
+  bool detail = false;             ///< folded on a page until the reader opens it
 };
 
 /// Colour of the verdict on a page. good: the result is as intended. finding: an effect was found.
@@ -34,32 +28,25 @@ enum class ReportTone { neutral, good, finding, fault };
 /// The summary on top of a report.
 struct ReportCard {
   ReportTone tone = ReportTone::neutral;
-  /// One sentence without a full stop.
-  std::string verdict;
+  std::string verdict;  ///< one sentence without a full stop
   /// Name and value: "where", "how large", ...
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
 /// Where the numbers come from.
 struct ReportProvenance {
-  /// Command line, program version and seed, ready to print.
-  std::string command, version, seed;
-  /// File, SHA-256 of its content.
-  std::vector<std::pair<std::string, std::string>> inputs;
+  std::string command, version, seed;  ///< command line, program version and seed, ready to print
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< file, SHA-256 of its content
 };
 
 /// The whole report. Text, JSON and HTML hold the same numbers.
 struct ReportDocument {
-  std::string title;  ///< "Diagnosis of tank"
-  /// The data, in one line.
-  std::string subtitle;
-  /// Verdict and facts.
-  ReportCard card;
+  std::string title;     ///< "Diagnosis of tank"
+  std::string subtitle;  ///< the data, in one line
+  ReportCard card;       ///< verdict and facts
   std::vector<ReportSection> sections;
-  /// One sentence each, printed above the sections.
-  std::vector<std::string> warnings;
-  /// Filled in by the program, not by the job that builds the report.
-  ReportProvenance provenance;
+  std::vector<std::string> warnings;  ///< one sentence each, printed above the sections
+  ReportProvenance provenance;  ///< filled in by the program, not by the job that builds the report
 };
 
 /// The report as plain text for a terminal or a file: tables in aligned columns, ends in a new
@@ -72,12 +59,9 @@ std::string report_json(const ReportDocument& report);
 
 /// A figure of a page.
 struct ReportPicture {
-  /// The figure as SVG.
-  std::string svg;
-  /// Unique on the page: prefix of the identifiers in its SVG.
-  std::string name;
-  /// What a reader sees in it; also its alternative text.
-  std::string caption;
+  std::string svg;      ///< the figure as SVG
+  std::string name;     ///< unique on the page: prefix of the identifiers in its SVG
+  std::string caption;  ///< what a reader sees in it; also its alternative text
 };
 
 /// The report as one page of HTML without outside references. The first picture follows the

@@ -1,4 +1,4 @@
-// Rulesets: what two latched modules do when they have told each other their states
+// Rulesets: what two latched modules do when they have exchanged their states
 // [paper, section 5.1].
 //
 // A module's state is a control state l_a (0: isolated) and l_n, the connector it engaged last.
@@ -20,34 +20,27 @@ namespace lilytank {
 
 /// One side of a rule: control state and hop, (0,0) for an isolated module.
 struct Label {
-  /// Control state l_a, 0..255.
-  int state = 0;
-  /// Hop l_h, 0..4.
-  int hop = 0;
+  int state = 0;  ///< control state l_a, 0..255
+  int hop = 0;    ///< hop l_h, 0..4
   friend bool operator==(const Label&, const Label&) = default;
 };
 
 /// What a rule does to the connection. Labels before it on the left, after it on the right.
 enum class RuleKind {
-  /// (a,h) (b,h') -> (c,i)-(d,j): a new latch becomes a bond.
-  link,
-  /// (a,h)-(b,h') -> (c,i) (d,j): a bond is released.
-  unlink,
-  /// (a,h)-(b,h') -> (c,i)-(d,j): labels change on a standing bond.
-  update,
+  link,    ///< (a,h) (b,h') -> (c,i)-(d,j): a new latch becomes a bond
+  unlink,  ///< (a,h)-(b,h') -> (c,i) (d,j): a bond is released
+  update,  ///< (a,h)-(b,h') -> (c,i)-(d,j): labels change on a standing bond
 };
 
 /// A rewriting rule on the labels of two modules that hold each other.
 struct Rule {
-  /// As in the scenario key rules.<name>.p.
-  std::string name;
+  std::string name;  ///< as in the scenario key rules.<name>.p
   RuleKind kind = RuleKind::link;
   /// Labels of both modules, left and right side. Either module may be the first.
   std::array<Label, 2> before, after;
   /// Probability per evaluation, 0 .. 1. Rules with the same left side must not sum to more than 1.
   double p = 1;
-  /// Where the file defines it, for messages.
-  SourcePlace where;
+  SourcePlace where;  ///< where the file defines it, for messages
 };
 
 /// A cell of a target drawing, x to the right, y up.
@@ -64,8 +57,7 @@ struct Ruleset {
   std::vector<Rule> rules;
   /// Cells of the target; may be empty. One-sided: rotated copies count, mirrored ones do not.
   std::vector<Cell> target;
-  /// Path of the file that it was read from; empty if it was made by a program.
-  std::string file;
+  std::string file;  ///< path of the file that it was read from; empty if it was made by a program
 };
 
 /// Hop of an engaged connector: 1 + ((connector - last) mod 4), or 0 for last < 0 (isolated).
@@ -77,12 +69,10 @@ int reverse_hop(int hop);
 
 /// Outcome of an evaluation.
 struct Match {
-  /// Index into Ruleset::rules; -1: no rule fires.
-  int rule = -1;
+  int rule = -1;  ///< index into Ruleset::rules; -1: no rule fires
   /// The rule's first label is the responder's. For equal labels the initiator comes first.
   bool swapped = false;
-  /// Some rule has this left side, whether or not u let it fire.
-  bool applicable = false;
+  bool applicable = false;  ///< some rule has this left side, whether or not u let it fire
 };
 /// The rule that fires when `initiator` and `responder` have exchanged labels over a connection,
 /// with the initiator's random number u in (0,1). Rules with this left side and kind divide [0,1)

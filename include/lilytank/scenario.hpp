@@ -12,45 +12,30 @@ namespace lilytank {
 
 /// One value of a resolved scenario, for `lilytank info` and resolved.toml.
 struct ScenarioEntry {
-  /// Dotted path: "forces.face_drag.K_F".
-  std::string path;
-  /// As TOML, in the key's unit.
-  std::string value;
-  /// SI, "%" or "1"; "" for text and switches.
-  std::string unit;
-  /// "0 .. 10", or the allowed words.
-  std::string bounds;
-  /// One sentence from the table of keys.
-  std::string meaning;
-  /// Whether neither a file nor --set set it.
-  bool is_default = true;
-  /// File and line that set it; empty for defaults.
-  SourcePlace where;
+  std::string path;        ///< dotted path: "forces.face_drag.K_F"
+  std::string value;       ///< as TOML, in the key's unit
+  std::string unit;        ///< SI, "%" or "1"; "" for text and switches
+  std::string bounds;      ///< "0 .. 10", or the allowed words
+  std::string meaning;     ///< one sentence from the table of keys
+  bool is_default = true;  ///< whether neither a file nor --set set it
+  SourcePlace where;       ///< file and line that set it; empty for defaults
 };
 
 /// What to write in a run, and how often.
 struct OutputParameters {
-  /// File format of the stored poses.
-  TrajectoryFormat trajectory = TrajectoryFormat::binary;
-  /// Frames per second of simulated time.
-  double rate = 5;
-  /// Simulated time between rows of metrics.csv, s.
-  double metrics_interval = 10;
+  TrajectoryFormat trajectory = TrajectoryFormat::binary;  ///< file format of the stored poses
+  double rate = 5;                                         ///< frames per second of simulated time
+  double metrics_interval = 10;  ///< simulated time between rows of metrics.csv, s
 };
 
 /// A scenario with its model, ready to run.
 struct Scenario {
-  /// Name of the scenario, also of its output directory.
-  std::string title;
-  /// Simulated time of a run, s.
-  double duration = 600;
-  /// Key of all random numbers of a run.
-  std::uint64_t seed = 1;
+  std::string title;       ///< name of the scenario, also of its output directory
+  double duration = 600;   ///< simulated time of a run, s
+  std::uint64_t seed = 1;  ///< key of all random numbers of a run
   OutputParameters output;
-  /// Built from the entries.
-  Model model;
-  /// Every key, in the table's order.
-  std::vector<ScenarioEntry> entries;
+  Model model;                         ///< built from the entries
+  std::vector<ScenarioEntry> entries;  ///< every key, in the table's order
   /// The whole scenario as one TOML text with every value; input files it names (flow, rulesets,
   /// start poses) are to be found beside it under the names in `files`.
   std::string resolved;
@@ -58,8 +43,7 @@ struct Scenario {
   struct Attachment {
     std::string name, content;
   };
-  /// Input files that `resolved` names.
-  std::vector<Attachment> files;
+  std::vector<Attachment> files;  ///< input files that `resolved` names
   /// Hash of `resolved` and the attachments: equal for equal scenarios.
   std::uint64_t identity = 0;
 };

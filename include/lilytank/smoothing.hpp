@@ -25,12 +25,9 @@ enum class SmoothingMethod : std::uint8_t { kalman, polynomial };
 
 /// How a coordinate moves and how well it was seen. Units are those of the coordinate: m, or rad.
 struct MotionModel {
-  /// Deviation of one measurement.
-  double noise = 0;
-  /// Deviation of the lasting acceleration along one axis, per s^2.
-  double acceleration = 0;
-  /// s, in which that falls to 1/e; at least two frames.
-  double memory = 0;
+  double noise = 0;         ///< deviation of one measurement
+  double acceleration = 0;  ///< deviation of the lasting acceleration along one axis, per s^2
+  double memory = 0;        ///< s, in which that falls to 1/e; at least two frames
   /// Deviation of the velocity's change by forces too short to be seen as an acceleration, in one
   /// second: per s^(3/2).
   double jolts = 0;
@@ -44,11 +41,9 @@ struct MotionModel {
 /// Choice of the smoother. Noise levels that are 0 are estimated from the tracks.
 struct SmoothingOptions {
   SmoothingMethod method = SmoothingMethod::kalman;
-  /// s, full width of the polynomial's window; at least degree + 2 frames.
-  double window = 0.3;
-  int degree = 3;  ///< of the polynomial, 2 .. 5
-  /// m, of a measured position; 0: estimated.
-  double noise = 0;
+  double window = 0.3;  ///< s, full width of the polynomial's window; at least degree + 2 frames
+  int degree = 3;       ///< of the polynomial, 2 .. 5
+  double noise = 0;     ///< m, of a measured position; 0: estimated
   double heading_noise = 0;  ///< rad; 0: estimated
 };
 
@@ -59,14 +54,11 @@ struct SmoothingOptions {
 /// frame before to the frame after, by the time between them (at the ends of a track, on one side).
 struct SmoothTrack {
   std::int64_t id = 0;
-  int first = 0;  ///< frame, as in the track
-  /// 1: the frame has a measurement.
-  std::vector<std::uint8_t> seen;
-  std::vector<double> x, y, vx, vy, ax, ay;  ///< m, m/s, m/s^2
-  /// Deviation of the error along one axis.
-  std::vector<double> sd_x, sd_v, sd_a;
-  /// rad, rad/s, rad/s^2; empty without headings.
-  std::vector<double> theta, spin, spin_rate;
+  int first = 0;                               ///< frame, as in the track
+  std::vector<std::uint8_t> seen;              ///< 1: the frame has a measurement
+  std::vector<double> x, y, vx, vy, ax, ay;    ///< m, m/s, m/s^2
+  std::vector<double> sd_x, sd_v, sd_a;        ///< deviation of the error along one axis
+  std::vector<double> theta, spin, spin_rate;  ///< rad, rad/s, rad/s^2; empty without headings
   /// Standard deviations of the errors of these, rad, rad/s, rad/s^2.
   std::vector<double> sd_theta, sd_spin, sd_spin_rate;
   int frames() const { return static_cast<int>(x.size()); }
@@ -78,8 +70,7 @@ struct SmoothRecording {
   MotionModel position;  ///< of x and y
   MotionModel heading;
   SmoothingOptions options;
-  /// In the recording's order.
-  std::vector<SmoothTrack> tracks;
+  std::vector<SmoothTrack> tracks;  ///< in the recording's order
 };
 
 /// Smooths every track. Throws InputError on a rate, window or degree that cannot be used.
@@ -87,7 +78,7 @@ SmoothRecording smooth(const Recording& recording, const SmoothingOptions& optio
 
 /// The most likely model of a recording's positions (of its headings): from all of its frames, or
 /// from pieces spread over them where there are more than some 20,000. `noise` > 0 is kept. Tracks
-/// of fewer than eight frames are left out; with none that is longer, everything is 0.
+/// of fewer than eight frames are excluded; with none that is longer, everything is 0.
 MotionModel fit_position(const Recording& recording, double noise = 0);
 /// The same for headings, rad.
 MotionModel fit_heading(const Recording& recording, double noise = 0);
@@ -99,8 +90,7 @@ struct TransferFunction {
   std::vector<double> frequency;                         ///< Hz, 0 .. rate / 2
   std::vector<double> position, velocity, acceleration;  ///< 1: unchanged
   double position_cutoff = 0, velocity_cutoff = 0,
-         /// Hz, where it first falls below 1/sqrt(2); rate / 2 if never.
-      acceleration_cutoff = 0;
+         acceleration_cutoff = 0;  ///< hz, where it first falls below 1/sqrt(2); rate / 2 if never
   double position_noise_gain = 0, velocity_noise_gain = 0,
          acceleration_noise_gain = 0;  ///< 1, 1/s, 1/s^2
 };

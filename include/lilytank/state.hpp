@@ -11,12 +11,9 @@ namespace lilytank {
 
 /// Status of a connector.
 enum class FaceStatus : std::uint8_t {
-  /// Free; latches on contact.
-  enabled,
-  /// Holds a neighbour by a new latch; the modules have yet to exchange labels.
-  latched,
-  /// Holds a neighbour by a rule.
-  bonded,
+  enabled,  ///< free; latches on contact
+  latched,  ///< holds a neighbour by a new latch; the modules have yet to exchange labels
+  bonded,   ///< holds a neighbour by a rule
   /// Released. Returns at random (ControlParameters::off_scale), once no neighbour is in reach.
   off,
 };
@@ -26,18 +23,14 @@ struct Face {
   /// Tick of the next evaluation, on the face of the lower module; 0: not drawn yet
   /// (Clock::events).
   std::int64_t due = 0;
-  /// The module held; -1: none.
-  std::int32_t partner = -1;
-  /// Random number of a message that waits here.
-  std::uint32_t random = 0;
+  std::int32_t partner = -1;  ///< the module held; -1: none
+  std::uint32_t random = 0;   ///< random number of a message that waits here
   /// off: ticks since it was released. enabled: ticks that it rests after a latch for which there
   /// was no room.
   std::uint16_t off_ticks = 0;
-  /// The partner's connector, 0..3.
-  std::uint8_t partner_face = 0;
+  std::uint8_t partner_face = 0;  ///< the partner's connector, 0..3
   FaceStatus status = FaceStatus::enabled;
-  /// Padding, always 0: equal states have equal bytes.
-  std::uint8_t spare[4] = {0, 0, 0, 0};
+  std::uint8_t spare[4] = {0, 0, 0, 0};  ///< padding, always 0: equal states have equal bytes
 };
 
 /// on: exchanges and latches. paused: keeps its labels and latches until resumed. off: switched off
@@ -46,22 +39,16 @@ enum class Power : std::uint8_t { on, paused, off };
 
 /// Firmware of a module: its ruleset state and the progress of its exchange.
 struct Firmware {
-  /// Control state l_a; 0: isolated.
-  std::int32_t label = 0;
-  /// Connector engaged last, l_n; -1: isolated.
-  std::int8_t last = -1;
-  /// The face that it addresses next, in its round of four.
-  std::uint8_t next_face = 0;
-  /// Ticks until it is idle again (src/control/exchange.hpp).
-  std::uint8_t waiting = 0;
+  std::int32_t label = 0;      ///< control state l_a; 0: isolated
+  std::int8_t last = -1;       ///< connector engaged last, l_n; -1: isolated
+  std::uint8_t next_face = 0;  ///< the face that it addresses next, in its round of four
+  std::uint8_t waiting = 0;    ///< ticks until it is idle again (src/control/exchange.hpp)
   Power power = Power::on;
-  /// Bit f: a message from the neighbour at face f waits for an answer.
-  std::uint8_t mail = 0;
+  std::uint8_t mail = 0;  ///< Bit f: a message from the neighbour at face f waits for an answer
   /// Handshake::confirmed. 0: free; 1 + f: answered at face f and waits for the confirmation;
   /// 5 + f: decided at face f and waits for the acknowledgement.
   std::uint8_t bound = 0;
-  /// Padding, always 0.
-  std::uint8_t spare[2] = {0, 0};
+  std::uint8_t spare[2] = {0, 0};  ///< padding, always 0
 };
 
 static_assert(std::has_unique_object_representations_v<Face>);
@@ -72,24 +59,17 @@ static_assert(std::has_unique_object_representations_v<Firmware>);
 /// is `assembly[i] == i` is in use. A module lies in its assembly's frame on a square lattice of
 /// pitch `side`, so bonded modules cannot drift apart.
 struct State {
-  /// Key of all random numbers (random.hpp).
-  std::uint64_t seed = 0;
-  /// Steps of dt since the start.
-  std::int64_t step = 0;
-  /// Index into Model::rulesets.
-  std::int32_t ruleset = 0;
-  /// Index into Model::commands of the next one to give.
-  std::int32_t next_command = 0;
-  /// The flow now: 0 is Model::field, i is Model::other_fields[i - 1].
-  std::int32_t field = 0;
+  std::uint64_t seed = 0;         ///< key of all random numbers (random.hpp)
+  std::int64_t step = 0;          ///< steps of dt since the start
+  std::int32_t ruleset = 0;       ///< index into Model::rulesets
+  std::int32_t next_command = 0;  ///< index into Model::commands of the next one to give
+  std::int32_t field = 0;  ///< the flow now: 0 is Model::field, i is Model::other_fields[i - 1]
   /// Assemblies [bodies]: centre of mass (m), heading (cos, sin), twist (m/s, rad/s).
   std::vector<double> x, y, c, s, vx, vy, omega;
   /// Bodies [bodies]: assembly slot, lattice cell and quarter turns in the assembly's frame.
   std::vector<std::int32_t> assembly, cell_x, cell_y, turn;
-  /// [modules]
-  std::vector<Firmware> firmware;
-  /// [4 * modules]: face f of module i is faces[4 * i + f].
-  std::vector<Face> faces;
+  std::vector<Firmware> firmware;  ///< [modules]
+  std::vector<Face> faces;         ///< [4 * modules]: face f of module i is faces[4 * i + f]
 };
 
 /// Calls visit(name, array or scalar) for every field of a state in a fixed order; the one list

@@ -16,13 +16,10 @@ namespace lilytank {
 
 /// How the order of joins is chosen.
 enum class Algorithm {
-  /// One module at a time, the paper's SingletonR.
-  singleton,
-  /// Two parts, each one module at a time, are joined last at one bond.
-  linchpin,
-  /// Every part is made of two parts as equal as can be.
-  balanced,
-  plan,  ///< the user's tree and order
+  singleton,  ///< one module at a time, the paper's SingletonR
+  linchpin,   ///< two parts, each one module at a time, are joined last at one bond
+  balanced,   ///< every part is made of two parts as equal as can be
+  plan,       ///< the user's tree and order
 };
 /// "singleton", "linchpin", "balanced", "plan".
 const std::vector<std::string>& algorithm_names();
@@ -89,7 +86,7 @@ struct Note {
   bool warning = false;  ///< else a mere remark
   std::string text;      ///< one sentence or two
 };
-/// `modules`: how many there will be, 0: unknown (nothing is then said about deadlocks).
+/// `modules`: how many there will be, 0: unknown (deadlocks are then not judged).
 std::vector<Note> notes_on(const Target& target, const Plan& plan, const Ruleset& rules,
                            int modules);
 
@@ -114,20 +111,16 @@ std::uint64_t structure_of(const Ruleset& rules);
 /// What stands after each join, for drawings [paper, Figs. 9 and 11]: a module in a cell of the
 /// target.
 struct StageModule {
-  int cell = 0;   ///< index into Target::cells
-  int label = 0;  ///< l_a
-  /// Direction of l_n, -1: isolated.
-  int last = -1;
-  /// Bit d: bonded towards direction d.
-  unsigned bonds = 0;
+  int cell = 0;          ///< index into Target::cells
+  int label = 0;         ///< l_a
+  int last = -1;         ///< direction of l_n, -1: isolated
+  unsigned bonds = 0;    ///< Bit d: bonded towards direction d
   bool engaged = false;  ///< by this stage's join
 };
 /// One drawing of an assembly.
 struct Stage {
-  /// "r2", "(1,3) (0,0) -> (3,1)-(4,1)"; empty for the first stage.
-  std::string rule, text;
-  /// All placed so far; of the first stage a single module.
-  std::vector<StageModule> modules;
+  std::string rule, text;  ///< "r2", "(1,3) (0,0) -> (3,1)-(4,1)"; empty for the first stage
+  std::vector<StageModule> modules;  ///< all placed so far; of the first stage a single module
 };
 /// One stage before the first join and one after each.
 std::vector<Stage> stages_of(const Target& target, const Plan& plan);

@@ -19,8 +19,7 @@ namespace lilytank {
 
 /// Two neighbouring cells, as indices into Target::cells.
 struct Contact {
-  /// a != b; functions that return contacts have a < b.
-  int a = 0, b = 0;
+  int a = 0, b = 0;  ///< a != b; functions that return contacts have a < b
   friend bool operator==(const Contact&, const Contact&) = default;
   friend auto operator<=>(const Contact&, const Contact&) = default;
 };
@@ -32,8 +31,7 @@ struct Target {
   std::vector<Cell> cells;
   /// The bonds drawn, a < b; empty where none are: every contact may then become a bond.
   std::vector<Contact> bonds;
-  /// The bonds are numbered and stand in the order of their joins.
-  bool ordered = false;
+  bool ordered = false;  ///< the bonds are numbered and stand in the order of their joins
   std::string file;
 };
 

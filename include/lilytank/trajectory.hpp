@@ -13,29 +13,20 @@ namespace lilytank {
 
 /// State of a module beside its pose, as a frame stores it.
 struct Markings {
-  /// Control state l_a.
-  std::int16_t label = 0;
-  /// Connector engaged last, l_n; -1: isolated.
-  std::int8_t last = -1;
-  /// Bit f: face f holds a neighbour.
-  std::uint8_t latched = 0;
-  /// Bit f: face f holds a neighbour by a rule.
-  std::uint8_t bonded = 0;
-  /// 1: the module is part of a standing copy of the target.
-  std::uint8_t complete = 0;
+  std::int16_t label = 0;     ///< control state l_a
+  std::int8_t last = -1;      ///< connector engaged last, l_n; -1: isolated
+  std::uint8_t latched = 0;   ///< Bit f: face f holds a neighbour
+  std::uint8_t bonded = 0;    ///< Bit f: face f holds a neighbour by a rule
+  std::uint8_t complete = 0;  ///< 1: the module is part of a standing copy of the target
 };
 
 /// Poses of `bodies` bodies at `time.size()` instants, frame by frame: pose of body b in frame f is
 /// at f * bodies + b. Lengths in m, angles in rad, times in s, rising.
 struct Trajectory {
-  /// Bodies in every frame.
-  int bodies = 0;
-  /// Bodies [0, modules) are squares, the rest balls.
-  int modules = 0;
-  /// [frames] s, ascending.
-  std::vector<double> time;
-  /// [frames * bodies] m, m and rad.
-  std::vector<float> x, y, theta;
+  int bodies = 0;                  ///< bodies in every frame
+  int modules = 0;                 ///< bodies [0, modules) are squares, the rest balls
+  std::vector<double> time;        ///< [frames] s, ascending
+  std::vector<float> x, y, theta;  ///< [frames * bodies] m, m and rad
   /// [frames * bodies] Default for balls; empty for poses without states.
   std::vector<Markings> markings;
   /// Number of frames.

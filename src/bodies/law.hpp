@@ -74,10 +74,10 @@ std::span<const Law> law_library();
 const Law* find_law(std::string_view name);
 
 /// Smallest and largest value of a law's variable in the recordings.
-struct Range {
+struct VariableRange {
   double low = 0, high = 1;
 };
-Range range_of(std::string_view variable, const Typical& t);
+VariableRange range_of(std::string_view variable, const Typical& t);
 /// Its unit; `unit`: of a position.
 std::string unit_of(std::string_view variable, const std::string& unit);
 

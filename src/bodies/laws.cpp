@@ -119,7 +119,7 @@ void by_drivers(const Scene& s, Values p, double* force) {
 }
 
 // Parameters of a curve: the knots' values, then the first and the last knot's place.
-Parameters knots(const Range& range) {
+Parameters knots(const VariableRange& range) {
   Parameters out;
   for (std::size_t k = 1; k <= kCurveKnots; ++k) out.push_back({"knot" + std::to_string(k), "N"});
   out.push_back({"from", "", Kind::fixed, range.low});
@@ -374,7 +374,7 @@ const Law* find_law(std::string_view name) {
   return nullptr;
 }
 
-Range range_of(std::string_view variable, const Typical& t) {
+VariableRange range_of(std::string_view variable, const Typical& t) {
   if (variable == "slip" || variable == "turn") return {0, t.fastest};
   if (variable == "pair") return {t.nearest, t.middle};
   if (variable == "time") return {0, t.duration};

@@ -173,7 +173,7 @@ void set_range(const Comparison& c, const std::string& variable, DiagnosisFindin
   f.variable = variable.empty() ? "position" : variable;
   f.from = 1e300, f.to = -1e300;
   for (const Group& g : c.groups) {
-    const Range range = range_of(variable, g.typical);
+    const VariableRange range = range_of(variable, g.typical);
     f.from = std::min(f.from, range.low), f.to = std::max(f.to, range.high);
   }
   f.unit = unit_of(variable, c.experiment->unit);

@@ -100,9 +100,7 @@ std::string take_p(const Scenario& scenario, Ruleset& rules) {
 
 // Of all that decides a world: the scenario, and the rules that stand in for its own.
 std::uint64_t identity_of(const Scenario& scenario, const Ruleset& rules) {
-  std::uint64_t hash = scenario.identity;
-  for (const char c : to_text(rules)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
+  return fnv_bytes(to_text(rules), scenario.identity);
 }
 
 // Of a directory's results: more worlds are added to those of the same rules and scenario.

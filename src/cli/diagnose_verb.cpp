@@ -7,6 +7,16 @@
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank::cli {
+namespace {
+
+DiagnosedTank diagnosed_tank(const std::string& file, std::string dir,
+                             const std::vector<std::string>& sets) {
+  DiagnosedTank tank{load_experiment({file}, sets), std::move(dir)};
+  if (tank.directory.empty()) tank.directory = "out/diagnose-" + tank.experiment.name;
+  return tank;
+}
+
+}  // namespace
 
 int diagnose_verb(const Arguments& arguments) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
@@ -15,6 +25,7 @@ int diagnose_verb(const Arguments& arguments) {
   DiagnosisOptions job;
   // Recordings have no steps: those of the simulations must be short enough not to show.
   std::vector<std::string> sets, all_sets{"run.dt='5 ms'"};
+  std::string tank, tank_results;
   bool quiet = false;
   options.add({"out", "directory of the results (default: out/diagnose-<name>)", "DIR"});
   options.add({"seed", "of everything that is drawn (1)", "N"}, &job.seed, 0, INT64_MAX);
@@ -22,6 +33,14 @@ int diagnose_verb(const Arguments& arguments) {
               1e4);
   options.add({"hold-out", "recordings kept for showing, if none is marked held_out (1)", "N"},
               &job.hold_out, 0, 1000);
+  options.add(
+      {"tank",
+       "an experiment in the same tank that was diagnosed: its null experiments serve again",
+       "EXPERIMENT.toml"},
+      &tank);
+  options.add(
+      {"tank-results", "directory of its results (default: out/diagnose-<its name>)", "DIR"},
+      &tank_results);
   options.add({"set", "a value over the experiment's, as run.dt='5 ms'", "PATH=VALUE"}, &sets);
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &job.threads, 0,
               4096);
@@ -33,6 +52,7 @@ int diagnose_verb(const Arguments& arguments) {
   if (!options.parse(arguments, "of what? write lilytank diagnose EXPERIMENT.toml")) {
     return Exit::done;
   }
+  if (!options.has("tank")) options.refuse_given({"tank-results"}, "goes with --tank");
   job.stop = &stop_signal();
   Progress progress(quiet);
   job.progress = [&](double done, const std::string& stage) { progress.show(done, stage); };
@@ -41,7 +61,7 @@ int diagnose_verb(const Arguments& arguments) {
   Diagnosis found;
   std::vector<std::string> inputs = options.positional();
   if (inputs.size() == 1 && is_body_experiment(inputs[0])) {
-    options.refuse_given({"set", "hold-out", "uncertified"},
+    options.refuse_given({"set", "hold-out", "uncertified", "tank"},
                          "has no effect on an experiment of point bodies");
     const BodyExperiment experiment = load_body_experiment(inputs[0]);
     job.out = options.out("out/diagnose-" + experiment.name);
@@ -53,7 +73,12 @@ int diagnose_verb(const Arguments& arguments) {
     const Experiment experiment = load_experiment(inputs, all_sets);
     job.out = options.out("out/diagnose-" + experiment.name);
     for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
-    found = diagnose(experiment, job);
+    if (options.has("tank")) {
+      inputs.push_back(tank);
+      found = diagnose(experiment, diagnosed_tank(tank, tank_results, all_sets), job);
+    } else {
+      found = diagnose(experiment, job);
+    }
   }
   progress.clear();
   ReportDocument report = diagnosis_report(found);

@@ -5,6 +5,7 @@
 
 #include "io/scenario_layers.hpp"
 #include "lilytank/bodies.hpp"
+#include "statistics/median.hpp"
 #include "text/number.hpp"
 
 namespace lilytank::cli {
@@ -40,6 +41,17 @@ void add_ways(const Trajectory& t, double time, std::vector<double>& ways) {
   }
 }
 
+/// How far (m) one body in ten moves at least between the stored poses before and after the given
+/// times (s); a time at which poses were stored counts as no way.
+double way_between_poses(const Trajectory& trajectory, const std::vector<double>& times) {
+  std::vector<double> ways;
+  const std::size_t every = std::max<std::size_t>(1, times.size() / kMostTimes);
+  for (std::size_t i = 0; i < times.size(); i += every) add_ways(trajectory, times[i], ways);
+  if (ways.empty()) return 0;
+  const std::size_t rank = 9 * ways.size() / 10;
+  return ranked(std::move(ways), rank);
+}
+
 }  // namespace
 
 void refuse_point_bodies(const std::vector<std::string>& files) {
@@ -58,16 +70,6 @@ void refuse_point_bodies(const std::vector<std::string>& files) {
 
 double stored_rate(const Trajectory& t) {
   return t.frames() > 1 ? (t.frames() - 1) / (t.time.back() - t.time.front()) : 0;
-}
-
-double way_between_poses(const Trajectory& trajectory, const std::vector<double>& times) {
-  std::vector<double> ways;
-  const std::size_t every = std::max<std::size_t>(1, times.size() / kMostTimes);
-  for (std::size_t i = 0; i < times.size(); i += every) add_ways(trajectory, times[i], ways);
-  if (ways.empty()) return 0;
-  const auto at = ways.begin() + static_cast<std::ptrdiff_t>(9 * ways.size() / 10);
-  std::nth_element(ways.begin(), at, ways.end());
-  return *at;
 }
 
 std::string seldom_stored(const Trajectory& trajectory, const std::string& what,

@@ -14,10 +14,6 @@ void refuse_point_bodies(const std::vector<std::string>& files);
 /// Poses of a body that were stored in a second, on average; 0 for fewer than two.
 double stored_rate(const Trajectory& trajectory);
 
-/// How far (m) one body in ten moves at least between the stored poses before and after the given
-/// times (s); a time at which poses were stored counts as no way.
-double way_between_poses(const Trajectory& trajectory, const std::vector<double>& times);
-
 /// "poses were stored 5 times a second; between them <what> (run with --set output.rate=<remedy>)",
 /// one line.
 std::string seldom_stored(const Trajectory& trajectory, const std::string& what,

@@ -23,6 +23,5 @@ std::string counts_text(const StoredStudy& study);
 int study_merge(const Arguments& arguments);
 int study_status(const Arguments& arguments);
 int study_report(const Arguments& arguments);
-int study_slurm(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -83,35 +83,100 @@ std::string identity_of(const Experiment& experiment) {
 }
 
 // What the recordings fall short of: of the flow map first, which everything rests on.
-std::vector<Shortfall> shortfalls_of(const CalibrationSetup& setup) {
-  const Coverage coverage =
-      coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
+std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, const std::vector<Recording>& balls,
+                                     const std::vector<Recording>& lilies) {
+  const Coverage coverage = coverage_of(flow, balls, lilies);
   std::vector<Shortfall> out = coverage.flow;
   out.insert(out.end(), coverage.lilies.begin(), coverage.lilies.end());
   return out;
 }
 
-// Verdict, model and comparison of recordings without faults; kept in the claimed directory.
-void search(DiagnosisSetup& setup, Diagnosis& out) {
-  PreparedTank tank(setup, setup.model_cost());
-  const CalibrationSetup& calibration = setup.calibration;
-  out.flow_csv = calibration.corrected_csv(*tank.maps.best());
+// Verdict, model and comparison of recordings without faults.
+void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& out) {
+  out.flow_csv = tank.setup.calibration.corrected_csv(*tank.maps.best());
   out.modules = std::max(
-      {out.modules, most_bodies(calibration.shapes), most_bodies(calibration.held_out_shapes)});
+      {out.modules, most_bodies(recordings.shapes), most_bodies(recordings.held_out_shapes)});
   if (!tank.ensemble.plan().identities) {
     out.checks.push_back(
         "there are more identities than bodies: differences between modules, "
         "heterogeneous_module among them, are not tested");
   }
-  out.nothing_held_out = calibration.held_out.empty();
+  out.nothing_held_out = recordings.held_out.empty();
   if (out.nothing_held_out) {
     out.warnings.push_back(
         "no recording was held out: what is shown of the fit is of recordings "
         "that it rests on, and says less than of others");
   }
-  const Judged judged = judge(tank, calibration.training, out);
-  fit_findings(tank, judged, out.nothing_held_out ? calibration.training : calibration.held_out,
-               out);
+  const Judged judged = judge(tank, recordings.training, out);
+  fit_findings(tank, judged, out.nothing_held_out ? recordings.training : recordings.held_out, out);
+  if (tank.ensemble.nearest(judged.observed.summary).at_bound) {
+    out.warnings.push_back(
+        "the parameters that are calibrated to these recordings lie at the edge of those of the "
+        "null experiments");
+  }
+}
+
+// "2 recordings of 240 s with 15 modules at 30 frames/s"
+std::string kind_of(const std::vector<RecordingShape>& shapes) {
+  double longest = 0;
+  for (const RecordingShape& s : shapes) longest = std::max(longest, s.frames / s.rate);
+  return counted(static_cast<int>(shapes.size()), "recording") + " of " + significant(longest, 3) +
+         " s with " + std::to_string(most_bodies(shapes)) + " modules at " +
+         significant(shapes.front().rate, 4) + " frames/s";
+}
+
+// Null experiments hold for recordings like those that they were simulated for.
+void refuse_unlike(const CalibrationSetup& tank, const CalibrationSetup& recordings) {
+  const std::string of_tank = kind_of(tank.shapes), own = kind_of(recordings.shapes);
+  if (own != of_tank) {
+    throw InputError("the fitted recordings of " + recordings.name + " are " + own + ", those of " +
+                     tank.name + " " + of_tank + ": its null experiments do not hold for these");
+  }
+}
+
+// What is known of an experiment before anything is estimated.
+Diagnosis begun(const Experiment& experiment) {
+  Diagnosis out;
+  out.name = experiment.name;
+  for (const Recording& r : experiment.recordings) {
+    if (r.body != BodyKind::lily) continue;
+    if (r.latches) {
+      throw InputError(r.name +
+                       " was recorded with latches on: a diagnosis needs recordings with "
+                       "latches = \"off\", or modules would move as one for other reasons");
+    }
+    if (!r.has_heading()) {
+      throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
+    }
+    const std::vector<int> seen = seen_by_frame(r);
+    if (!seen.empty()) out.modules = std::max(out.modules, *std::ranges::max_element(seen));
+    out.recordings += 1, out.seconds += r.frames / r.rate;
+  }
+  return out;
+}
+
+// The directory of the results, whose lock the caller may keep.
+std::shared_ptr<const DirectoryLock> claim(const DiagnosisOptions& options,
+                                           const std::string& identity) {
+  auto lock =
+      claim_directory(options.out, options.force, {"diagnosis", identity, diagnosis_files()});
+  if (options.lock != nullptr) *options.lock = lock;
+  return lock;
+}
+
+// Whether the verdict is out already: faults of the recordings, or too little of them.
+bool ends_early(const std::vector<Shortfall>& shortfalls, const DiagnosisOptions& options,
+                Diagnosis& out) {
+  out.shortfalls = shortfalls;
+  if (shortfalls.empty()) return false;
+  if (!options.uncertified) {
+    out.verdict = Verdict::insufficient;
+    return true;
+  }
+  for (const Shortfall& s : shortfalls) {
+    out.warnings.push_back(s.what + ": error rates are not known here");
+  }
+  return false;
 }
 
 }  // namespace
@@ -153,43 +218,50 @@ std::string name_of(Verdict verdict) {
 }
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
-  Diagnosis out;
-  out.name = experiment.name;
-  for (const Recording& r : experiment.recordings) {
-    if (r.body != BodyKind::lily) continue;
-    if (r.latches) {
-      throw InputError(r.name +
-                       " was recorded with latches on: a diagnosis needs recordings with "
-                       "latches = \"off\", or modules would move as one for other reasons");
-    }
-    if (!r.has_heading()) {
-      throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");
-    }
-    const std::vector<int> seen = seen_by_frame(r);
-    if (!seen.empty()) out.modules = std::max(out.modules, *std::ranges::max_element(seen));
-    out.recordings += 1, out.seconds += r.frames / r.rate;
-  }
+  Diagnosis out = begun(experiment);
   if (recordings_at_fault(experiment, out)) {
-    const auto lock =
-        claim_directory(options.out, options.force,
-                        {"diagnosis", "measurement " + identity_of(experiment), diagnosis_files()});
-    if (options.lock != nullptr) *options.lock = lock;
+    const auto lock = claim(options, "measurement " + identity_of(experiment));
     out.verdict = Verdict::measurement;
     return out;
   }
   DiagnosisSetup setup(experiment, options);
-  const auto lock = claim_directory(options.out, options.force,
-                                    {"diagnosis", setup.identity(), diagnosis_files()});
-  if (options.lock != nullptr) *options.lock = lock;
-  out.shortfalls = shortfalls_of(setup.calibration);
-  if (!out.shortfalls.empty() && !options.uncertified) {
-    out.verdict = Verdict::insufficient;
+  const CalibrationSetup& recordings = setup.calibration;
+  const auto lock = claim(options, setup.identity());
+  const FlowEstimate* flow = recordings.flow ? &*recordings.flow : nullptr;
+  if (ends_early(shortfalls_of(flow, recordings.balls, recordings.training), options, out)) {
     return out;
   }
-  search(setup, out);
-  for (const Shortfall& s : out.shortfalls) {
-    out.warnings.insert(out.warnings.begin(), s.what + ": error rates are not known here");
+  PreparedTank tank(setup, setup.model_cost());
+  search(tank, recordings, out);
+  return out;
+}
+
+Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& earlier,
+                   const DiagnosisOptions& options) {
+  Diagnosis out = begun(experiment);
+  if (recordings_at_fault(experiment, out)) {
+    const auto lock = claim(options, "measurement " + identity_of(experiment));
+    out.verdict = Verdict::measurement;
+    return out;
   }
+  if (experiment.base.identity != earlier.experiment.base.identity) {
+    throw InputError("the tank of " + earlier.experiment.name +
+                     " has other values of the model than " + experiment.name +
+                     ": `lilytank info` shows both");
+  }
+  DiagnosisOptions in_tank = options;
+  in_tank.out = earlier.directory, in_tank.force = false, in_tank.lock = nullptr;
+  DiagnosisSetup setup(earlier.experiment, in_tank);
+  const DiagnosisSetup own(experiment, options);
+  const CalibrationSetup& recordings = own.calibration;
+  refuse_unlike(setup.calibration, recordings);
+  const auto lock = claim(options, own.identity() + " in " + setup.identity());
+  const auto tank_lock = claim(in_tank, setup.identity());
+  const CalibrationSetup& known = setup.calibration;
+  const FlowEstimate* flow = known.flow ? &*known.flow : nullptr;
+  if (ends_early(shortfalls_of(flow, known.balls, recordings.training), options, out)) return out;
+  PreparedTank tank(setup, setup.model_cost());
+  search(tank, recordings, out);
   return out;
 }
 

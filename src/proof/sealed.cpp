@@ -120,6 +120,13 @@ std::map<std::string, double> baseline_of(const Model& tank, const Sealed& s) {
   return out;
 }
 
+Model with_parameters(const Model& model, const std::map<std::string, double>& values) {
+  std::vector<std::string> paths;
+  std::vector<double> numbers;
+  for (const auto& [path, value] : values) paths.push_back(path), numbers.push_back(value);
+  return with_parameters(model, paths, numbers);
+}
+
 }  // namespace
 
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds) {
@@ -232,12 +239,7 @@ std::string key_text(const Sealed& s) {
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
                                                   double seconds, std::uint64_t seed) {
   Model model = with_steps(tank, kSealedSteps);
-  std::vector<std::string> paths;
-  std::vector<double> values;
-  for (const auto& [path, value] : baseline_of(model, s)) {
-    paths.push_back(path), values.push_back(value);
-  }
-  model = with_parameters(model, paths, values);
+  model = with_parameters(model, baseline_of(model, s));
   std::vector<std::string> cameras;
   std::vector<double> seen;
   for (const SealedEffect& e : s.effects) {

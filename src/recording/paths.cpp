@@ -107,13 +107,8 @@ std::vector<Path> make_paths(const Sightings& s, const FrameClock& clock, Report
     const Sighting& row = s.rows[i];
     const auto [found, added] = index.emplace(row.id, paths.size());
     if (added) paths.push_back({row.id, {}});
-    const Point point{static_cast<int>(row.frame),
-                      static_cast<std::int32_t>(i),
-                      row.x,
-                      row.y,
-                      row.theta,
-                      row.unseen,
-                      row.cut};
+    Point point{static_cast<int>(row.frame), static_cast<std::int32_t>(i), row.x, row.y, row.theta};
+    point.unseen = row.unseen, point.cut = row.cut;
     paths[found->second].points.push_back(point);
   }
   std::sort(paths.begin(), paths.end(), [](const Path& a, const Path& b) { return a.id < b.id; });

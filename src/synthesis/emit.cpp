@@ -28,11 +28,8 @@ class Emitter {
                        " need more than the 255 control states that there are");
     forward.push_back({name, RuleKind::link, {first, second}, {after_a, after_b}});
     const auto undone = [](const Label& l) { return Label{l.state, reverse_hop(l.hop)}; };
-    reverse.push_back({name + "_reverse",
-                       RuleKind::unlink,
-                       {after_a, after_b},
-                       {undone(first), undone(second)},
-                       0});
+    const std::array<Label, 2> taken_back{undone(first), undone(second)};
+    reverse.push_back({name + "_reverse", RuleKind::unlink, {after_a, after_b}, taken_back, 0});
     cells_[contact.a] = {after_a.state, out};
     cells_[contact.b] = {after_b.state, back};
   }

@@ -33,6 +33,8 @@ shortened() {
   line=${line//EXPERIMENT.toml/scenarios/experiments/tank.toml}
   line=${line//experiment.toml/scenarios/experiments/tank.toml}
   line=${line//GRID.csv/out/flow-tank/flow_smooth.csv}
+  line=${line//SECOND.toml/scenarios/experiments/tour.toml}
+  line=${line//FIRST.toml/scenarios/experiments/tour.toml}
   line=${line//FILE.../scenarios/experiments/lily_1.csv.gz}
   line=${line// balls.csv.gz/ scenarios/experiments/balls_1.csv.gz}
   line=${line//other.rules/scenarios/rulesets/chain5.rules}

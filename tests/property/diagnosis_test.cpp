@@ -94,6 +94,19 @@ TEST(SmallTank, StrongEffectsInShortRecordings) {
   EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
 }
 
+// Null experiments hold for as many recordings of the same length only.
+TEST(SmallTank, ServesOnlyRecordingsOfItsKind) {
+  const DiagnosedTank tank{small_experiment(kFewFrames), ""};
+  try {
+    diagnose(small_experiment(kFewFrames / 2), tank, least_budget());
+    FAIL() << "shorter recordings were taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("its null experiments do not hold for these"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // One test: nulls and fingerprints of the tank take most of the time and serve every question.
 TEST(LongSmallTank, IsDiagnosed) {
   DiagnosisSetup setup(small_experiment(kFrames), least_budget());

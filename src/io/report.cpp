@@ -1,11 +1,45 @@
 #include <algorithm>
 #include <string_view>
 
+#include "io/json.hpp"
 #include "lilytank/report.hpp"
+#include "statistics/text_table.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
 namespace {
+
+void add_section(const ReportSection& section, std::string& out) {
+  out += "\n" + section.title + "\n";
+  for (const std::string& line : section.above) out += "  " + line + "\n";
+  if (!section.table.rows.empty()) {
+    TextTable table(section.table.head);
+    for (const auto& row : section.table.rows) table.add(row);
+    out += table.text();
+  }
+  for (const std::string& line : section.below) out += "  " + line + "\n";
+}
+
+void add_provenance(const ReportProvenance& p, std::string& out) {
+  if (p.command.empty()) return;
+  out += "\nProvenance\n  " + p.command + "\n  lilytank " + p.version +
+         (p.seed.empty() ? "" : ", seed " + p.seed) + "\n";
+  for (const auto& [file, hash] : p.inputs) out += "  " + hash + "  " + file + "\n";
+}
+
+Json section_json(const ReportSection& section) {
+  Json out{{"title", section.title}};
+  out["above"] = section.above;
+  out["table"] = {{"head", section.table.head}, {"rows", section.table.rows}};
+  out["below"] = section.below;
+  return out;
+}
+
+Json pairs_json(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  Json out = Json::object();
+  for (const auto& [name, value] : pairs) out[name] = value;
+  return out;
+}
 
 constexpr std::string_view kStyle = R"(
 :root{--ink:#1d2630;--dim:#5b6875;--paper:#fff;--panel:#f4f6f8;--line:#d8dee4;--tone:#5b6875}
@@ -126,6 +160,37 @@ std::string provenance_html(const ReportProvenance& p) {
 }
 
 }  // namespace
+
+std::string report_text(const ReportDocument& report) {
+  std::string out = report.title + ": " + report.card.verdict + "\n";
+  if (!report.subtitle.empty()) out += report.subtitle + "\n";
+  std::size_t width = 0;
+  for (const auto& [name, value] : report.card.facts) width = std::max(width, name.size());
+  if (width > 0) out += "\n";
+  for (const auto& [name, value] : report.card.facts) {
+    out += "  " + name + std::string(width - name.size() + 2, ' ') + value + "\n";
+  }
+  for (const ReportSection& section : report.sections) add_section(section, out);
+  if (!report.warnings.empty()) out += "\n";
+  for (const std::string& warning : report.warnings) out += "warning: " + warning + "\n";
+  add_provenance(report.provenance, out);
+  return out;
+}
+
+std::string report_json(const ReportDocument& report) {
+  Json out{{"title", report.title}, {"subtitle", report.subtitle}};
+  out["verdict"] = report.card.verdict;
+  out["facts"] = pairs_json(report.card.facts);
+  out["sections"] = Json::array();
+  for (const ReportSection& section : report.sections) {
+    out["sections"].push_back(section_json(section));
+  }
+  out["warnings"] = report.warnings;
+  const ReportProvenance& p = report.provenance;
+  out["provenance"] = {{"command", p.command}, {"version", p.version}, {"seed", p.seed}};
+  out["provenance"]["inputs"] = pairs_json(p.inputs);
+  return json_text(out);
+}
 
 std::string report_html(const ReportDocument& report, const std::vector<ReportPicture>& pictures) {
   std::string out =
