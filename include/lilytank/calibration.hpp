@@ -7,6 +7,7 @@
 // simulated at the estimate and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -107,10 +108,6 @@ struct CalibrationOptions : JobControl {
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Simulations at a time; 0: one per core. The result does not depend on it.
   int threads = 0;
-  /// Set by a signal: running simulations are abandoned, finished ones stay in `out`.
-  const std::atomic<bool>* stop = nullptr;
-  /// Called by one thread at a time with the share done of one stage and what it is.
-  std::function<void(double done, const std::string& stage)> progress;
   /// Receives what the recordings cover, before anything is simulated.
   std::function<void(const Coverage& coverage)> covered;
 };

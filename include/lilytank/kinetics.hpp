@@ -96,8 +96,7 @@ class RateRecord {
 struct MeasuredWorld {
   RateTable rates;                 ///< up to the end of the run
   std::vector<double> completion;  ///< when 1, 2, ... copies first stood, s
-  /// Ended early, by the signal or by a divergence; the counts are valid up to then.
-  bool stopped = false, diverged = false;
+  bool diverged = false;           ///< ended early; the counts are valid up to then
 };
 /// Runs one world of `model` (which must have one ruleset) for `duration` (s). Throws Stopped.
 MeasuredWorld measure_world(const Model& model, std::uint64_t seed, double duration,

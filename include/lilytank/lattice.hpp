@@ -94,7 +94,6 @@ struct LatticeOptions : JobControl {
   double evaluations = 0.2;  ///< mean number of evaluations of every bond per attempt, at most 1
   std::uint64_t seed = 1;
   bool to_the_end = false;  ///< whether it goes on after full yield, up to `attempts`
-  const std::atomic<bool>* stop = nullptr;
 };
 /// What a lattice world came to.
 struct LatticeResult {

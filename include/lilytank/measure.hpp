@@ -10,7 +10,7 @@
 namespace lilytank {
 
 /// How many simulations, of what length, kept where.
-struct MeasureOptions {
+struct MeasureOptions : JobControl {
   int worlds = 20;          ///< number of simulation runs
   std::uint64_t seed = 1;   ///< run k has derived_seed(seed, k)
   double duration = 14400;  ///< simulated time of each run, s
@@ -18,9 +18,6 @@ struct MeasureOptions {
   std::string out;          ///< directory, made if absent, for world-<seed>-<k>.csv; empty: none
   /// Hash of everything that decides a run. Files in `out` of another identity are refused.
   std::uint64_t identity = 0;
-  const std::atomic<bool>* stop = nullptr;  ///< set by a signal: running worlds are abandoned
-  /// Fraction of the runs done; called by one thread at a time.
-  std::function<void(double done)> progress;
 };
 /// The worlds in their order, those that are in `out` already read from there; the result does not
 /// depend on threads or interruptions. Throws Stopped and InputError.

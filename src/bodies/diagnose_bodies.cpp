@@ -121,15 +121,14 @@ class Trials {
 
   void nulls() {
     const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.minutes)));
-    KeptRows kept{.identity = identity_of(experiment_, options_),
-                  .threads = options_.threads,
-                  .stop = options_.stop};
+    KeptRows kept;
+    kept.identity = identity_of(experiment_, options_);
+    kept.threads = options_.threads, kept.stop = options_.stop;
     if (!options_.out.empty()) {
       kept.file = (std::filesystem::path(options_.out) / "work" / "nulls.rows").string();
     }
-    kept.progress = [&](int done, int all) {
-      report(0.6 + 0.39 * done / all,
-             "simulated baselines, " + std::to_string(done) + " of " + std::to_string(all));
+    kept.progress = [&](double done, const std::string& note) {
+      options_.report(0.6 + 0.39 * done, "simulated baselines, " + note);
     };
     c_.nulls = null_gains(experiment_, c_.groups, c_.baseline, number, options_.seed, kept);
   }

@@ -26,7 +26,7 @@ void request_stop(int) {
   stop_requested.store(true, std::memory_order_relaxed);
 }
 
-double seconds(Clock::duration d) {
+double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 

@@ -151,15 +151,15 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
                         more(factor_for_share(*flow, samples, where, kLeastMeasured))});
   }
   // Errors fall with the root of the time.
-  const auto require = [&](const char* what, double error, double largest) {
-    if (!(error > largest)) return;
-    out.flow.push_back({what + percent(error) + "; " + percent(largest) + " are needed",
-                        more(error * error / (largest * largest))});
+  const auto require = [&](const char* what, double relative, double largest) {
+    if (!(relative > largest)) return;
+    out.flow.push_back({what + percent(relative) + "; " + percent(largest) + " are needed",
+                        more(relative * relative / (largest * largest))});
   };
   require("the standard error of the mean flow over its speed, where the Lilies went, is ",
           out.flow_error / out.flow_speed, kLargestFlowError);
   if (flow->noise) out.gust_error = flow->noise->gusts_error / flow->noise->gusts;
-  require("the standard error of the gusts' standard deviation over that deviation is ",
+  require("the relative standard error of the gusts' standard deviation is ",
           out.gust_error, kLargestGustError);
   return out;
 }

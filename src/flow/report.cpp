@@ -86,7 +86,7 @@ ReportSection coverage_section(const Coverage& coverage) {
                         {"standard error of the mean flow per axis (rms), over the speed (rms)",
                          fixed(coverage.flow_error / coverage.flow_speed, 3),
                          "at most " + fixed(kLargestFlowError, 2)},
-                        {"standard error of the gusts' standard deviation, over that deviation",
+                        {"relative standard error of the gusts' standard deviation",
                          std::isnan(coverage.gust_error) ? "-" : fixed(coverage.gust_error, 3),
                          "at most " + fixed(kLargestGustError, 2)}};
   return section;

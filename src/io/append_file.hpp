@@ -25,6 +25,8 @@ class AppendFile {
 
   /// Throws InputError if the disk is full or fails.
   void append(std::string_view text);
+  /// Hands everything appended so far to the system, where a kill of the program does not lose it.
+  void hand_over();
   /// Everything appended so far is on the disk on return; returns the digest of it. A file that was
   /// cut to `keep_bytes` has none.
   const FileDigest& flush();

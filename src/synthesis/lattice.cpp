@@ -28,7 +28,7 @@ class LatticeWorld {
   LatticeResult run() {
     std::int64_t changes = -1;
     while (result_.attempts < options_.attempts) {
-      if (options_.stop != nullptr && options_.stop->load()) break;
+      options_.check_stop();
       index_ = 0;
       attempt();
       evaluate_bonds();

@@ -18,14 +18,14 @@ class Graph {
   Graph(const ReactionNetwork& network, std::vector<const Reaction*> reactions, std::int64_t limit)
       : network_(network), reactions_(std::move(reactions)), limit_(limit) {}
 
-  // False if there are more states than the limit, or it was stopped.
-  bool explore(int modules, const std::atomic<bool>* stop) {
+  // False if there are more states than the limit.
+  bool explore(int modules, const JobControl& control) {
     Counts start(network_.species.size(), u'\0');
     start[0] = static_cast<char16_t>(modules);
     add(start);
     for (std::size_t k = 0; k < states_.size(); ++k) {
       if (static_cast<std::int64_t>(states_.size()) > limit_) return false;
-      if (stop != nullptr && stop->load()) return false;
+      control.check_stop();
       const Counts now = *states_[k];
       for (const Reaction* reaction : reactions_) {
         Counts then = now;
