@@ -13,7 +13,6 @@
 #include "lilytank/error.hpp"
 #include "lilytank/math.hpp"
 #include "palette.hpp"
-#include "text/words.hpp"
 #include "text/number.hpp"
 #include "text/printable.hpp"
 #include "text/words.hpp"

@@ -164,6 +164,18 @@ std::shared_ptr<const DirectoryLock> claim(const DiagnosisOptions& options,
   return lock;
 }
 
+// The directory of an earlier diagnosis, which nothing replaces.
+std::shared_ptr<const DirectoryLock> claim_tank(const DiagnosisSetup& tank) {
+  try {
+    check_directory(tank.options.out, false, {"diagnosis", tank.identity(), diagnosis_files()});
+  } catch (const InputError&) {
+    throw InputError("'" + tank.options.out + "' is not of a diagnosis of " +
+                     tank.calibration.name +
+                     " with the same --seed, --budget and --set: give --tank-results");
+  }
+  return claim(tank.options, tank.identity());
+}
+
 // Whether the verdict is out already: faults of the recordings, or too little of them.
 bool ends_early(const std::vector<Shortfall>& shortfalls, const DiagnosisOptions& options,
                 Diagnosis& out) {
@@ -256,7 +268,7 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& earlier,
   const CalibrationSetup& recordings = own.calibration;
   refuse_unlike(setup.calibration, recordings);
   const auto lock = claim(options, own.identity() + " in " + setup.identity());
-  const auto tank_lock = claim(in_tank, setup.identity());
+  const auto tank_lock = claim_tank(setup);
   const CalibrationSetup& known = setup.calibration;
   const FlowEstimate* flow = known.flow ? &*known.flow : nullptr;
   if (ends_early(shortfalls_of(flow, known.balls, recordings.training), options, out)) return out;

@@ -167,8 +167,8 @@ std::vector<double> report_baseline(const PreparedTank& tank, const Judged& judg
   return alone;
 }
 
-void fit_findings(PreparedTank& tank, const Judged& judged,
-                    const std::vector<Recording>& held_out, Diagnosis& out) {
+void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Recording>& held_out,
+                  Diagnosis& out) {
   const CalibrationSetup& setup = tank.setup.calibration;
   Stages& stages = tank.setup.stages;
   const SelectedModel& e = judged.selected;

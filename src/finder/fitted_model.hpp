@@ -12,7 +12,7 @@ std::vector<double> report_baseline(const PreparedTank& tank, const Judged& judg
 
 /// Fits the findings jointly with the baseline and adds parameters, overlay and the comparison
 /// before and after on `held_out`, recordings that had no part in the verdict. Throws Stopped.
-void fit_findings(PreparedTank& tank, const Judged& judged,
-                    const std::vector<Recording>& held_out, Diagnosis& out);
+void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Recording>& held_out,
+                  Diagnosis& out);
 
 }  // namespace lilytank

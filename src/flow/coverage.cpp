@@ -159,8 +159,8 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
   require("the standard error of the mean flow over its speed, where the Lilies went, is ",
           out.flow_error / out.flow_speed, kLargestFlowError);
   if (flow->noise) out.gust_error = flow->noise->gusts_error / flow->noise->gusts;
-  require("the relative standard error of the gusts' standard deviation is ",
-          out.gust_error, kLargestGustError);
+  require("the relative standard error of the gusts' standard deviation is ", out.gust_error,
+          kLargestGustError);
   return out;
 }
 

@@ -44,6 +44,7 @@ shortened() {
     'lilytank study slurm '*) ;;
     'lilytank prove --'*) line+=' --worlds 2 --minutes 0.3 --known-flow --budget 1 --quiet' ;;
     'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
+    'lilytank diagnose '*--tank*) line+=' --tank-results out/first --force --quiet' ;;
     'lilytank calibrate '* | 'lilytank diagnose '*) line+=' --force --quiet' ;;
     'lilytank analyze '*) line+=' --resamples 20 --longest-lag 2' ;;
   esac
