@@ -13,10 +13,13 @@ namespace lilytank {
 
 /// A requirement that recordings do not meet.
 struct Shortfall {
-  std::string
-      what;  ///< "the balls measured the flow for 12 % of the Lilies' time; 90 % are needed"
-  std::string record;  ///< what to record in addition: "8 min more of 24 balls"
+  std::string what;    ///< what is measured, its value, and the bound that it does not meet
+  double minutes = 0;  ///< to record in addition, with as many bodies
+  std::string bodies;  ///< "24 balls"
 };
+/// What to record in addition to meet all of them: "8 min more of 24 balls and 2 min more of 15
+/// Lilies".
+std::string to_record(const std::vector<Shortfall>& shortfalls);
 
 /// What recordings cover. Times are sums over bodies of the time for which each was seen.
 struct Coverage {

@@ -33,7 +33,7 @@ ReportCard card_of(const CalibrationResult& c) {
   if (!shortfalls.empty()) {
     card.tone = ReportTone::fault;
     card.verdict = "insufficient recordings of balls: the estimates are not reliable";
-    for (const Shortfall& s : shortfalls) card.facts.emplace_back("too little", s.what);
+    for (const Shortfall& s : shortfalls) card.facts.emplace_back("requirement", s.what);
   }
   for (const CalibratedParameter& p : c.parameters) {
     if (!p.parameter.nuisance) card.facts.emplace_back(p.parameter.path, bounded(p));
@@ -44,7 +44,7 @@ ReportCard card_of(const CalibrationResult& c) {
                                 " m^2 after, noise floor " + digits(m.floor) + " m^2");
   }
   if (!shortfalls.empty()) {
-    card.facts.emplace_back("next", "record " + shortfalls.back().record);
+    card.facts.emplace_back("next", "record " + to_record(shortfalls));
     return card;
   }
   card.facts.emplace_back("next", fits ? "simulate with the overlay calibrated.toml"

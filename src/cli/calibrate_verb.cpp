@@ -195,7 +195,7 @@ int calibrate_verb(const Arguments& arguments) {
   c.out = options.out("out/calibrate-" + experiment.name);
   c.covered = [](const Coverage& coverage) {
     for (const Shortfall& s : coverage.flow) {
-      std::cerr << "warning: " << s.what << ": record " << s.record << "\n";
+      std::cerr << "warning: " << s.what << ": record " << to_record({s}) << "\n";
     }
   };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written

@@ -9,6 +9,38 @@
 namespace lilytank::cli {
 namespace {
 
+struct DiagnoseJob {
+  DiagnosisOptions diagnosis;
+  std::vector<std::string> sets;
+  std::string tank, tank_results;
+  bool quiet = false;
+};
+
+void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
+  DiagnosisOptions& d = job.diagnosis;
+  options.add({"out", "directory of the results (default: out/diagnose-<name>)", "DIR"});
+  options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
+  options.add({"budget", "minutes that it may take on two cores (10)", "MINUTES"}, &d.minutes, 1,
+              1e4);
+  options.add({"hold-out", "recordings kept for showing, if none is marked held_out (1)", "N"},
+              &d.hold_out, 0, 1000);
+  options.add(
+      {"tank",
+       "an experiment in the same tank that was diagnosed: its null experiments serve again",
+       "EXPERIMENT.toml"},
+      &job.tank);
+  options.add(
+      {"tank-results", "directory of its results (default: out/diagnose-<its name>)", "DIR"},
+      &job.tank_results);
+  options.add({"set", "a value over the experiment's, as run.dt='5 ms'", "PATH=VALUE"}, &job.sets);
+  options.add({"threads", "simulations at a time (default: one a core)", "N"}, &d.threads, 0, 4096);
+  options.add(
+      {"uncertified", "diagnose insufficient recordings, too: error rates are then unknown"},
+      &d.uncertified);
+  options.add({"force", "replace another diagnosis's files"}, &d.force);
+  options.add({"quiet", "no progress"}, &job.quiet);
+}
+
 DiagnosedTank diagnosed_tank(const std::string& file, std::string dir,
                              const std::vector<std::string>& sets) {
   DiagnosedTank tank{load_experiment({file}, sets), std::move(dir)};
@@ -22,70 +54,48 @@ int diagnose_verb(const Arguments& arguments) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
                       "Says where an experiment's recordings and the model differ, which effect is "
                       "missing, how large it is, and how much of the difference it removes.");
-  DiagnosisOptions job;
-  // Recordings have no steps: those of the simulations must be short enough not to show.
-  std::vector<std::string> sets, all_sets{"run.dt='5 ms'"};
-  std::string tank, tank_results;
-  bool quiet = false;
-  options.add({"out", "directory of the results (default: out/diagnose-<name>)", "DIR"});
-  options.add({"seed", "of everything that is drawn (1)", "N"}, &job.seed, 0, INT64_MAX);
-  options.add({"budget", "minutes that it may take on two cores (10)", "MINUTES"}, &job.minutes, 1,
-              1e4);
-  options.add({"hold-out", "recordings kept for showing, if none is marked held_out (1)", "N"},
-              &job.hold_out, 0, 1000);
-  options.add(
-      {"tank",
-       "an experiment in the same tank that was diagnosed: its null experiments serve again",
-       "EXPERIMENT.toml"},
-      &tank);
-  options.add(
-      {"tank-results", "directory of its results (default: out/diagnose-<its name>)", "DIR"},
-      &tank_results);
-  options.add({"set", "a value over the experiment's, as run.dt='5 ms'", "PATH=VALUE"}, &sets);
-  options.add({"threads", "simulations at a time (default: one a core)", "N"}, &job.threads, 0,
-              4096);
-  options.add(
-      {"uncertified", "diagnose insufficient recordings, too: error rates are then unknown"},
-      &job.uncertified);
-  options.add({"force", "replace another diagnosis's files"}, &job.force);
-  options.add({"quiet", "no progress"}, &quiet);
+  DiagnoseJob job;
+  DiagnosisOptions& d = job.diagnosis;
+  add_diagnose_options(options, job);
   if (!options.parse(arguments, "of what? write lilytank diagnose EXPERIMENT.toml")) {
     return Exit::done;
   }
   if (!options.has("tank")) options.refuse_given({"tank-results"}, "goes with --tank");
-  Progress progress(quiet);
-  progress.watch(job);
+  Progress progress(job.quiet);
+  progress.watch(d);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
-  job.lock = &lock;
+  d.lock = &lock;
   Diagnosis found;
   std::vector<std::string> inputs = options.positional();
   if (inputs.size() == 1 && is_body_experiment(inputs[0])) {
     options.refuse_given({"set", "hold-out", "uncertified", "tank"},
                          "has no effect on an experiment of point bodies");
     const BodyExperiment experiment = load_body_experiment(inputs[0]);
-    job.out = options.out("out/diagnose-" + experiment.name);
+    d.out = options.out("out/diagnose-" + experiment.name);
     inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
-    found = diagnose_bodies(experiment, job);
+    found = diagnose_bodies(experiment, d);
   } else {
     refuse_point_bodies(inputs);
-    all_sets.insert(all_sets.end(), sets.begin(), sets.end());
-    const Experiment experiment = load_experiment(inputs, all_sets);
-    job.out = options.out("out/diagnose-" + experiment.name);
+    // Recordings have no steps: those of the simulations must be short enough not to show.
+    std::vector<std::string> sets{"run.dt='5 ms'"};
+    sets.insert(sets.end(), job.sets.begin(), job.sets.end());
+    const Experiment experiment = load_experiment(inputs, sets);
+    d.out = options.out("out/diagnose-" + experiment.name);
     for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
     if (options.has("tank")) {
-      inputs.push_back(tank);
-      found = diagnose(experiment, diagnosed_tank(tank, tank_results, all_sets), job);
+      inputs.push_back(job.tank);
+      found = diagnose(experiment, diagnosed_tank(job.tank, job.tank_results, sets), d);
     } else {
-      found = diagnose(experiment, job);
+      found = diagnose(experiment, d);
     }
   }
   progress.clear();
   ReportDocument report = diagnosis_report(found);
-  report.provenance = provenance("diagnose", arguments, job.seed, inputs);
-  write_diagnosis(found, report, job.out);
-  if constexpr (kDraws) draw_diagnosis(found, report, job.out);
+  report.provenance = provenance("diagnose", arguments, d.seed, inputs);
+  write_diagnosis(found, report, d.out);
+  if constexpr (kDraws) draw_diagnosis(found, report, d.out);
   if constexpr (!kDraws) say_undrawn("report.html");
-  return print_results(report, job.out);
+  return print_results(report, d.out);
 }
 
 }  // namespace lilytank::cli

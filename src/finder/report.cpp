@@ -73,8 +73,7 @@ std::string next_step(const Diagnosis& d) {
     case Verdict::undecided:
       return "record longer, then diagnose again";
     case Verdict::insufficient:
-      return "record " +
-             joined(d.shortfalls, " and ", [](const Shortfall& s) { return s.record; }) +
+      return "record " + to_record(d.shortfalls) +
              "; a diagnosis of what is there (--uncertified) has unknown error rates";
     default:
       break;
@@ -100,7 +99,7 @@ ReportCard card_of(const Diagnosis& d) {
   ReportCard card;
   card.tone = tone_of(d.verdict), card.verdict = verdict_of(d);
   if (d.verdict == Verdict::insufficient) {
-    for (const Shortfall& s : d.shortfalls) card.facts.emplace_back("too little", s.what);
+    for (const Shortfall& s : d.shortfalls) card.facts.emplace_back("requirement", s.what);
   }
   for (const DiagnosisFinding& f : d.findings) {
     const std::string of = d.findings.size() > 1 ? " of " + f.effect : "";

@@ -79,7 +79,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   if (!d.shortfalls.empty()) {
     for (const Shortfall& s : d.shortfalls) {
-      out["shortfalls"].push_back({{"what", s.what}, {"record", s.record}});
+      out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
     }
   }
   out["detectable"] = Json::array();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "flow/grid.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -104,34 +106,11 @@ std::string percent(double share) {
   return significant(100 * share, 2) + " %";
 }
 
-// "8 min more of 24 balls"
-std::string minutes_of(double body_minutes, std::size_t bodies, const char* plural) {
-  const double minutes = body_minutes / static_cast<double>(std::max<std::size_t>(1, bodies));
-  return significant(std::max(minutes, 0.1), 2) + " min more of " + std::to_string(bodies) + " " +
-         plural;
-}
-
-}  // namespace
-
-Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
-                     std::span<const Recording> lilies) {
-  Coverage out;
-  out.ball_minutes = minutes_seen(balls, BodyKind::ball);
-  out.lily_minutes = minutes_seen(lilies, BodyKind::lily);
-  if (out.lily_minutes < kLeastLilyMinutes) {
-    out.lilies.push_back({"the Lilies were seen for " + significant(out.lily_minutes, 2) +
-                              " min, summed over modules; " + significant(kLeastLilyMinutes, 2) +
-                              " min are needed",
-                          minutes_of(kLeastLilyMinutes - out.lily_minutes,
-                                     bodies_in(lilies, BodyKind::lily), "Lilies")});
-  }
-  out.flow_error = out.flow_speed = out.gust_error = NAN;
-  if (flow == nullptr || out.lily_minutes <= 0) return out;
-  const FlowGrid grid{flow->cells, flow->extent};
-  const std::vector<double> where = seconds_by_cell(grid, lilies);
+// Sums over the Lilies' time.
+void measure_flow(const FlowEstimate& flow, const std::vector<double>& where, Coverage& out) {
   double all = 0, measured = 0, error = 0, speed = 0;
   for (std::size_t i = 0; i < where.size(); ++i) {
-    const FlowCell& cell = flow->cell[i];
+    const FlowCell& cell = flow.cell[i];
     all += where[i], measured += cell.measured ? where[i] : 0;
     const FlowSample &e = cell.error, &u = cell.flow;
     if (!std::isnan(e.mu_x)) error += where[i] * (e.mu_x * e.mu_x + e.mu_y * e.mu_y) / 2;
@@ -139,28 +118,63 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
   }
   out.measured = measured / all;
   out.flow_error = std::sqrt(error / all), out.flow_speed = std::sqrt(speed / all);
-  const std::size_t count = bodies_in(balls, BodyKind::ball);
-  const auto more = [&](double factor) {
-    return minutes_of((factor - 1) * out.ball_minutes, count, "balls");
+  if (flow.noise) out.gust_error = flow.noise->gusts_error / flow.noise->gusts;
+}
+
+// What the flow map falls short of, and by what factor the balls' time must grow.
+void check_flow(const FlowEstimate& flow, const std::vector<double>& where, std::size_t balls,
+                Coverage& out) {
+  const double minutes = out.ball_minutes / static_cast<double>(std::max<std::size_t>(1, balls));
+  const auto add = [&](const std::string& what, double value, const char* bound, double needed,
+                       double factor) {
+    out.flow.push_back({what + ": " + percent(value) + " (" + bound + " " + percent(needed) + ")",
+                        (factor - 1) * minutes, std::to_string(balls) + " balls"});
   };
   if (out.measured < kLeastMeasured) {
     std::vector<double> samples;
-    for (const FlowCell& cell : flow->cell) samples.push_back(cell.samples);
-    out.flow.push_back({"the balls measured the flow for " + percent(out.measured) +
-                            " of the Lilies' time; " + percent(kLeastMeasured) + " are needed",
-                        more(factor_for_share(*flow, samples, where, kLeastMeasured))});
+    for (const FlowCell& cell : flow.cell) samples.push_back(cell.samples);
+    add("fraction of the Lilies' time in cells where the balls measured the flow", out.measured,
+        "at least", kLeastMeasured, factor_for_share(flow, samples, where, kLeastMeasured));
   }
   // Errors fall with the root of the time.
-  const auto require = [&](const char* what, double relative, double largest) {
-    if (!(relative > largest)) return;
-    out.flow.push_back({what + percent(relative) + "; " + percent(largest) + " are needed",
-                        more(relative * relative / (largest * largest))});
+  const auto limit = [&](const std::string& what, double relative, double largest) {
+    if (relative > largest)
+      add(what, relative, "at most", largest, std::pow(relative / largest, 2));
   };
-  require("the standard error of the mean flow over its speed, where the Lilies went, is ",
-          out.flow_error / out.flow_speed, kLargestFlowError);
-  if (flow->noise) out.gust_error = flow->noise->gusts_error / flow->noise->gusts;
-  require("the relative standard error of the gusts' standard deviation is ", out.gust_error,
-          kLargestGustError);
+  limit("standard error of the mean flow over its speed, where the Lilies went",
+        out.flow_error / out.flow_speed, kLargestFlowError);
+  limit("relative standard error of the gusts' standard deviation", out.gust_error,
+        kLargestGustError);
+}
+
+}  // namespace
+
+std::string to_record(const std::vector<Shortfall>& shortfalls) {
+  std::map<std::string, double> minutes;  // the most of each kind
+  for (const Shortfall& s : shortfalls) minutes[s.bodies] = std::max(minutes[s.bodies], s.minutes);
+  return joined(minutes, " and ", [](const auto& one) {
+    return significant(std::max(one.second, 0.1), 2) + " min more of " + one.first;
+  });
+}
+
+Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
+                     std::span<const Recording> lilies) {
+  Coverage out;
+  out.ball_minutes = minutes_seen(balls, BodyKind::ball);
+  out.lily_minutes = minutes_seen(lilies, BodyKind::lily);
+  if (out.lily_minutes < kLeastLilyMinutes) {
+    const std::size_t count = std::max<std::size_t>(1, bodies_in(lilies, BodyKind::lily));
+    out.lilies.push_back(
+        {"time of the Lilies, summed over modules: " + significant(out.lily_minutes, 2) +
+             " min (at least " + significant(kLeastLilyMinutes, 2) + " min)",
+         (kLeastLilyMinutes - out.lily_minutes) / static_cast<double>(count),
+         std::to_string(count) + " Lilies"});
+  }
+  out.flow_error = out.flow_speed = out.gust_error = NAN;
+  if (flow == nullptr || out.lily_minutes <= 0) return out;
+  const std::vector<double> where = seconds_by_cell({flow->cells, flow->extent}, lilies);
+  measure_flow(*flow, where, out);
+  check_flow(*flow, where, bodies_in(balls, BodyKind::ball), out);
   return out;
 }
 

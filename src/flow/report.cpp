@@ -104,8 +104,7 @@ ReportCard card_of(const FlowReport& report) {
       {"standard error", fixed(s.mean_error, 4) + " m/s per axis of a cell's mean (median)"},
       {"next", sparse(e) ? "record the balls for longer, or use fewer --cells"
                          : "simulate in it with flow.file = \"flow_" + e.name + ".csv\""}};
-  if (falls_short(report))
-    card.facts.back().second = "record " + report.coverage->flow.back().record;
+  if (falls_short(report)) card.facts.back().second = "record " + to_record(report.coverage->flow);
   return card;
 }
 
@@ -260,7 +259,7 @@ ReportDocument flow_report(const FlowReport& report) {
   if (report.coverage && report.coverage->lily_minutes > 0) {
     out.sections.push_back(coverage_section(*report.coverage));
     for (const Shortfall& s : report.coverage->flow) {
-      out.warnings.push_back(s.what + ": record " + s.record);
+      out.warnings.push_back(s.what + ": record " + to_record({s}));
     }
   }
   if (report.truth) out.sections.push_back(errors_section(report));

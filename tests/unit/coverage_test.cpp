@@ -60,9 +60,8 @@ TEST(Coverage, FlowMustBeMeasuredWhereLiliesWent) {
   const Coverage c = coverage_of(&half, {&balls, 1}, {&lilies, 1});
   EXPECT_NEAR(c.measured, 0.5, 0.03);
   ASSERT_EQ(c.flow.size(), 1u);
-  EXPECT_NE(c.flow[0].what.find("% of the Lilies' time; 90 % are needed"), std::string::npos)
-      << c.flow[0].what;
-  EXPECT_NE(c.flow[0].record.find("min more of 24 balls"), std::string::npos) << c.flow[0].record;
+  EXPECT_NE(c.flow[0].what.find("(at least 90 %)"), std::string::npos) << c.flow[0].what;
+  EXPECT_NE(to_record(c.flow).find("min more of 24 balls"), std::string::npos) << to_record(c.flow);
   Recording left = lilies;
   for (Track& t : left.tracks) {
     for (double& x : t.x) x = -std::fabs(x) - 0.01;
@@ -77,7 +76,7 @@ TEST(Coverage, MinutesToRecordFollowTheStandardError) {
   const FlowEstimate flow = flow_with(1, 20, 1.5 * kLargestFlowError * 0.2);
   const Coverage c = coverage_of(&flow, {&balls, 1}, {&lilies, 1});
   ASSERT_EQ(c.flow.size(), 1u);
-  EXPECT_EQ(c.flow[0].record, "5 min more of 24 balls");
+  EXPECT_EQ(to_record(c.flow), "5 min more of 24 balls");
 }
 
 // Where cells get samples evenly, the minutes that are asked for measure them.
@@ -88,7 +87,7 @@ TEST(Coverage, MinutesToRecordMeasureTheCells) {
   const Coverage c = coverage_of(&flow, {&balls, 1}, {&lilies, 1});
   ASSERT_EQ(c.flow.size(), 1u);
   // 4 + 1.28 * 2 samples a cell where there are 3: 2.19 times the time.
-  EXPECT_EQ(c.flow[0].record, "1.2 min more of 24 balls");
+  EXPECT_EQ(to_record(c.flow), "1.2 min more of 24 balls");
 }
 
 TEST(Coverage, GustsMustBeKnown) {
@@ -99,7 +98,13 @@ TEST(Coverage, GustsMustBeKnown) {
   const Coverage c = coverage_of(&flow, {&balls, 1}, {&lilies, 1});
   EXPECT_NEAR(c.gust_error, 2 * kLargestGustError, 1e-12);
   ASSERT_EQ(c.flow.size(), 1u);
-  EXPECT_EQ(c.flow[0].record, "6 min more of 24 balls");
+  EXPECT_EQ(to_record(c.flow), "6 min more of 24 balls");
+}
+
+// Of each kind of body the longest.
+TEST(Coverage, WhatToRecordMeetsAllRequirements) {
+  EXPECT_EQ(to_record({{"", 2, "24 balls"}, {"", 8, "24 balls"}, {"", 0.02, "15 Lilies"}}),
+            "0.1 min more of 15 Lilies and 8 min more of 24 balls");
 }
 
 TEST(Coverage, AKnownFlowNeedsOnlyLilies) {
@@ -108,9 +113,8 @@ TEST(Coverage, AKnownFlowNeedsOnlyLilies) {
   EXPECT_TRUE(c.flow.empty());
   EXPECT_TRUE(std::isnan(c.flow_error));
   ASSERT_EQ(c.lilies.size(), 1u);
-  EXPECT_EQ(c.lilies[0].what,
-            "the Lilies were seen for 7.5 min, summed over modules; 15 min are needed");
-  EXPECT_EQ(c.lilies[0].record, "0.5 min more of 15 Lilies");
+  EXPECT_EQ(c.lilies[0].what, "time of the Lilies, summed over modules: 7.5 min (at least 15 min)");
+  EXPECT_EQ(to_record(c.lilies), "0.5 min more of 15 Lilies");
 }
 
 }  // namespace
