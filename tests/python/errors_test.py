@@ -19,7 +19,12 @@ class Errors(TestCase):
         words = [word for one in sets for word in ("--set", one)]
         out = self.here / "r"
         self.assertSameLine(
-            lambda: lilytank.run(lilytank.Scenario(CHAIN, values), out), "run", CHAIN, *words, "--out", out
+            lambda: lilytank.run(lilytank.Scenario(CHAIN, values), out),
+            "run",
+            CHAIN,
+            *words,
+            "--out",
+            out,
         )
         self.assertFalse(out.exists())
 
@@ -65,7 +70,9 @@ class Errors(TestCase):
 
     def test_verbs(self):
         self.assertSameLine(lambda: lilytank.flow(CHAIN), "flow", CHAIN)
-        self.assertSameLine(lambda: lilytank.study(CHAIN, thread=3), "study", CHAIN, "--thread", "3")
+        self.assertSameLine(
+            lambda: lilytank.study(CHAIN, thread=3), "study", CHAIN, "--thread", "3"
+        )
         self.assertSameLine(
             lambda: lilytank.calibrate(TANK, replicates=3), "calibrate", TANK, "--replicates", "3"
         )

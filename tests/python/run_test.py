@@ -72,8 +72,10 @@ class Run(TestCase):
                 cells = np.nan_to_num(file[column], nan=-1)
                 self.assertTrue(np.array_equal(table[column], cells), column)
         self.assertFalse(run.events["time"].flags.owndata)
-        self.assertEqual(run.report["Rules"].table["times applied"].sum(), np.isin(
-            run.events["kind"], ["link", "unlink", "update"]).sum())
+        self.assertEqual(
+            run.report["Rules"].table["times applied"].sum(),
+            np.isin(run.events["kind"], ["link", "unlink", "update"]).sum(),
+        )
 
     def test_interrupted_run_resumes_to_the_same_bytes(self):
         scenario = lilytank.Scenario(CHAIN, {"run.duration": "2 h", "output.rate": 0.5})

@@ -46,7 +46,9 @@ class World(TestCase):
         np.testing.assert_array_equal(latched, [bin(faces).count("1") for faces in world.latched])
 
     def test_snapshot_continues_with_the_same_bits(self):
-        scenario = lilytank.Scenario(CHAIN, SCENARIOS / "p_optimised_chain.toml", {"module.count": 25})
+        scenario = lilytank.Scenario(
+            CHAIN, SCENARIOS / "p_optimised_chain.toml", {"module.count": 25}
+        )
         world = lilytank.World(scenario)
         world.step(8000)
         snapshot = world.snapshot()
@@ -74,7 +76,12 @@ class World(TestCase):
 
 
 class Forces(TestCase):
-    still = {"flow.K_v": 0, "forces.stochastic.sigma_stoch": 0, "module.count": 3, "run.duration": "1 s"}
+    still = {
+        "flow.K_v": 0,
+        "forces.stochastic.sigma_stoch": 0,
+        "module.count": 3,
+        "run.duration": "1 s",
+    }
 
     def test_force_of_python_is_that_of_the_library(self):
         values = self.still | {"forces.body_force.force_x": 1e-4}
@@ -82,7 +89,9 @@ class Forces(TestCase):
             library = lilytank.World(lilytank.Scenario(LILIES, values))
         except lilytank.InputError as error:
             self.fail(str(error))
-        python = lilytank.World(lilytank.Scenario(LILIES, self.still), forces=[lambda t, b: (1e-4, 0)])
+        python = lilytank.World(
+            lilytank.Scenario(LILIES, self.still), forces=[lambda t, b: (1e-4, 0)]
+        )
         library.step(40), python.step(40)
         np.testing.assert_allclose(python.vx, library.vx, rtol=1e-9)
         self.assertGreater(abs(python.vx).min(), 1e-4)

@@ -7,8 +7,8 @@
     run.trajectory.x       # [frames, bodies], m
     run.events.to_pandas()
 
-The numbers are those of the command-line program, to the last bit. Invalid input raises InputError with the
-line that the program prints. docs/python.md describes the package.
+The numbers are those of the command-line program, to the last bit. Invalid input raises InputError
+with the line that the program prints. docs/python.md describes the package.
 """
 
 from ._core import InputError, __version__

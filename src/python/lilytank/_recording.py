@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._scenario import Scenario
+from ._scenario import Scenario, split
 from ._tables import needed
 from ._values import PathLike, assignments
 
@@ -84,9 +84,21 @@ class Recording:
         frames = []
         for t in self.tracks:
             number = t.first + np.arange(len(t.x))
-            columns = {"frame": number, "time": self.start + number / self.rate, "id": t.id, "x": t.x, "y": t.y}
-            frames.append(pandas.DataFrame(columns if t.theta is None else columns | {"theta": t.theta}))
-        return pandas.concat(frames, ignore_index=True).dropna(subset="x") if frames else pandas.DataFrame()
+            columns = {
+                "frame": number,
+                "time": self.start + number / self.rate,
+                "id": t.id,
+                "x": t.x,
+                "y": t.y,
+            }
+            frames.append(
+                pandas.DataFrame(columns if t.theta is None else columns | {"theta": t.theta})
+            )
+        return (
+            pandas.concat(frames, ignore_index=True).dropna(subset="x")
+            if frames
+            else pandas.DataFrame()
+        )
 
     def to_xarray(self) -> "xarray.Dataset":
         """As a Dataset over time and id, NaN where a body was not seen. Needs xarray."""
@@ -122,24 +134,30 @@ def read_recording(
     overrides: Mapping[str, Any] | None = None,
     **read: Any,
 ) -> Recording:
-    """Reads and checks one recording: a file, a directory or pattern with a file a track, or such files.
+    """Reads and checks one recording: a file, or a directory, pattern or list with a file a track.
 
     Keywords are the keys of a [[recording]] (docs/recordings.md): format="trackpy", rate=25,
-    tank_circle=[640, 480, 455], columns={"x": "px"}, checks={"swap": "mark"}. `overrides` are values of the tank and
-    the bodies. InputError where a check refuses the recording, unless `refuse` is False.
+    tank_circle=[640, 480, 455], columns={"x": "px"}, checks={"swap": "mark"}. `overrides` are
+    values of the tank and the bodies. InputError where a check refuses the recording, unless
+    `refuse` is False.
     """
     paths = [os.fspath(file) for file in files]
-    return _recording(_core.read_recording(paths, list(assignments(read)), list(assignments(overrides or {})), refuse))
+    return _recording(
+        _core.read_recording(
+            paths, list(assignments(read)), list(assignments(overrides or {})), refuse
+        )
+    )
 
 
 def read_experiment(*sources: PathLike | Mapping[str, Any]) -> Experiment:
-    """Reads an experiment from files and dicts of overrides, as Scenario does, with all its recordings."""
-    files = [os.fspath(s) for s in sources if not isinstance(s, Mapping)]
-    sets = [one for s in sources if isinstance(s, Mapping) for one in assignments(s)]
+    """Reads an experiment from files and dicts of overrides, as Scenario does, with all its
+    recordings.
+    """
+    files, sets = split(sources)
     found = _core.read_experiment(files, sets)
     return Experiment(
         found["name"],
-        Scenario._of(found["scenario"], files),
+        Scenario._of(files, sets, found["scenario"]),
         [_recording(one) for one in found["recordings"]],
         [Finding(**one) for one in found["findings"]],
     )

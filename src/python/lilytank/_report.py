@@ -26,12 +26,16 @@ class Section:
     @property
     def table(self) -> Table:
         """The section's table: columns of numbers are arrays of float64."""
-        return Table({name: _column([row[i] for row in self.rows]) for i, name in enumerate(self.head)})
+        return Table(
+            {name: _column([row[i] for row in self.rows]) for i, name in enumerate(self.head)}
+        )
 
 
 @dataclass(frozen=True)
 class Report:
-    """What a verb reports: verdict, facts, and sections with tables. `print(report)` prints it as the program does."""
+    """What a verb reports: verdict, facts, and sections with tables. `print(report)` prints it as
+    the program does.
+    """
 
     title: str
     subtitle: str

@@ -28,7 +28,9 @@ Force = Callable[[float, Any], Any]
 
 
 class Trajectory:
-    """Stored poses. All arrays but `time` are [frames, bodies], modules first, without a copy and read-only."""
+    """Stored poses. All arrays but `time` are [frames, bodies], modules first, without a copy and
+    read-only.
+    """
 
     def __init__(self, core: Any) -> None:
         self._core = core
@@ -57,8 +59,8 @@ class Trajectory:
     def markings(self) -> np.ndarray:
         """States of modules as a structured array.
 
-        label (control state l_a), last (connector engaged last, -1: isolated), latched and bonded (bit f: face f
-        holds a neighbour; by a rule), complete (1: part of a completed copy).
+        label (control state l_a), last (connector engaged last, -1: isolated), latched and bonded
+        (bit f: face f holds a neighbour; by a rule), complete (1: part of a completed copy).
         """
         return self._core.markings
 
@@ -146,7 +148,9 @@ class Run:
 
     @cached_property
     def events(self) -> Table:
-        """Latches, rules that fired, copies, commands: the columns of events.csv, -1 where a cell is empty."""
+        """Latches, rules that fired, copies, commands: the columns of events.csv, -1 where a cell
+        is empty.
+        """
         return Table(_core.read_run_table(str(self.directory / "events.csv")), index="time")
 
     @cached_property
@@ -179,21 +183,27 @@ def run(
 ) -> Run:
     """Simulates one tank; the same bits as `lilytank run`.
 
-    `out` is the directory of the results, as of the command: an interrupted run in it is resumed, and `force`
-    replaces another run's files. Without it the files are temporary. Ctrl-C stops the run.
+    `out` is the directory of the results, as of the command: an interrupted run in it is resumed,
+    and `force` replaces another run's files. Without it the files are temporary. Ctrl-C stops the
+    run.
 
-    `forces` are functions f(time, bodies) that try an idea: they return (fx, fy) or (fx, fy, torque) on all bodies in
-    N and N m, numbers or arrays, or None. bodies has arrays x, y (m), cos, sin (of the heading), vx, vy (m/s), omega
-    (rad/s), and the number `modules`. They are called every step and make runs many times slower, and such a run cannot
-    be stored: write a force term in C++ for that (docs/structure.md).
+    `forces` are functions f(time, bodies) that try an idea: they return (fx, fy) or (fx, fy,
+    torque) on all bodies in N and N m, numbers or arrays, or None. bodies has arrays x, y (m), cos,
+    sin (of the heading), vx, vy (m/s), omega (rad/s), and the number `modules`. They are called
+    every step and make runs many times slower, and such a run cannot be stored: write a force term
+    in C++ for that (docs/structure.md).
     """
     if forces and out is not None:
-        raise _core.InputError("a run with forces in Python cannot be stored: leave out the directory 'out'")
+        raise _core.InputError(
+            "a run with forces in Python cannot be stored: leave out the directory 'out'"
+        )
     kept = None
     if out is None:
         kept = tempfile.TemporaryDirectory(prefix="lilytank-")
         out = kept.name
-    found = _core.run(scenario._core, scenario.files, os.fspath(out), force, list(forces), reporter(progress))
+    found = _core.run(
+        scenario._core, scenario.files, os.fspath(out), force, list(forces), reporter(progress)
+    )
     return Run(scenario, Path(out), **found, _kept=kept)
 
 
@@ -201,14 +211,16 @@ def load_run(directory: PathLike) -> Run:
     """A stored run: of this package, or of `lilytank run`. InputError if its files were changed."""
     path = Path(directory)
     found = _core.load_run(str(path))
-    scenario = Scenario._of(found["scenario"], [str(path / "resolved.toml")])
+    scenario = Scenario._of([str(path / "resolved.toml")], [], found["scenario"])
     run = Run(scenario, path)
     run.trajectory = Trajectory(found["trajectory"])
     run.time = float(run.trajectory.time[-1])
     if (path / "summary.json").exists():
         summary = json.loads((path / "summary.json").read_text(encoding="utf-8"))
         run.already_complete, run.time = True, summary["time_s"]
-        run.diverged, run.divergence = summary["status"] == "diverged", summary.get("divergence", "")
+        run.diverged, run.divergence = summary["status"] == "diverged", summary.get(
+            "divergence", ""
+        )
         run.fingerprint, run.illegal = summary["fingerprint"], summary["illegal"]
         run.copies, run.possible = summary["copies"], summary["possible_copies"]
         run.completion_times = summary["completion_times_s"]

@@ -4,11 +4,23 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from . import _core
 from ._values import PathLike, assignments
+
+
+def split(sources: Iterable[PathLike | Mapping[str, Any]]) -> tuple[list[str], list[str]]:
+    """Files, and dicts of overrides as --set takes them."""
+    files: list[str] = []
+    sets: list[str] = []
+    for source in sources:
+        if isinstance(source, Mapping):
+            sets += assignments(source)
+        else:
+            files.append(os.fspath(source))
+    return files, sets
 
 
 class Entry(NamedTuple):
@@ -33,36 +45,37 @@ class Entry(NamedTuple):
 class Scenario(Mapping[str, Any]):
     """A tank with modules and balls, ready to run.
 
-    `sources` are files and dicts of overrides. Later files override earlier ones, and dicts override all files, as
-    --set does: {"tank": {"radius": "30 cm"}, "module.count": 20}. A value is a number in SI units or text with a
-    unit. `seed` overrides run.seed. As a mapping, a scenario holds each value by its path: scenario["tank.radius"].
+    `sources` are files and dicts of overrides. Later files override earlier ones, and dicts
+    override all files, as --set does: {"tank": {"radius": "30 cm"}, "module.count": 20}. A value is
+    a number in SI units or text with a unit. `seed` overrides run.seed. As a mapping, a scenario
+    holds each value by its path: scenario["tank.radius"].
     """
 
     def __init__(self, *sources: PathLike | Mapping[str, Any], seed: int | None = None) -> None:
-        self.files = [os.fspath(s) for s in sources if not isinstance(s, Mapping)]
+        files, sets = split(sources)
+        self._take(files, sets + ([] if seed is None else [f"run.seed={int(seed)}"]))
+
+    def _take(self, files: list[str], sets: list[str], core: Any = None) -> None:
+        self.files = files
         """Files, later ones over earlier ones."""
-        self.sets = [one for s in sources if isinstance(s, Mapping) for one in assignments(s)]
+        self.sets = sets
         """The overrides as --set takes them."""
-        if seed is not None:
-            self.sets.append(f"run.seed={int(seed)}")
-        self._core = _core.Scenario(self.files, self.sets)
+        self._core = core or _core.Scenario(files, sets)
         self._entries: dict[str, Entry] | None = None
 
     @classmethod
-    def _of(cls, core: Any, files: list[str]) -> "Scenario":
+    def _of(cls, files: list[str], sets: list[str], core: Any = None) -> "Scenario":
         scenario = cls.__new__(cls)
-        scenario.files, scenario.sets = files, []
-        scenario._core, scenario._entries = core, None
+        scenario._take(files, sets, core)
         return scenario
 
-    def replace(self, *sources: PathLike | Mapping[str, Any], seed: int | None = None) -> "Scenario":
+    def replace(
+        self, *sources: PathLike | Mapping[str, Any], seed: int | None = None
+    ) -> "Scenario":
         """The same scenario with further files and overrides. They override this scenario's."""
-        scenario = Scenario.__new__(Scenario)
-        scenario.files = self.files + [os.fspath(s) for s in sources if not isinstance(s, Mapping)]
-        more = [one for s in sources if isinstance(s, Mapping) for one in assignments(s)]
-        scenario.sets = self.sets + more + ([] if seed is None else [f"run.seed={int(seed)}"])
-        scenario._core, scenario._entries = _core.Scenario(scenario.files, scenario.sets), None
-        return scenario
+        files, sets = split(sources)
+        seeds = [] if seed is None else [f"run.seed={int(seed)}"]
+        return Scenario._of(self.files + files, self.sets + sets + seeds)
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -81,7 +94,8 @@ class Scenario(Mapping[str, Any]):
         return len(self.entries)
 
     def __repr__(self) -> str:
-        return f"<Scenario {self.title!r}: {self.modules} modules, {self.balls} balls, {self.duration:g} s, seed {self.seed}>"
+        bodies = f"{self.modules} modules, {self.balls} balls"
+        return f"<Scenario {self.title!r}: {bodies}, {self.duration:g} s, seed {self.seed}>"
 
     @property
     def title(self) -> str:

@@ -22,14 +22,16 @@ def needed(module: str) -> ModuleType:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f"this conversion needs {module}: install python3-{module} or 'pip install {module}'") from error
+        raise ImportError(
+            f"this conversion needs {module}: install python3-{module} or 'pip install {module}'"
+        ) from error
 
 
 class Table(Mapping[str, np.ndarray]):
     """Columns of equal length by name.
 
-    Numbers are arrays, in a run's events and metrics without a copy. Words are stored as codes; `table[name]`
-    makes an array of str of them.
+    Numbers are arrays, in a run's events and metrics without a copy. Words are stored as codes;
+    `table[name]` makes an array of str of them.
     """
 
     def __init__(self, columns: Mapping[str, Any], index: str | None = None) -> None:
@@ -65,7 +67,9 @@ class Table(Mapping[str, np.ndarray]):
         pandas = needed("pandas")
         frame = pandas.DataFrame(
             {
-                name: pandas.Categorical.from_codes(*column) if isinstance(column, tuple) else column
+                name: pandas.Categorical.from_codes(*column)
+                if isinstance(column, tuple)
+                else column
                 for name, column in self._columns.items()
             },
             copy=False,
@@ -83,13 +87,20 @@ class Table(Mapping[str, np.ndarray]):
 
 
 def read_table(file: PathLike) -> Table:
-    """Reads a CSV file of results. A column of numbers is float64, NaN where a cell is empty; others are text."""
+    """Reads a CSV file of results. A column of numbers is float64, NaN where a cell is empty;
+    others are text.
+    """
     with open(file, newline="", encoding="utf-8") as text:
         rows = [row for row in csv.reader(text) if row and not row[0].startswith("#")]
     if not rows:
         return Table({})
     head, rows = rows[0], rows[1:]
-    return Table({name: _column([row[i] if i < len(row) else "" for row in rows]) for i, name in enumerate(head)})
+    return Table(
+        {
+            name: _column([row[i] if i < len(row) else "" for row in rows])
+            for i, name in enumerate(head)
+        }
+    )
 
 
 def _column(cells: list[str]) -> Any:

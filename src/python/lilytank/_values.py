@@ -13,7 +13,8 @@ from typing import Any, Union
 import numpy as np
 
 PathLike = Union[str, "os.PathLike[str]"]
-#: False: silent; True: a line on stderr; a function: called as progress(done, note), done in 0 .. 1.
+#: False: silent. True: a line on stderr. A function is called as progress(done, note); done is
+#: the fraction that is done.
 Progress = Union[bool, Callable[[float, str], None]]
 
 
@@ -63,4 +64,9 @@ def reporter(progress: Progress) -> Callable[[float, str], None] | None:
 
 
 def _print_progress(done: float, note: str) -> None:
-    print(f"\r{100 * done:5.1f} %  {note:60.60}", end="\n" if done >= 1 else "", file=sys.stderr, flush=True)
+    print(
+        f"\r{100 * done:5.1f} %  {note:60.60}",
+        end="\n" if done >= 1 else "",
+        file=sys.stderr,
+        flush=True,
+    )

@@ -45,7 +45,11 @@ class Result:
     @property
     def files(self) -> list[str]:
         """Names of the files in the directory."""
-        return sorted(p.name for p in self.directory.iterdir() if p.is_file()) if self.directory else []
+        return (
+            sorted(p.name for p in self.directory.iterdir() if p.is_file())
+            if self.directory
+            else []
+        )
 
     def table(self, name: str) -> Table:
         """A table of the directory, by its file's name without ".csv"."""
@@ -56,10 +60,14 @@ class Result:
         return json.loads(self.path(name + ".json").read_text(encoding="utf-8"))
 
     def path(self, name: str) -> Path:
-        """A file of the directory, as "calibrated.toml". FileNotFoundError names those that there are."""
+        """A file of the directory, as "calibrated.toml". FileNotFoundError names those that there
+        are.
+        """
         path = Path() if self.directory is None else self.directory / name
         if not path.is_file():
-            raise FileNotFoundError(f"there is no {name!r}; there are: {', '.join(self.files) or 'no files'}")
+            raise FileNotFoundError(
+                f"there is no {name!r}; there are: {', '.join(self.files) or 'no files'}"
+            )
         return path
 
     def __str__(self) -> str:
@@ -85,14 +93,13 @@ def _words(options: Mapping[str, Any]) -> list[str]:
     return words
 
 
-def verb(
-    name: str, /, *sources: Source, progress: Progress = False, **options: Any
-) -> Result:
+def verb(name: str, /, *sources: Source, progress: Progress = False, **options: Any) -> Result:
     """Does what `lilytank NAME SOURCES... --OPTION VALUE...` does.
 
-    Keywords are the verb's options with "_" for "-": hold_out=1, msd_only=True, name=["a", "b"]. A trailing "_" is
-    left out, as in from_=10. A dict becomes assignments: set={"run.dt": "5 ms"}. Warnings that the program
-    prints are Python's. Ctrl-C stops the job, and the same call with the same `out` resumes it. One verb runs at a time.
+    Keywords are the verb's options with "_" for "-": hold_out=1, msd_only=True, name=["a", "b"]. A
+    trailing "_" is left out, as in from_=10. A dict becomes assignments: set={"run.dt": "5 ms"}.
+    Warnings that the program prints are Python's. Ctrl-C stops the job, and the same call with the
+    same `out` resumes it. One verb runs at a time.
     """
     directory = options.get("out")
     files = [os.fspath(s.directory) if isinstance(s, Run) else os.fspath(s) for s in sources]
@@ -121,27 +128,30 @@ def _job(name: str, sources: tuple[Source, ...], out: PathLike | None, /, **opti
 def study(file: PathLike, *, out: PathLike | None = None, **options: Any) -> Result:
     """Runs a study: all settings, replicates, statistics. `table("table")` has one row a run.
 
-    Options are those of `lilytank study` (docs/study.md): set={...}, threads=2, shard="1/4". progress as in `run`.
+    Options are those of `lilytank study` (docs/study.md): set={...}, threads=2, shard="1/4".
+    progress as in `run`.
     """
     return _job("study", (file,), out, **options)
 
 
 def optimize(file: PathLike, *, out: PathLike | None = None, **options: Any) -> Result:
-    """Searches probabilities, pump power or rulesets for what builds a target best (docs/optimization.md)."""
+    """Searches probabilities, pump power or rulesets for what builds a target best
+    (docs/optimization.md).
+    """
     return _job("optimize", (file,), out, **options)
 
 
 def flow(*sources: Source, out: PathLike | None = None, **options: Any) -> Result:
     """Estimates the water's velocity from tracks of balls (docs/flow.md).
 
-    `table("cells_smooth")` holds the grid with its errors, and `path("flow_smooth.csv")` is the grid that a scenario
-    reads as flow.file.
+    `table("cells_smooth")` holds the grid with its errors, and `path("flow_smooth.csv")` is the
+    grid that a scenario reads as flow.file.
     """
     return _job("flow", sources, out, **options)
 
 
 def analyze(*sources: Source, out: PathLike | None = None, **options: Any) -> Result:
-    """Displacements, velocities, maps and contacts of runs, experiments and recordings (docs/analysis.md).
+    """Displacements, velocities, maps and contacts (docs/analysis.md).
 
     `table("msd_all")` and others hold the curves with their bands.
     """
@@ -149,15 +159,16 @@ def analyze(*sources: Source, out: PathLike | None = None, **options: Any) -> Re
 
 
 def calibrate(*sources: Source, out: PathLike | None = None, **options: Any) -> Result:
-    """Estimates model parameters from an experiment's recordings, with intervals (docs/calibration.md).
+    """Estimates model parameters with intervals from recordings (docs/calibration.md).
 
-    `table("intervals")` holds them, and `path("calibrated.toml")` overrides a scenario's values with the estimates.
+    `table("intervals")` holds them, and `path("calibrated.toml")` overrides a scenario's values
+    with the estimates.
     """
     return _job("calibrate", sources, out, **options)
 
 
 def diagnose(*sources: Source, out: PathLike | None = None, **options: Any) -> Result:
-    """Identifies physical effects that the model omits, from an experiment's recordings (docs/diagnosis.md).
+    """Identifies physical effects that the model omits, from recordings (docs/diagnosis.md).
 
     `json("diagnosis")` holds the findings, and `path("missing.toml")` adds them to a scenario.
     """
@@ -165,7 +176,9 @@ def diagnose(*sources: Source, out: PathLike | None = None, **options: Any) -> R
 
 
 def check(ruleset: PathLike, **options: Any) -> Result:
-    """Proves what a ruleset can build, and where it deadlocks (docs/synthesis.md). `ok` is False for a fault."""
+    """Proves what a ruleset can build, and where it deadlocks (docs/synthesis.md). `ok` is False
+    for a fault.
+    """
     return verb("check", ruleset, **options)
 
 
@@ -176,5 +189,6 @@ def synthesize(target: PathLike, *, out: PathLike | None = None, **options: Any)
 
 
 def render(run: Source, **options: Any) -> None:
-    """Draws a run (docs/rendering.md): at=300, png="frame.png", or from_=0, to=60, mp4="film.mp4"."""
+    """Draws a run (docs/rendering.md): at=300, png="frame.png", or from_=0, to=60, mp4="film.mp4".
+    """
     verb("render", run, **options)

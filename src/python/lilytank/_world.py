@@ -30,8 +30,8 @@ class Event(NamedTuple):
 class World:
     """One simulation, step by step: the same bits as `run`.
 
-    Arrays over bodies (modules first) follow the simulation without a copy. `seed` replaces the scenario's.
-    `forces` are as in `run`. With `applies`, the array `applied` acts on the bodies.
+    Arrays over bodies (modules first) follow the simulation without a copy. `seed` replaces the
+    scenario's. `forces` are as in `run`. With `applies`, the array `applied` acts on the bodies.
     """
 
     def __init__(
@@ -46,12 +46,18 @@ class World:
         key = scenario.seed if seed is None else seed
         self._core = _core.World(scenario._core, scenario.files, key, list(forces), applies)
         views = ("x", "y", "vx", "vy", "omega", "latched")
-        self.x, self.y, self.vx, self.vy, self.omega, self.latched = (getattr(self._core, v) for v in views)
+        self.x, self.y, self.vx, self.vy, self.omega, self.latched = (
+            getattr(self._core, v) for v in views
+        )
         self.applied: np.ndarray = self._core.applied
-        """[bodies, 3] Force (N) and torque (N m) on each body in the next steps; writable. Empty without `applies`."""
+        """[bodies, 3] Force (N) and torque (N m) on each body in the next steps; writable. Empty
+        without `applies`.
+        """
 
     def step(self, steps: int = 1) -> bool:
-        """Advances by `steps` time steps; False once the simulation has diverged. Ctrl-C interrupts it."""
+        """Advances by `steps` time steps; False once the simulation has diverged. Ctrl-C interrupts
+        it.
+        """
         return self._core.step(steps)
 
     def advance(
@@ -165,4 +171,5 @@ class World:
         return self._core.fingerprint
 
     def __repr__(self) -> str:
-        return f"<World: {self.bodies} bodies at {self.time:g} s, {self.copies} of {self.possible} copies>"
+        copies = f"{self.copies} of {self.possible} copies"
+        return f"<World: {self.bodies} bodies at {self.time:g} s, {copies}>"
