@@ -1,5 +1,6 @@
 """lilytank.World: stepping, callbacks, snapshots, forces in Python."""
 
+import signal
 import unittest
 
 import numpy as np
@@ -67,6 +68,19 @@ class World(TestCase):
         self.assertEqual(other.fingerprint, world.fingerprint)
         with self.assertRaises(lilytank.InputError):
             lilytank.World(lilytank.Scenario(CHAIN)).restore(snapshot)
+
+    def test_signals_interrupt_steps(self):
+        def interrupt(number, frame):
+            raise TimeoutError
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, interrupt))
+        world = lilytank.World(lilytank.Scenario(CHAIN))
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with self.assertRaises(TimeoutError):
+            world.step(10**9)
+        other = lilytank.World(world.scenario)
+        other.step(world.steps)
+        self.assertEqual(other.fingerprint, world.fingerprint)
 
     def test_divergence_is_a_result(self):
         world = lilytank.World(lilytank.Scenario(LILIES), forces=[lambda t, b: (1e9, 0)])

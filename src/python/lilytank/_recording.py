@@ -124,8 +124,9 @@ class Experiment:
 
 
 def _recording(parts: dict[str, Any]) -> Recording:
-    found = [Finding(**one) for one in parts.pop("findings", [])]
-    return Recording(**{**parts, "tracks": [Track(*t) for t in parts["tracks"]], "findings": found})
+    parts["tracks"] = [Track(*one) for one in parts["tracks"]]
+    parts["findings"] = [Finding(**one) for one in parts.get("findings", [])]
+    return Recording(**parts)
 
 
 def read_recording(

@@ -189,6 +189,5 @@ def synthesize(target: PathLike, *, out: PathLike | None = None, **options: Any)
 
 
 def render(run: Source, **options: Any) -> None:
-    """Draws a run (docs/rendering.md): at=300, png="frame.png", or from_=0, to=60, mp4="film.mp4".
-    """
+    """Draws a run (docs/rendering.md): at=300, png="frame.png", or from_=0, to=60, mp4="film.mp4"."""
     verb("render", run, **options)
