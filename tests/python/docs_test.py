@@ -1,6 +1,8 @@
 """The Python examples of docs/python.md, in their order, and the stubs of the module."""
 
 import ast
+import contextlib
+import io
 import os
 import re
 import unittest
@@ -21,8 +23,9 @@ class Docs(TestCase):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(self.here)
         names = {}
-        for block in blocks:
-            exec(compile(block, "docs/python.md", "exec"), names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            for block in blocks:
+                exec(compile(block, "docs/python.md", "exec"), names)
         self.assertEqual(set(names["msd"]["source"]), {"simulated", "recorded", "difference"})
         self.assertEqual(names["scenario"]["tank.radius"], 0.32)
 
