@@ -39,9 +39,6 @@ void bind_scenario(py::module_& m) {
       .def_property_readonly("dt", [](const Scenario& s) { return s.model.dt; })
       .def_property_readonly("modules", [](const Scenario& s) { return s.model.module.count; })
       .def_property_readonly("balls", [](const Scenario& s) { return s.model.ball.count; })
-      .def_property_readonly(
-          "stores_poses",
-          [](const Scenario& s) { return s.output.trajectory != TrajectoryFormat::none; })
       .def_property_readonly("rules",
                              [](const Scenario& s) {
                                std::vector<std::string> texts;

@@ -1,5 +1,6 @@
 """lilytank.run: the bits of the command-line program, and arrays without a copy."""
 
+import gc
 import os
 import signal
 import threading
@@ -76,6 +77,15 @@ class Run(TestCase):
             run.report["Rules"].table["times applied"].sum(),
             np.isin(run.events["kind"], ["link", "unlink", "update"]).sum(),
         )
+
+    def test_temporary_files_go_with_the_run(self):
+        run = lilytank.run(lilytank.Scenario(CHAIN, {"run.duration": "1 s"}))
+        directory, x = run.directory, run.trajectory.x
+        self.assertTrue((directory / "trajectory.bin").exists())
+        del run
+        gc.collect()
+        self.assertFalse(directory.exists())
+        self.assertTrue(np.isfinite(x).all())
 
     def test_interrupted_run_resumes_to_the_same_bytes(self):
         scenario = lilytank.Scenario(CHAIN, {"run.duration": "2 h", "output.rate": 0.5})

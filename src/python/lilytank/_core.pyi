@@ -20,7 +20,6 @@ class Scenario:
     dt: float
     modules: int
     balls: int
-    stores_poses: bool
     rules: list[str]
     def entries(self) -> list[tuple[str, str, str, str, str, bool, str]]: ...
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,7 +16,7 @@ from . import _core
 from ._report import Report, report_of
 from ._scenario import Scenario
 from ._tables import Table, needed, read_table
-from ._values import PathLike, Progress, reporter
+from ._values import PathLike, Progress, TemporaryDirectory, reporter
 
 if TYPE_CHECKING:
     import pandas
@@ -199,7 +198,7 @@ def run(
         )
     kept = None
     if out is None:
-        kept = tempfile.TemporaryDirectory(prefix="lilytank-")
+        kept = TemporaryDirectory()
         out = kept.name
     found = _core.run(
         scenario._core, scenario.files, os.fspath(out), force, list(forces), reporter(progress)

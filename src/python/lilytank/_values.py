@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import sys
+import tempfile
 import tomllib
+import weakref
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Union
 
@@ -16,6 +19,14 @@ PathLike = Union[str, "os.PathLike[str]"]
 #: False: silent. True: a line on stderr. A function is called as progress(done, note); done is
 #: the fraction that is done.
 Progress = Union[bool, Callable[[float, str], None]]
+
+
+class TemporaryDirectory:
+    """A directory that is removed, with its files, when this object or the process ends."""
+
+    def __init__(self) -> None:
+        self.name = tempfile.mkdtemp(prefix="lilytank-")
+        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
 
 
 def toml(value: Any) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,7 +14,7 @@ from . import _core
 from ._report import Report, report_of
 from ._run import Run
 from ._tables import Table, read_table
-from ._values import PathLike, Progress, assignments, reporter
+from ._values import PathLike, Progress, TemporaryDirectory, assignments, reporter
 
 #: A file, or a run.
 Source = Union[PathLike, Run]
@@ -119,7 +118,7 @@ def _job(name: str, sources: tuple[Source, ...], out: PathLike | None, /, **opti
     """A verb with a directory of results, a temporary one without `out`."""
     kept = None
     if out is None:
-        kept = tempfile.TemporaryDirectory(prefix="lilytank-")
+        kept = TemporaryDirectory()
         out = kept.name
     found = verb(name, *sources, out=out, **options)
     return Result(found.reports, found.text, found.notes, found.ok, Path(out), kept)
