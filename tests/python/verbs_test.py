@@ -111,6 +111,7 @@ class Verbs(TestCase):
         result = lilytank.calibrate(TANK, out=self.here / "c", **QUICK)
         intervals = result.table("intervals")
         self.assertIn("flow.K_v", list(intervals["parameter"]))
+        self.assertEqual(result.table("numbers")["observed"].dtype, np.float64)
         self.assertIn("flow.K_v", result.path("calibrated.toml").read_text())
         run = lilytank.run(
             lilytank.Scenario(
