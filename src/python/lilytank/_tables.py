@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import importlib
+import importlib.util
 from collections.abc import Iterator, Mapping
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -82,8 +83,8 @@ class Table(Mapping[str, np.ndarray]):
         along = self._index or "row"
         return xarray.Dataset({name: (along, self[name]) for name in self._columns})
 
-    def _repr_html_(self) -> str:
-        return self.to_pandas()._repr_html_()
+    def _repr_html_(self) -> str | None:
+        return self.to_pandas()._repr_html_() if importlib.util.find_spec("pandas") else None
 
 
 def read_table(file: PathLike) -> Table:
