@@ -31,7 +31,7 @@ std::vector<std::string> essential(const Arguments& arguments) {
     const std::string& word = arguments[i];
     const std::string name = word.substr(0, word.find('='));
     if (name == "--force" || name == "--quiet") continue;
-    if (name == "--out" || name == "--threads") {
+    if (name == "--out" || name == "--tank-results" || name == "--threads") {
       i += word == name ? 1 : 0;
       continue;
     }

@@ -77,10 +77,8 @@ std::string diagnosis_json(const Diagnosis& d) {
                                  {"high", p.high},
                                  {"unit", p.unit}});
   }
-  if (!d.shortfalls.empty()) {
-    for (const Shortfall& s : d.shortfalls) {
-      out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
-    }
+  for (const Shortfall& s : d.shortfalls) {
+    out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
   }
   out["detectable"] = Json::array();
   for (const Detectable& one : d.detectable) {
