@@ -39,6 +39,8 @@ const std::vector<Verb>& verbs() {
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},
+      {"schema", "JSON Schemas of scenario, experiment, study and optimize files, for editors",
+       schema_verb},
   };
   return all;
 }

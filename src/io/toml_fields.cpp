@@ -1,16 +1,64 @@
 #include "io/toml_fields.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "io/scenario_values.hpp"
+#include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
+namespace {
+
+std::vector<std::string> names_of(const TomlKeys& keys) {
+  std::vector<std::string> out;
+  for (const TomlKey& key : keys) out.push_back(key.name);
+  return out;
+}
+
+}  // namespace
+
+const TomlKey* find_key(const TomlKeys& keys, const std::string& name) {
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const TomlKey& key) { return key.name == name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+TomlKeys nested(const TomlKeys& paths) {
+  TomlKeys out;
+  for (TomlKey key : paths) {
+    TomlKeys* level = &out;
+    for (auto dot = key.name.find('.'); dot != std::string::npos; dot = key.name.find('.')) {
+      const std::string table = key.name.substr(0, dot);
+      key.name.erase(0, dot + 1);
+      if (find_key(*level, table) == nullptr) level->push_back(toml_key::table(table, {}, ""));
+      const auto at = std::find_if(level->begin(), level->end(),
+                                   [&](const TomlKey& one) { return one.name == table; });
+      level = &at->keys;
+    }
+    level->push_back(std::move(key));
+  }
+  return out;
+}
 
 TomlFields::TomlFields(const toml::table& table, std::string path, std::string file,
                        const std::vector<std::string>& names)
     : table_(&table), path_(std::move(path)), file_(std::move(file)) {
   check_names(names);
+}
+
+TomlFields::TomlFields(const toml::table& table, std::string path, std::string file, TomlKeys keys)
+    : TomlFields(table, std::move(path), std::move(file), names_of(keys)) {
+  keys_ = std::move(keys);
+  for (const TomlKey& one : keys_) {
+    if (one.needed) need(one.name, one.meaning);
+  }
+}
+
+const TomlKey& TomlFields::key(const std::string& name) const {
+  const TomlKey* found = find_key(keys_, name);
+  assert(found != nullptr);
+  return *found;
 }
 
 // toml++ keeps keys sorted by name; the message should be about the first in the file.
@@ -70,6 +118,24 @@ double TomlFields::number(const std::string& name, const std::string& unit) cons
   return number_of(assignment(name), path(name), unit);
 }
 
+std::int64_t TomlFields::whole(const std::string& name) const {
+  const TomlKey& one = key(name);
+  return whole(name, static_cast<std::int64_t>(one.low), static_cast<std::int64_t>(one.high));
+}
+
+double TomlFields::number(const std::string& name) const {
+  const TomlKey& one = key(name);
+  const double value = number(name, one.unit);
+  if (value >= one.low && value <= one.high) return value;
+  const std::string unit = one.unit == "1" ? "" : " " + one.unit;
+  refuse(name, path(name) + " = " + shortest(value) + unit + " is outside " + shortest(one.low) +
+                   " .. " + shortest(one.high) + unit);
+}
+
+std::size_t TomlFields::word(const std::string& name) const {
+  return index_of_word(assignment(name), path(name), key(name).words);
+}
+
 const toml::table& TomlFields::table(const std::string& name) const {
   const toml::table* found = node(name)->as_table();
   if (found == nullptr) refuse(name, name + " is a table, under the line [" + name + "]");
@@ -104,6 +170,18 @@ std::vector<const toml::table*> TomlFields::tables(const std::string& name) cons
     refuse(name, path(name) + " is a list of tables, each under its own line [[" + name + "]]");
   }
   for (const toml::node& item : *list) out.push_back(item.as_table());
+  return out;
+}
+
+TomlFields TomlFields::fields(const std::string& name) const {
+  return {table(name), path(name), file_, key(name).keys};
+}
+
+std::vector<TomlFields> TomlFields::list_of_fields(const std::string& name) const {
+  std::vector<TomlFields> out;
+  for (const toml::table* one : tables(name)) {
+    out.emplace_back(*one, path(name), file_, key(name).keys);
+  }
   return out;
 }
 
