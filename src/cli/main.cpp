@@ -16,7 +16,6 @@
 #include "text/words.hpp"
 
 namespace lilytank::cli {
-namespace {
 
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> all{
@@ -41,9 +40,14 @@ const std::vector<Verb>& verbs() {
       {"render", "draw a run: film, stills or one frame", render_verb},
       {"schema", "JSON Schemas of scenario, experiment, study and optimize files, for editors",
        schema_verb},
+      {"completion", "completion of verbs, options and scenario keys for bash, zsh and fish",
+       completion_verb},
+      {"man", "manual pages", man_verb},
   };
   return all;
 }
+
+namespace {
 
 void print_help() {
   std::cout << "lilytank " LILYTANK_VERSION

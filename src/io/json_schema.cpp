@@ -21,14 +21,20 @@ Json quantity_text(const std::string& unit) {
 }
 
 Json bounded(Json schema, const TomlKey& key) {
-  if (std::isfinite(key.low)) schema["minimum"] = key.low;
-  if (std::isfinite(key.high)) schema["maximum"] = key.high;
+  const auto number = [&](double bound) {
+    return key.kind == TomlKey::Kind::whole ? Json(static_cast<std::int64_t>(bound)) : Json(bound);
+  };
+  if (std::isfinite(key.low)) schema["minimum"] = number(key.low);
+  if (std::isfinite(key.high)) schema["maximum"] = number(key.high);
   return schema;
 }
 
-std::string meaning_of(const TomlKey& key) {
-  const bool in_unit = !key.unit.empty() && key.unit != "1";
-  return in_unit ? key.meaning + ", in " + key.unit : key.meaning;
+// "simulated time; in s; default 600"
+std::string description_of(const TomlKey& key) {
+  std::string out = key.meaning;
+  if (!key.unit.empty() && key.unit != "1") out += "; in " + key.unit;
+  if (!key.standard.empty() && key.standard != "\"\"") out += "; default " + key.standard;
+  return out;
 }
 
 Json object_of(const TomlKeys& keys);
@@ -76,7 +82,7 @@ Json object_of(const TomlKeys& keys) {
   out["properties"] = Json::object();
   for (const TomlKey& key : keys) {
     Json value = schema_of(key);
-    if (!key.meaning.empty()) value["description"] = meaning_of(key);
+    if (!key.meaning.empty()) value["description"] = description_of(key);
     out["properties"][key.name] = std::move(value);
     if (key.needed) needed.push_back(key.name);
   }

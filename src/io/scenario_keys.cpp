@@ -165,8 +165,7 @@ TomlKey described(const ScenarioKey& key) {
              !std::holds_alternative<FileName>(key.target)) {
     out.kind = Kind::whole;
   }
-  const std::string value = value_text(key);
-  if (value != "\"\"") out.meaning += " (" + value + ")";
+  out.standard = value_text(key);
   return out;
 }
 

@@ -32,6 +32,7 @@ struct TomlKey {
   std::vector<std::string> words = {};
   std::vector<TomlKey> keys = {};
   bool needed = false;
+  std::string standard = "";  ///< the default as TOML; empty: none, or as `meaning` says
 };
 
 using TomlKeys = std::vector<TomlKey>;
