@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 
 #include "cli/printable_stream.hpp"
@@ -68,6 +69,28 @@ const Verb& find_verb(const std::string& name) {
   const auto found = std::find_if(verbs().begin(), verbs().end(),
                                   [&](const Verb& verb) { return verb.name == name; });
   if (found != verbs().end()) return *found;
+  // What other programs call it.
+  static const std::map<std::string, std::string> synonyms{{"simulate", "run"},
+                                                           {"sweep", "study"},
+                                                           {"batch", "study"},
+                                                           {"optimise", "optimize"},
+                                                           {"fit", "calibrate"},
+                                                           {"tune", "optimize"},
+                                                           {"plot", "render"},
+                                                           {"video", "render"},
+                                                           {"movie", "render"},
+                                                           {"analyse", "analyze"},
+                                                           {"convert", "recording convert"},
+                                                           {"benchmark", "prove"},
+                                                           {"validate", "check"},
+                                                           {"explain", "info"},
+                                                           {"show", "info"},
+                                                           {"stats", "analyze"},
+                                                           {"compile", "synthesize"},
+                                                           {"synthesise", "synthesize"}};
+  if (const auto synonym = synonyms.find(name); synonym != synonyms.end()) {
+    throw InputError("unknown verb '" + name + "' - did you mean '" + synonym->second + "'?");
+  }
   std::vector<std::string> names{"help", "--help", "--version"};
   for (const Verb& verb : verbs()) names.push_back(verb.name);
   std::string help = did_you_mean(name, names);
@@ -82,7 +105,7 @@ bool asks_for_help(const std::string& word) {
 int act(const Arguments& words) {
   if (words.empty()) throw InputError("which verb? 'lilytank help' lists what there is");
   const Arguments rest(words.begin() + 1, words.end());
-  if (words[0] == "--version" || words[0] == "version") {
+  if (words[0] == "--version" || words[0] == "-V" || words[0] == "version") {
     std::cout << "lilytank " LILYTANK_VERSION "\n";
     return Exit::done;
   }

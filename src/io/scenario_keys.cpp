@@ -194,7 +194,7 @@ std::vector<ScenarioKey> scenario_keys(ScenarioDraft& draft) {
 TomlKeys scenario_file_keys() {
   using namespace toml_key;
   ScenarioDraft draft;
-  TomlKeys paths{texts("base", "scenario files that this one is laid over")};
+  TomlKeys paths{texts("base", "scenario files that this one overrides")};
   for (const ScenarioKey& key : scenario_keys(draft)) paths.push_back(described(key));
   paths.push_back(
       by_name("rules", {number("p", "1", 0, 1, kRuleP)}, "rules of the ruleset's file"));

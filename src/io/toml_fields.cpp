@@ -50,9 +50,11 @@ TomlFields::TomlFields(const toml::table& table, std::string path, std::string f
 TomlFields::TomlFields(const toml::table& table, std::string path, std::string file, TomlKeys keys)
     : TomlFields(table, std::move(path), std::move(file), names_of(keys)) {
   keys_ = std::move(keys);
-  for (const TomlKey& one : keys_) {
-    if (one.needed) need(one.name, one.meaning);
-  }
+}
+
+const toml::node& TomlFields::value(const std::string& name) const {
+  if (!has(name)) need(name, key(name).meaning);
+  return *node(name);
 }
 
 const TomlKey& TomlFields::key(const std::string& name) const {
@@ -86,7 +88,7 @@ std::string TomlFields::path(const std::string& name) const {
 }
 
 Assignment TomlFields::assignment(const std::string& name) const {
-  return {{name}, {place(name)}, value_of(*node(name)), place(name), "", ""};
+  return {{name}, {place(name)}, value_of(value(name)), place(name), "", ""};
 }
 
 std::string TomlFields::text(const std::string& name) const {
@@ -96,7 +98,7 @@ std::string TomlFields::text(const std::string& name) const {
 }
 
 std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::int64_t high) const {
-  const toml::node& value = *node(name);
+  const toml::node& value = this->value(name);
   if (!value.is_integer()) {
     refuse(name, path(name) + " is a whole number, not " + kind_of(value_of(value)));
   }
@@ -107,7 +109,7 @@ std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::i
 }
 
 bool TomlFields::flag(const std::string& name) const {
-  const toml::node& value = *node(name);
+  const toml::node& value = this->value(name);
   if (!value.is_boolean()) {
     refuse(name, path(name) + " is true or false, not " + kind_of(value_of(value)));
   }
@@ -152,11 +154,11 @@ std::vector<std::pair<std::string, SourcePlace>> TomlFields::texts(const std::st
     }
     out.emplace_back(text->get(), where);
   };
-  if (const toml::array* list = node(name)->as_array()) {
-    for (const toml::node& value : *list) one(value);
+  if (const toml::array* list = value(name).as_array()) {
+    for (const toml::node& item : *list) one(item);
     if (out.empty()) refuse(name, path(name) + " is empty");
   } else {
-    one(*node(name));
+    one(value(name));
   }
   return out;
 }

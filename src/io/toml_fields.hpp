@@ -14,7 +14,7 @@ class TomlFields {
   /// have. Throws InputError on another key. The table must outlive this.
   TomlFields(const toml::table& table, std::string path, std::string file,
              const std::vector<std::string>& names);
-  /// The same for described keys; throws InputError where one is missing that is needed, too.
+  /// The same for described keys. To read one that is needed and missing throws InputError.
   TomlFields(const toml::table& table, std::string path, std::string file, TomlKeys keys);
 
   bool has(const std::string& name) const { return table_->contains(name); }
@@ -53,6 +53,7 @@ class TomlFields {
   void check_names(const std::vector<std::string>& names) const;
   Assignment assignment(const std::string& name) const;
   const TomlKey& key(const std::string& name) const;
+  const toml::node& value(const std::string& name) const;
   const toml::table* table_;
   std::string path_, file_;
   TomlKeys keys_;

@@ -74,7 +74,7 @@ TomlKeys axis_keys() {
       whole("count", 2, kMostValues, "how many values"),
       scale_key(),
       table("latin", {from, to, scale_key()}, "one random value in each of study.samples parts"),
-      texts("overlays", "files laid over the scenario"),
+      texts("overlays", "files that override the scenario"),
       texts("labels", "one for each value or overlay")};
 }
 

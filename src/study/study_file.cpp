@@ -134,7 +134,7 @@ TomlKeys study_file_keys() {
       whole("seed", 0, kLargestSeed, "where the seeds of the replicates come from (1)"),
       whole("samples", 1, kMostSamples, "points of the latin hypercube"),
       word("until", {"end", "settled"},
-           "simulate to run.duration, or until all possible copies stand"),
+           "simulate to run.duration, or until all possible copies are completed"),
   };
   const TomlKeys stop{
       needed(text("metric", "whose interval is to be narrow, as copies")),
