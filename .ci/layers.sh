@@ -145,8 +145,9 @@ layer finder effects filter calibrate study jobs forces "${base[@]}"
 layer proof finder effects filter calibrate study jobs forces "${base[@]}"
 layer bodies finder study jobs "${base[@]}"
 base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
-layer render "${base[@]}"
-layer cli render forces "${base[@]}"
+layer view "${base[@]}"
+layer render view "${base[@]}"
+layer cli render view forces "${base[@]}"
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../../render/layout.hpp"
-#include "../../render/pumps.hpp"
+#include "view/pumps.hpp"
 #include "render/picture.hpp"
 #include "render/sample_run.hpp"
 
