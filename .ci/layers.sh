@@ -88,7 +88,7 @@ home world start world
 home search search
 home statistics normality statistics
 home assemblies assembly_record
-home io file_digest model_parameter report scenario table_layout trajectory
+home io file_digest model_parameter report run_events scenario table_layout trajectory
 home jobs run
 home recording camera experiment recording recording_io
 home smoothing smoothing
