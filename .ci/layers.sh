@@ -102,6 +102,7 @@ home filter predictor
 home finder diagnosis diagnosis_subject
 home proof proof
 home bodies bodies
+home view view
 home render render
 
 places=$(mktemp)

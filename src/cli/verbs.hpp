@@ -38,5 +38,6 @@ int analyze_verb(const Arguments& arguments);
 int recording_verb(const Arguments& arguments);
 int synthesize_verb(const Arguments& arguments);
 int check_verb(const Arguments& arguments);
+int view_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -1,0 +1,10 @@
+# cmake -DFROM=<folder> -DTO=<file> -P embed_player.cmake: the player's page, style and script as a C++ source.
+set(source "#include \"view/page.hpp\"\n\nnamespace lilytank {\n")
+foreach(part "kPlayerPage html" "kPlayerStyle css" "kPlayerScript js")
+  separate_arguments(part)
+  list(GET part 0 name)
+  list(GET part 1 ending)
+  file(READ ${FROM}/player.${ending} text)
+  string(APPEND source "\nconst std::string_view ${name} = R\"player(${text})player\";\n")
+endforeach()
+file(WRITE ${TO} "${source}\n}  // namespace lilytank\n")

@@ -1,0 +1,114 @@
+// lilytank view: one HTML file that plays stored results.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/results.hpp"
+#include "io/atomic_file.hpp"
+#include "jobs/job_directory.hpp"
+#include "lilytank/view.hpp"
+
+namespace lilytank::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewJob {
+  ViewOptions page;
+  std::vector<std::string> runs;
+  std::string recording;
+  bool force = false, quiet = false;
+};
+
+bool has_file(const std::string& dir, const char* name) {
+  return exists((fs::path(dir) / name).string());
+}
+
+/// The file that goes with the results of a study or a diagnosis.
+const std::string& second(const VerbOptions& options, const std::string& what) {
+  if (options.positional().size() != 2) {
+    options.refuse("'" + options.positional()[0] + "' holds a " + what);
+  }
+  return options.positional()[1];
+}
+
+ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
+  const std::vector<std::string>& words = options.positional();
+  const std::string& dir = words.front();
+  const bool study = has_file(dir, "study.toml"), diagnosis = has_file(dir, "diagnosis.json");
+  if (!study) options.refuse_given({"run"}, "goes with a study");
+  if (!diagnosis) options.refuse_given({"recording"}, "goes with a diagnosis");
+  if (study) {
+    const std::string& file =
+        second(options, "study; write lilytank view STUDY STUDY.toml, with the file that was run");
+    return view_study(dir, Study(file, load_study(dir).plan.sets), job.runs, job.page);
+  }
+  if (diagnosis) {
+    const std::string& file =
+        second(options,
+               "diagnosis; write lilytank view DIAGNOSIS EXPERIMENT.toml, with the diagnosed file");
+    return view_diagnosis(dir, file, job.recording, job.page);
+  }
+  if (words.size() > kViewTanks) {
+    options.refuse("a page shows at most " + std::to_string(kViewTanks) + " runs");
+  }
+  if (!has_file(dir, "resolved.toml")) {
+    throw InputError("'" + dir + "' is not the directory of a run, study or diagnosis");
+  }
+  return view_runs(words);
+}
+
+/// Shows a file with the desktop's browser, which outlives this program.
+void open_page(const std::string& file) {
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  const bool failed = child < 0 || ::waitpid(child, &status, 0) != child || status != 0;
+  if (failed) std::cerr << "xdg-open could not open the page; open it in a browser\n";
+}
+
+}  // namespace
+
+int view_verb(const Arguments& arguments) {
+  VerbOptions options("view", "RUN... | STUDY STUDY.toml | DIAGNOSIS EXPERIMENT.toml",
+                      "Makes one HTML file that plays up to four runs side by side, runs of a "
+                      "study, or a diagnosed recording beside simulations.");
+  ViewJob job;
+  options.add({"out", "the page (default: view.html in the first directory)", "FILE"});
+  options.add(
+      {"rate", "frames kept per second of simulated time (default: all of 1.1 million poses)", "N"},
+      &job.page.rate, 1e-3, 1e4);
+  options.add({"run", "of a study: id of a run in table.csv; can be repeated", "ID"}, &job.runs);
+  options.add(
+      {"recording", "of a diagnosis: the recording (default: the first that is held out)", "FILE"},
+      &job.recording);
+  options.add({"open", "open the page with xdg-open"});
+  options.add({"force", "replace a file of other contents"}, &job.force);
+  options.add({"quiet", "no progress"}, &job.quiet);
+  if (!options.parse(arguments, "of what? write lilytank view RUN, as out/chain5-seed1")) {
+    return Exit::done;
+  }
+  const std::string& dir = options.positional().front();
+  const std::string file = options.out((fs::path(dir) / "view.html").string());
+  options.spare_inputs("out", file, options.positional());
+  Progress progress(job.quiet);
+  progress.watch(job.page);
+  ViewPage page = page_of(options, job);
+  const ReportProvenance origin = provenance("view", arguments, 0, {});
+  page.version = origin.version, page.command = origin.command;
+  const std::string html = view_html(page, job.page);
+  write_results({{file, html}}, job.force);
+  progress.clear();
+  std::cout << file << "\n" << std::flush;
+  if (options.has("open")) open_page(file);
+  return Exit::done;
+}
+
+}  // namespace lilytank::cli
