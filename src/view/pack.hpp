@@ -9,7 +9,7 @@
 
 namespace lilytank {
 
-/// Collects columns of whole numbers. src/view/player.js reads them.
+/// Collects columns of whole numbers. src/view/player_tank.js reads them.
 class ViewPack {
  public:
   /// Adds a column that consists of series of `length` numbers each, such as one body's positions.

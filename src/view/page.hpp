@@ -1,4 +1,4 @@
-// The player, whose text the build takes from player.html, player.css and player.js.
+// The player, which the build takes from player.html, player.css and player_*.js.
 #pragma once
 #include <string_view>
 

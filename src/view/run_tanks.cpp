@@ -133,7 +133,7 @@ ViewPage view_runs(const std::vector<std::string>& dirs) {
   for (const std::string& dir : dirs) {
     ViewTank& tank = page.tanks.emplace_back(tank_of_run(dir));
     tank.name = last_part(dir), tank.note = contents_of(tank.run);
-    page.title += (page.title.empty() ? "" : " and ") + tank.name;
+    page.title += (page.title.empty() ? "" : ", ") + tank.name;
   }
   if (dirs.size() > 1) return page;
   ViewTank& only = page.tanks.front();

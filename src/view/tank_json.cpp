@@ -26,19 +26,19 @@ std::vector<std::size_t> kept_frames(const Trajectory& t, double rate) {
   return out;
 }
 
-/// Times in a unit in which they fit 31 bits.
+/// Times as whole numbers of 31 bits.
 class TimeGrid {
  public:
   explicit TimeGrid(double longest) {
-    while (longest / unit_ > 2e9) unit_ *= 10;
+    while (longest * ticks_ > 2e9) ticks_ /= 10;
   }
-  double unit() const { return unit_; }
+  double ticks() const { return ticks_; }
   std::int32_t operator()(double time) const {
-    return static_cast<std::int32_t>(std::llround(time / unit_));
+    return static_cast<std::int32_t>(std::llround(time * ticks_));
   }
 
  private:
-  double unit_ = 1e-6;  // s
+  double ticks_ = 1e6;  // a second
 };
 
 /// Values of one body after the other, in the kept frames.
@@ -192,7 +192,7 @@ Json tank_json(const ViewTank& tank, double rate, ViewPack& pack) {
            {"stored", t.frames()},
            {"latches", model.control.latches},
            {"possible", t.markings.empty() ? 0 : most_copies(model)},
-           {"clock", grid.unit()}};
+           {"ticks", grid.ticks()}};
   out["ids"] = Json::array();
   for (const std::int64_t id : tank.ids) out["ids"].push_back(std::to_string(id));
   WholeNumbers times;
