@@ -9,7 +9,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
-#include "jobs/job_directory.hpp"
+#include "jobs/run_directory.hpp"
 #include "lilytank/view.hpp"
 
 namespace lilytank::cli {
@@ -56,7 +56,7 @@ ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
   if (words.size() > kViewTanks) {
     options.refuse("a page shows at most " + std::to_string(kViewTanks) + " runs");
   }
-  if (!has_file(dir, "resolved.toml")) {
+  if (!has_file(dir, run_file::resolved)) {
     throw InputError("'" + dir + "' is not the directory of a run, study or diagnosis");
   }
   return view_runs(words);
@@ -96,7 +96,7 @@ int view_verb(const Arguments& arguments) {
     return Exit::done;
   }
   const std::string& dir = options.positional().front();
-  const std::string file = options.out((fs::path(dir) / "view.html").string());
+  const std::string file = options.out((fs::path(dir) / run_file::view).string());
   options.spare_inputs("out", file, options.positional());
   Progress progress(job.quiet);
   progress.watch(job.page);
