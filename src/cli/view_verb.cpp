@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
@@ -62,6 +63,20 @@ ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
   return view_runs(words);
 }
 
+/// Says so where poses of a run were stored too seldom to be played: with 5 a second, the corners
+/// of paths hardly show.
+void warn_if_seldom(const ViewPage& page) {
+  for (const ViewTank& tank : page.tanks) {
+    if (!tank.seen.empty() || stored_rate(tank.run.trajectory) >= 5) continue;
+    const std::vector<double>& stored = tank.run.trajectory.time;
+    std::vector<double> between;
+    for (std::size_t f = 1; f < stored.size(); ++f) {
+      between.push_back((stored[f - 1] + stored[f]) / 2);
+    }
+    std::cerr << too_seldom_to_draw(tank.run, between);
+  }
+}
+
 /// Shows a file with the desktop's browser, which outlives this program.
 void open_page(const std::string& file) {
   const ::pid_t child = ::fork();
@@ -106,6 +121,7 @@ int view_verb(const Arguments& arguments) {
   const std::string html = view_html(page, job.page);
   write_results({{file, html}}, job.force);
   progress.clear();
+  warn_if_seldom(page);
   std::cout << file << "\n" << std::flush;
   if (options.has("open")) open_page(file);
   return Exit::done;

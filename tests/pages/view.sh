@@ -147,5 +147,14 @@ printf '[study]\nname = "chains"\nscenario = "%s"\nreplicates = 2\n[[axis]]\npat
 "$lilytank" view study study.toml --out "c$hostile.html" --quiet > /dev/null
 look study "c$hostile.html"
 
+mkdir diagnosis
+cat > diagnosis/diagnosis.json << 'JSON'
+{"name": "tank", "verdict": "missing", "findings": [{"effect": "<b>pair_repulsion"}],
+ "parameters": [{"path": "flow.K_v", "alone": 1.1}]}
+JSON
+echo 'forces.pair_repulsion.strength = 0.005' > diagnosis/missing.toml
+"$lilytank" view diagnosis "$sources/scenarios/experiments/tank.toml" --quiet > /dev/null
+look diagnosis diagnosis/view.html
+
 ((faults == 0)) || echo "$faults pages are not as they should be"
 exit $((faults > 0))
