@@ -88,9 +88,9 @@ function drawModule(c, look, faces, size) {
   if (size < 9) return;
   if (!faces) return polyline(c, [[0.44, 0], [0.27, 0.12], [0.27, -0.12]]), fill(c, look.mark);
   for (let face = 0; face < 4; ++face) {
-    if (faces.last === face) polyline(c, [[0.415, -0.29], [0.415, 0.29]]), stroke(c, look.bar, Math.max(0.062, 1.5 / size));
-    const bit = mask => mask >> face & 1;
-    drawFace(c, look, bit(faces.bonded) ? 'bonded' : bit(faces.latched) ? 'latched' : faces.off ? 'off' : 'free', 1 / size);
+    const bit = mask => mask >> face & 1, bar = Math.max(0.062, 1.5 / size), free = faces.off ? 'off' : 'free';
+    if (faces.last === face) polyline(c, [[0.415, -0.29], [0.415, 0.29]]), stroke(c, look.bar, bar);
+    drawFace(c, look, bit(faces.bonded) ? 'bonded' : bit(faces.latched) ? 'latched' : free, 1 / size);
     c.rotate(TURN / 4);
   }
 }
@@ -101,7 +101,7 @@ class View {
     this.figure = add($('tanks'), 'figure');
     const caption = add(this.figure, 'figcaption');
     add(caption, 'b', head.tanks.length > 1 ? tank.name : ''), add(caption, 'span', tank.note);
-    this.state = add(caption, 'i'), this.canvas = add(this.figure, 'canvas');
+    caption.title = tank.note, this.state = add(caption, 'i'), this.canvas = add(this.figure, 'canvas');
     this.canvas.setAttribute('role', 'img'), this.canvas.tabIndex = 0;
     this.ground = document.createElement('canvas'), this.groundKey = '';
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -109,8 +109,7 @@ class View {
   }
   resize() {
     this.width = Math.max(1, this.canvas.clientWidth), this.height = Math.max(1, this.canvas.clientHeight);
-    this.draw(player.now);  // at once, as a canvas of another size is empty
-    invalidate();
+    this.draw(player.now), drawCurve();  // at once, as a canvas of another size is empty
   }
 
   /** Sets pixels per metre, and the point in the middle. */
@@ -121,7 +120,9 @@ class View {
   }
   px(x) { return this.width / 2 + (x - this.cx) * this.scale; }
   py(y) { return this.height / 2 - (y - this.cy) * this.scale; }
-  metres(px, py) { return [this.cx + (px - this.width / 2) / this.scale, this.cy - (py - this.height / 2) / this.scale]; }
+  metres(px, py) {
+    return [this.cx + (px - this.width / 2) / this.scale, this.cy - (py - this.height / 2) / this.scale];
+  }
   radiusOf(b) { return b < this.tank.modules ? 0.62 * this.tank.side : this.tank.ball; }
   bodyAt(px, py) {
     const {now, bodies} = this.tank, [x, y] = this.metres(px, py), far = b => Math.hypot(now.x[b] - x, now.y[b] - y);
@@ -143,7 +144,8 @@ class View {
     const key = [this.width, this.height, this.scale, this.cx, this.cy, flow, theme.paper].join();
     if (key === this.groundKey) return;
     this.groundKey = key;
-    const c = fitted(this.ground, this.width, this.height), r = this.tank.radius * this.scale, x = this.px(0), y = this.py(0);
+    const c = fitted(this.ground, this.width, this.height);
+    const r = this.tank.radius * this.scale, x = this.px(0), y = this.py(0);
     const circle = radius => { c.beginPath(), c.arc(x, y, radius, 0, TURN); };
     const water = c.createRadialGradient(x, y, 0.15 * r, x, y, r);
     water.addColorStop(0, theme.water), water.addColorStop(1, theme.edge);
@@ -162,13 +164,15 @@ class View {
       for (let i = first; i < last;) {  // pieces of about equal speed
         const from = i, points = [at(i)];
         for (; i < last && tone(i) === tone(from); ++i) points.push(at(i + 1));
-        polyline(c, points), c.globalAlpha = 0.16 + 0.5 * tone(from) / 16, stroke(c, theme.stream, 0.8 + 1.3 * tone(from) / 16);
+        c.globalAlpha = 0.16 + 0.5 * tone(from) / 16;
+        polyline(c, points), stroke(c, theme.stream, 0.8 + 1.3 * tone(from) / 16);
       }
       const m = first + (length >> 1), speed = flow.tone[m] / 255, size = 4 + 4 * speed;
       if (length > 6) {
         const [x, y] = at(m), [u, v] = at(m + 1);
         c.save(), c.translate(x, y), c.rotate(Math.atan2(v - y, u - x)), c.globalAlpha = 0.3 + 0.5 * speed;
-        polyline(c, [[size, 0], [-0.7 * size, 0.65 * size], [-0.7 * size, -0.65 * size]]), fill(c, theme.stream), c.restore();
+        polyline(c, [[size, 0], [-0.7 * size, 0.65 * size], [-0.7 * size, -0.65 * size]]);
+        fill(c, theme.stream), c.restore();
       }
       first += length;
     }
@@ -179,14 +183,15 @@ class View {
     const t = this.tank, middle = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
     for (let b = 0; b < t.bodies; ++b) {
       if (!t.now.shown[b]) continue;
-      const points = t.trail(b, TRAIL_POINTS).map(p => p && [this.px(p[0]), this.py(p[1])]), colours = lookAt(t, b).trails;
+      const points = t.trail(b, TRAIL_POINTS).map(p => p && [this.px(p[0]), this.py(p[1])]);
       for (let tone = 0, k = 1; tone < TRAIL_TONES; ++tone) {
         c.beginPath();
         for (; k < Math.min(TRAIL_POINTS, TRAIL_POINTS / TRAIL_TONES * (tone + 1)); ++k) {  // rounded at the points
           const [p, q, r] = points.slice(k - 1, k + 2);
-          if (p && q && r) c.moveTo(...middle(p, q)), c.quadraticCurveTo(...q, ...k + 1 === TRAIL_POINTS ? r : middle(q, r));
+          if (!p || !q || !r) continue;
+          c.moveTo(...middle(p, q)), c.quadraticCurveTo(...q, ...k + 1 === TRAIL_POINTS ? r : middle(q, r));
         }
-        stroke(c, colours[tone], 1 + 1.8 * tone / TRAIL_TONES);
+        stroke(c, lookAt(t, b).trails[tone], 1 + 1.8 * tone / TRAIL_TONES);
       }
     }
   }
@@ -247,7 +252,8 @@ class View {
 
   drawScaleBar(c) {
     const wanted = this.width / 5 / this.scale, decade = 10 ** Math.floor(Math.log10(wanted));
-    const length = decade * [5, 2, 1].find(k => k * decade <= wanted), [unit, size] = length < 0.01 ? ['mm', 1e-3] : ['cm', 0.01];
+    const length = decade * [5, 2, 1].find(k => k * decade <= wanted);
+    const [unit, size] = length < 0.01 ? ['mm', 1e-3] : ['cm', 0.01];
     const x = 12, y = this.height - 12, end = x + length * this.scale;
     polyline(c, [[x, y - 5], [x, y], [end, y], [end, y - 5]]), stroke(c, theme.ink, 2);
     c.font = '13px system-ui, sans-serif', c.textAlign = 'center', c.textBaseline = 'bottom', c.fillStyle = theme.ink;
@@ -263,7 +269,7 @@ class View {
     const text = texts.join(', ');
     setText(this.state, text);
     if (player.playing) return;
-    const balls = t.bodies - t.modules;
-    this.canvas.setAttribute('aria-label', `Tank ${t.name} at ${clockText(time)}: ${t.modules} modules, ${balls} balls. ${text}`);
+    const bodies = `${t.modules} modules, ${t.bodies - t.modules} balls`;
+    this.canvas.setAttribute('aria-label', `Tank ${t.name} at ${clockText(time)}: ${bodies}. ${text}`);
   }
 }

@@ -5,12 +5,14 @@ const ROW = matchMedia('(pointer: coarse)').matches ? 38 : 25;  // pixels, of an
 /** What the page shows. `chosen`: a body; `hovered`: {view, body, at}; `spot`: {tank, modules, since} of an event. */
 const player = {now: 0, begin: 0, end: 1, speed: 1, playing: false, camera: {zoom: 1, x: 0, y: 0}, chosen: -1, tank: 0,
                 hovered: null, spot: null, labels: true, trails: true, flow: true, follow: false};
-const list = {tank: 0, kinds: new Set(['copy', 'link', 'unlink', 'update', 'report', 'command']), rows: [], key: '', hold: 0};
+/** The list of events; latches alone are many, so they are not shown at first. */
+const list = {tank: 0, kinds: new Set(['copy', 'link', 'unlink', 'update', 'report', 'command']), rows: [], hold: 0};
 let tanks = [], views = [], due = false, before = 0, cost = {frames: 0, ms: 0};
 
 function clockText(t) {
-  const s = Math.abs(t).toFixed(1), [h, m] = [Math.floor(s / 3600), Math.floor(s / 60) % 60], two = v => String(v).padStart(2, '0');
-  return (t < 0 ? '\u2212' : '') + (h ? `${h}:${two(m)}` : m) + `:${(s % 60).toFixed(1).padStart(4, '0')}`;
+  const s = Math.abs(t).toFixed(1), h = Math.floor(s / 3600), m = Math.floor(s / 60) % 60;
+  const hours = h ? `${h}:${String(m).padStart(2, '0')}` : m;
+  return `${t < 0 ? '\u2212' : ''}${hours}:${(s % 60).toFixed(1).padStart(4, '0')}`;
 }
 /** Sets a text only where it changes. */
 function setText(element, text) {
@@ -69,21 +71,24 @@ function niceStep(span, most) {
 
 function drawCurve() {
   if ($('yield').hidden) return;
-  const {begin, end, now} = player, w = $('curve').clientWidth, h = $('curve').clientHeight, c = fitted($('curve'), w, h);
+  const {begin, end, now} = player, {clientWidth: w, clientHeight: h} = $('curve'), c = fitted($('curve'), w, h);
   const most = Math.max(1, ...tanks.flatMap(t => [t.possible, ...t.copies.map(([, n]) => n)]));
   const left = 22, right = w - 10, top = 8, bottom = h - 32;
-  const x = t => left + (right - left) * (clamp(t, begin, end) - begin) / (end - begin), y = n => bottom - (bottom - top) * n / most;
+  const x = t => left + (right - left) * (clamp(t, begin, end) - begin) / (end - begin);
+  const y = n => bottom - (bottom - top) * n / most;
   const [unit, name] = end - begin > 7200 ? [3600, 'h'] : end - begin > 240 ? [60, 'min'] : [1, 's'];
   c.font = '12px system-ui, sans-serif', c.fillStyle = theme.dim, c.textAlign = 'right', c.textBaseline = 'middle';
   for (let n = 0, step = Math.max(1, niceStep(most, 4)); n <= most; n += step) {
     polyline(c, [[left, y(n)], [right, y(n)]]), stroke(c, theme.line, 1), c.fillText(n, left - 6, y(n));
   }
   c.textAlign = 'center', c.textBaseline = 'top', c.fillText(`time (${name})`, (left + right) / 2, bottom + 18);
-  for (let step = niceStep((end - begin) / unit, 5), v = Math.ceil(begin / unit / step) * step; v * unit <= end + 1e-6; v += step) {
+  const step = niceStep((end - begin) / unit, 5);
+  for (let v = Math.ceil(begin / unit / step) * step; v * unit <= end + 1e-6; v += step) {
     c.fillText(+v.toFixed(6), x(v * unit), bottom + 4);
   }
   head.yields.forEach(({time, mean, low, high}, i) => {
-    const colour = theme['curve' + i % 4], line = values => time.map((t, k) => [x(t), y(clamp(values[k] ?? 0, 0, most))]);
+    const colour = theme['curve' + i % 4];
+    const line = values => time.map((t, k) => [x(t), y(clamp(values[k] ?? 0, 0, most))]);
     if (!low.includes(null)) {  // of a single run the band is unbounded
       polyline(c, [...line(high), ...line(low).reverse()]), c.globalAlpha = 0.18, fill(c, colour), c.globalAlpha = 1;
     }
@@ -98,14 +103,16 @@ function drawCurve() {
 
 function setUpCurve() {
   $('yield').hidden = !tanks.some(t => t.possible > 0);
-  const names = tanks.length + head.yields.length > 1 ? [tanks.map(t => t.name), head.yields.map(y => `${y.name}, 95 % band`)] : [];
-  names.forEach((group, dashed) => group.forEach((name, i) => {
+  const addName = (name, i, gaps) => {
     const row = add($('curves'), 'li'), colour = `var(--curve${i % 4})`;
-    add(row, 'i').style.background = dashed ? `repeating-linear-gradient(90deg, ${colour} 0 5px, #0000 5px 9px)` : colour;
+    add(row, 'i').style.background = `repeating-linear-gradient(90deg, ${colour} 0 5px, ${gaps} 5px 9px)`;
     row.append(name);
-  }));
+  };
+  if (tanks.length + head.yields.length > 1) tanks.forEach((t, i) => addName(t.name, i, `var(--curve${i % 4})`));
+  head.yields.forEach((y, i) => addName(`${y.name}, 95 % band`, i, '#0000'));
   const changes = t => t.copies.slice(1).map(([at, n]) => `${n} from ${clockText(at)}`).join(', ') || 'none';
-  $('curve').setAttribute('aria-label', 'Complete copies over time. ' + tanks.map(t => `${t.name}: ${changes(t)}`).join('. '));
+  const text = tanks.map(t => `${t.name}: ${changes(t)}`).join('. ');
+  $('curve').setAttribute('aria-label', `Complete copies over time. ${text}`);
   const scrub = e => {
     const share = (e.offsetX - 22) / ($('curve').clientWidth - 32);
     if (e.buttons & 1) seek(player.begin + (player.end - player.begin) * share);
@@ -146,7 +153,8 @@ function choose(body, tank = player.tank) {
 /** Switches labels, trails, flow, or following of the chosen body. */
 function setShow(what, on) {
   const {camera} = player;
-  if (what === 'follow' && on) player.chosen = Math.max(0, player.chosen), camera.zoom = camera.zoom < 2 ? 3 : camera.zoom;
+  if (what === 'follow' && on) player.chosen = Math.max(0, player.chosen);
+  if (what === 'follow' && on && camera.zoom < 2) camera.zoom = 3;
   if (what === 'follow' && !on) [camera.x, camera.y] = [views[player.tank].cx, views[player.tank].cy];
   player[what] = on, $(what).setAttribute('aria-pressed', on);
   keepInside();
@@ -227,7 +235,10 @@ function setUpEvents() {
     chooseLog(i);
   }));
   const rows = $('rows'), hold = () => { list.hold = performance.now() + 3000; };
-  rows.addEventListener('click', e => { if (e.target.closest('button')) goToEvent(+e.target.closest('button').value); });
+  rows.addEventListener('click', e => {
+    const row = e.target.closest('button');
+    if (row) goToEvent(+row.value);
+  });
   rows.addEventListener('scroll', invalidate);
   for (const kind of ['wheel', 'pointerdown', 'touchmove']) rows.addEventListener(kind, hold, {passive: true});
   for (const [t] of tanks[logs[0]].copies.slice(1)) {
@@ -300,7 +311,8 @@ const keys = {
   ' ': () => setPlaying(!player.playing), ArrowLeft: jumpOr(-1), ArrowRight: jumpOr(1), ArrowUp: () => changeSpeed(1),
   ArrowDown: () => changeSpeed(-1), Home: () => seek(player.begin), End: () => seek(player.end), '+': () => zoom(1.4),
   '=': () => zoom(1.4), '-': () => zoom(1 / 1.4), 0: fitAll, f: () => setShow('follow', !player.follow),
-  n: () => choose((player.chosen + 1) % tanks[player.tank].bodies), Escape: () => choose(-1), '?': () => $('about').showModal(),
+  n: () => choose((player.chosen + 1) % tanks[player.tank].bodies), Escape: () => choose(-1),
+  '?': () => $('about').showModal(),
 };
 function watchKeys(e) {
   const on = e.target, presses = /^( |Enter)$/.test(e.key) && on.tagName === 'BUTTON';
@@ -316,8 +328,8 @@ function setUpControls() {
     act(e);
     if (e.detail) $(id).blur();  // after a click of the mouse, space still plays
   });
-  press('play', keys[' ']), press('back', () => stepFrames(-1)), press('next', () => stepFrames(1)), press('help', keys['?']);
-  press('in', keys['+']), press('out', keys['-']), press('fit', fitAll);
+  press('play', keys[' ']), press('back', () => stepFrames(-1)), press('next', () => stepFrames(1));
+  press('in', keys['+']), press('out', keys['-']), press('fit', fitAll), press('help', keys['?']);
   for (const what of ['labels', 'trails', 'flow', 'follow']) press(what, () => setShow(what, !player[what]));
   for (const v of SPEEDS) $('speed').add(new Option(`${v}\u00d7`, v));
   $('speed').addEventListener('change', () => { setSpeed(+$('speed').value), $('speed').blur(); });
@@ -333,9 +345,10 @@ function setUpTexts() {
   const thinned = head.tanks.filter(t => t.stored > t.frames + 1);
   setText($('title'), head.title), setText($('subtitle'), head.subtitle), setText($('total'), clockText(player.end));
   setText($('command'), `${head.command} (lilytank ${head.version})`);
-  setText($('exact'), `Positions are rounded to ${mm} mm and headings to ${degrees.toFixed(1)}\u00b0: errors of at most ${mm / 2} mm ` +
-    `and ${(degrees / 2).toFixed(2)}\u00b0. Between stored frames, positions move on straight lines, headings on the shorter arc, ` +
-    'and modules that hold each other as one body. States are those of the last stored frame. ' +
+  setText($('exact'), `Positions are rounded to ${mm} mm and headings to ${degrees.toFixed(1)}\u00b0: errors of at ` +
+    `most ${mm / 2} mm and ${(degrees / 2).toFixed(2)}\u00b0. Between stored frames, positions move on straight ` +
+    'lines, headings on the shorter arc, and modules that hold each other as one body. States are those of the last ' +
+    'stored frame. ' +
     thinned.map(t => `${t.name || head.title}: ${t.frames} of ${t.stored} stored frames.`).join(' '));
 }
 
@@ -346,7 +359,8 @@ async function start() {
   player.begin = player.now = Math.min(...tanks.map(t => t.begin));
   player.end = Math.max(player.begin + 1e-3, ...tanks.map(t => t.end));
   readTheme(), setUpTexts(), setUpControls(), setUpCurve(), setUpEvents();
-  document.body.classList.toggle('plain', $('yield').hidden && $('log').hidden), $('tanks').classList.toggle('four', tanks.length === 4);
+  document.body.classList.toggle('plain', $('yield').hidden && $('log').hidden);
+  $('tanks').classList.toggle('four', tanks.length === 4);
   views = tanks.map((t, i) => new View(t, i)), views.forEach(watchPointers), keepInside();
   setSpeed(SPEEDS.findLast(v => v <= clamp((player.end - player.begin) / 60, 1, 10)));
   seek(+(/t=([\d.]+)/.exec(location.hash) || [0, player.begin])[1]);
@@ -360,7 +374,7 @@ window.lilytank = {
   poseAt(t, body, tank = 0) {
     const {now} = tanks[tank];
     tanks[tank].moveTo(t);
-    const pose = {x: now.x[body], y: now.y[body], theta: now.theta[body], seen: now.shown[body] > 0, ...tanks[tank].markings(body)};
+    const pose = {x: now.x[body], y: now.y[body], theta: now.theta[body], ...tanks[tank].markings(body)};
     tanks[tank].moveTo(player.now);
     return pose;
   },

@@ -155,7 +155,9 @@ class Tank {
       const faces = this.neighbours(b).map(([f, j]) => `${f} ${bonded(f) ? 'bonded' : 'latched'} to ${this.nameOf(j)}`);
       rows.push(['faces', faces.join(', ') || 'all free']);
       const members = new Set([b]);
-      for (const i of members) for (const [f, j] of this.neighbours(i)) if (this.facesOf(i) >> 4 + f & 1) members.add(j);
+      for (const i of members) {
+        for (const [face, j] of this.neighbours(i)) if (this.facesOf(i) >> 4 + face & 1) members.add(j);
+      }
       if (members.size > 1) rows.push(['assembly', `${members.size} modules`]);
     }
     if (!now.shown[b]) return [...rows, ['position', 'not seen']];
