@@ -347,8 +347,7 @@ function setUpTexts() {
   setText($('command'), `${head.command} (lilytank ${head.version})`);
   setText($('exact'), `Positions are rounded to ${mm} mm and headings to ${degrees.toFixed(1)}\u00b0: errors of at ` +
     `most ${mm / 2} mm and ${(degrees / 2).toFixed(2)}\u00b0. Between stored frames, positions move on straight ` +
-    'lines, headings on the shorter arc, and modules that hold each other as one body. States are those of the last ' +
-    'stored frame. ' +
+    'lines, headings on the shorter arc, and modules that hold each other as one body. States change with events. ' +
     thinned.map(t => `${t.name || head.title}: ${t.frames} of ${t.stored} stored frames.`).join(' '));
 }
 

@@ -49,7 +49,7 @@ class Tank {
     this.events = {count: 0, kinds: [], rules: []};
     this.copies = [[this.begin, 0]];  // time and number from then on
     if (h.events) this.readEvents(h.events, read, times);
-    this.now = {time: 0, frame: -1}, this.groups = {frame: -1, of: [], held: new Uint8Array(bodies)};
+    this.now = {time: 0, frame: -1, state: new Int32Array(bodies)}, this.groups = {frame: -1, of: [], held: new Uint8Array(bodies)};
     for (const numbers of ['x', 'y', 'theta']) this.now[numbers] = new Float64Array(bodies);
     for (const bits of ['shown', 'latched', 'bonded']) this.now[bits] = new Uint8Array(bodies);
   }
@@ -70,12 +70,12 @@ class Tank {
             theta: this.theta ? this.theta[i] * head.heading_step : 0, seen: !this.seen || this.seen[i] > 0};
   }
   /** Bits 0-3: latched faces; 4-7: bonded faces; 8: in a complete copy. */
-  facesOf(b, frame = this.now.frame) {
+  facesOf(b, frame = this.now.state[b]) {
     return this.faces && b < this.modules ? this.faces[b * this.frames + frame] : 0;
   }
   /** The state of a module; null where none is stored. */
   markings(b) {
-    const i = b * this.frames + this.now.frame;
+    const i = b * this.frames + this.now.state[b];
     if (!this.label || b >= this.modules) return null;
     return {label: this.label[i], last: this.last[i], complete: this.faces[i] >> 8 & 1};
   }
@@ -86,6 +86,7 @@ class Tank {
     const frame = this.frameAt(t), next = Math.min(frame + 1, this.frames - 1);
     const span = this.time[next] - this.time[frame], w = span > 0 ? (t - this.time[frame]) / span : 0;
     now.time = t, now.frame = frame;
+    this.setStates(t, frame, next);
     for (let b = 0; b < this.bodies; ++b) {
       const p = this.place(b, frame), q = w > 0 ? this.place(b, next) : p, faces = this.facesOf(b);
       const both = p.seen && q.seen, from = both || w < 0.5 ? p : q, v = both ? w : 0;
@@ -97,11 +98,21 @@ class Tank {
     if (w > 0 && this.faces) this.moveGroups(frame, next, w);
   }
 
+  /** Sets the frame that holds the state of each module: the next one as soon as an event has changed it. */
+  setStates(t, frame, next) {
+    const {count, time, kinds, kind, a, b} = this.events, state = this.now.state.fill(frame);
+    const upTo = at => countUpTo(at + 1e-9, count, i => time[i]);
+    for (let i = upTo(this.time[frame]), end = upTo(t); i < end; ++i) {
+      if (kinds[kind[i]] === 'copy') state.fill(next);
+      else for (const module of [a[i], b[i]]) if (module >= 0) state[module] = next;
+    }
+  }
+
   moveGroups(frame, next, w) {
     if (this.groups.frame !== frame) this.findGroups(frame, next);
     const {of, held} = this.groups, now = this.now;
     for (let root = 0; root < this.modules; ++root) {
-      now.latched[root] &= held[root], now.bonded[root] &= held[root];
+      if (now.state[root] === frame) now.latched[root] &= held[root], now.bonded[root] &= held[root];
       const members = of[root] === root ? [...of.keys()].filter(b => of[b] === root) : [];
       if (members.length < 2) continue;
       const mean = (f, axis) => members.reduce((sum, b) => sum + this.place(b, f)[axis], 0) / members.length;
@@ -142,7 +153,7 @@ class Tank {
 
   /** [face, neighbour] of every face of a module that holds one in the present frame. */
   neighbours(b) {
-    const faces = [...Array(this.modules).keys()].map(j => [j === b ? -1 : this.heldFace(b, j, this.now.frame), j]);
+    const faces = [...Array(this.modules).keys()].map(j => [j === b ? -1 : this.heldFace(b, j, this.now.state[b]), j]);
     return faces.filter(([face]) => face >= 0).sort();
   }
   /** Names and values of all that is known of a body now. */

@@ -54,6 +54,18 @@ function comparePoses(w) {
   return ` place ${(1e3*place).toFixed(4)} mm heading ${(heading/degree).toFixed(4)} degrees`;
 }
 
+// Labels change at the time of an event, not at the next stored frame.
+function compareEvents(w) {
+  const between=(module,from,to)=>events.filter(e=>[e[3],e[5]].includes(module)&&e[0]>from&&e[0]<=to).length;
+  const next=t=>w.lilytank.tanks[0].time.find(frame=>frame>t)??t;
+  let compared=0;
+  for(const [time,,kind,a,,b,,,label_a,,label_b] of events) for(const [module,label] of [[a,label_a],[b,label_b]]) {
+    if(!/link/.test(kind)||between(module,+time,next(+time)+1e-9)) continue;
+    ++compared,check(`label of ${module} at ${time} s`,w.lilytank.poseAt(+time,+module).label===+label);
+  }
+  check('events of labels',compared>10);
+}
+
 async function pressControls(w,d) {
   const key=k=>d.body.dispatchEvent(new w.KeyboardEvent('keydown',{key:k,bubbles:true}));
   const slider=d.getElementById('scrub'),tank=w.lilytank.tanks[0];
@@ -101,7 +113,7 @@ f.onload=async()=>{
     check('outside',d.querySelectorAll('[src],[href]').length===0);
     const pixels=d.querySelector('figure canvas').getContext('2d').getImageData(0,0,w.innerWidth/2,300).data;
     check('drawn',pixels.some(v=>v>0));
-    if(rows.length) text=comparePoses(w),await clickEvents(w,d),await pressControls(w,d);
+    if(rows.length) text=comparePoses(w),compareEvents(w),await clickEvents(w,d),await pressControls(w,d);
     check('over at the end',d.documentElement.scrollWidth<=width);
     seen.push(...w.faults);
   } catch(problem) { seen.push(problem.message); }
