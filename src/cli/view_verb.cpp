@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -41,6 +42,9 @@ ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
   const std::vector<std::string>& words = options.positional();
   const std::string& dir = words.front();
   const bool study = has_file(dir, "study.toml"), diagnosis = has_file(dir, "diagnosis.json");
+  if (std::max(words.size(), job.runs.size()) > kViewTanks) {
+    options.refuse("a page shows at most " + std::to_string(kViewTanks) + " runs");
+  }
   if (!study) options.refuse_given({"run"}, "goes with a study");
   if (!diagnosis) options.refuse_given({"recording"}, "goes with a diagnosis");
   if (study) {
@@ -53,9 +57,6 @@ ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
         second(options,
                "diagnosis; write lilytank view DIAGNOSIS EXPERIMENT.toml, with the diagnosed file");
     return view_diagnosis(dir, file, job.recording, job.page);
-  }
-  if (words.size() > kViewTanks) {
-    options.refuse("a page shows at most " + std::to_string(kViewTanks) + " runs");
   }
   if (!has_file(dir, run_file::resolved)) {
     throw InputError("'" + dir + "' is not the directory of a run, study or diagnosis");
