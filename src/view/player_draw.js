@@ -183,13 +183,15 @@ class View {
     const t = this.tank, middle = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
     for (let b = 0; b < t.bodies; ++b) {
       if (!t.now.shown[b]) continue;
-      const points = t.trail(b, TRAIL_POINTS).map(p => p && [this.px(p[0]), this.py(p[1])]);
-      for (let tone = 0, k = 1; tone < TRAIL_TONES; ++tone) {
+      const points = t.trail(b, TRAIL_POINTS).map(p => p && [this.px(p[0]), this.py(p[1])]), last = points.length - 2;
+      const toneOf = k => Math.floor(TRAIL_TONES * k / (last + 1));
+      for (let k = 1; k <= last;) {
+        const tone = toneOf(k);
         c.beginPath();
-        for (; k < Math.min(TRAIL_POINTS, TRAIL_POINTS / TRAIL_TONES * (tone + 1)); ++k) {  // rounded at the points
+        for (; k <= last && toneOf(k) === tone; ++k) {  // rounded at the points
           const [p, q, r] = points.slice(k - 1, k + 2);
           if (!p || !q || !r) continue;
-          c.moveTo(...middle(p, q)), c.quadraticCurveTo(...q, ...k + 1 === TRAIL_POINTS ? r : middle(q, r));
+          c.moveTo(...k === 1 ? p : middle(p, q)), c.quadraticCurveTo(...q, ...k === last ? r : middle(q, r));
         }
         stroke(c, lookAt(t, b).trails[tone], 1 + 1.8 * tone / TRAIL_TONES);
       }

@@ -49,7 +49,8 @@ class Tank {
     this.events = {count: 0, kinds: [], rules: []};
     this.copies = [[this.begin, 0]];  // time and number from then on
     if (h.events) this.readEvents(h.events, read, times);
-    this.now = {time: 0, frame: -1, state: new Int32Array(bodies)}, this.groups = {frame: -1, of: [], held: new Uint8Array(bodies)};
+    this.now = {time: 0, frame: -1, state: new Int32Array(bodies)};
+    this.groups = {frame: -1, of: [], held: new Uint8Array(bodies)};
     for (const numbers of ['x', 'y', 'theta']) this.now[numbers] = new Float64Array(bodies);
     for (const bits of ['shown', 'latched', 'bonded']) this.now[bits] = new Uint8Array(bodies);
   }
@@ -181,15 +182,17 @@ class Tank {
     if (p.seen && q.seen) rows.push(['speed', `${cm(way / (this.time[f + 1] - this.time[f]))} cm/s`]);
     return rows;
   }
-  /** `count` + 1 points of a body's way in the last seconds, the present one last; null where it was not seen. */
-  trail(b, count) {
-    const end = this.now.time, begin = Math.max(this.begin, end - TRAIL), points = [];
-    for (let k = 0; k < count; ++k) {
-      const t = begin + (end - begin) * k / count, f = this.frameAt(t), g = Math.min(f + 1, this.frames - 1);
-      const p = this.place(b, f), q = this.place(b, g);
+  /** Points of a body's way in the last seconds, the present one last; null where it was not seen. */
+  trail(b, most) {
+    const {time, frame, x, y} = this.now, begin = Math.max(this.begin, time - TRAIL), first = this.frameAt(begin) + 1;
+    const points = [];
+    const add = (t, f) => {  // f: the frame at or before t
+      const g = Math.min(f + 1, this.frames - 1), p = this.place(b, f), q = this.place(b, g);
       const w = g > f ? (t - this.time[f]) / (this.time[g] - this.time[f]) : 0;
       points.push(p.seen && q.seen ? [p.x + w * (q.x - p.x), p.y + w * (q.y - p.y)] : null);
-    }
-    return [...points, [this.now.x[b], this.now.y[b]]];
+    };
+    add(begin, first - 1);
+    for (let f = first; f <= frame; f += Math.ceil((frame - first + 1) / most)) add(this.time[f], f);
+    return [...points, [x[b], y[b]]];
   }
 }
