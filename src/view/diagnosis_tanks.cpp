@@ -136,6 +136,7 @@ ViewPage view_diagnosis(const std::string& dir, const std::string& experiment,
   const Experiment with = load_experiment(
       {experiment}, {}, [&](const RecordingSource& source) { return source.file == file; });
   const Recording& recorded = with.recordings.front();
+  if (recorded.tracks.empty()) throw InputError({file}, "no Lily is tracked in it");
   ViewPage page;
   page.title = "Diagnosis of " + stored.name;
   page.subtitle = "verdict: " + stored.verdict +
