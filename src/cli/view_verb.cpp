@@ -1,5 +1,5 @@
 // lilytank view: one HTML file that plays stored results.
-#include <sys/wait.h>
+#include <spawn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -78,16 +78,13 @@ void warn_if_seldom(const ViewPage& page) {
   }
 }
 
-/// Shows a file with the desktop's browser, which outlives this program.
+/// Shows a file with the desktop's browser, which may outlive this program.
 void open_page(const std::string& file) {
-  const ::pid_t child = ::fork();
-  if (child == 0) {
-    ::execlp("xdg-open", "xdg-open", file.c_str(), nullptr);
-    ::_exit(127);
-  }
-  int status = 0;
-  const bool failed = child < 0 || ::waitpid(child, &status, 0) != child || status != 0;
-  if (failed) std::cerr << "xdg-open could not open the page; open it in a browser\n";
+  std::string program = "xdg-open", page = fs::absolute(file).string();
+  char* words[] = {program.data(), page.data(), nullptr};
+  ::pid_t child = 0;
+  const int number = ::posix_spawnp(&child, words[0], nullptr, nullptr, words, environ);
+  if (number != 0) std::cerr << system_problem("cannot run", program, number) << "\n";
 }
 
 }  // namespace
