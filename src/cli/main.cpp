@@ -39,6 +39,7 @@ const std::vector<Verb>& verbs() {
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},
+      {"view", "play runs in a browser: one interactive HTML file", view_verb},
       {"schema", "JSON Schemas of scenario, experiment, study and optimize files, for editors",
        schema_verb},
       {"completion", "completion of verbs, options and scenario keys for bash, zsh and fish",

@@ -46,5 +46,6 @@ int check_verb(const Arguments& arguments);
 int schema_verb(const Arguments& arguments);
 int completion_verb(const Arguments& arguments);
 int man_verb(const Arguments& arguments);
+int view_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

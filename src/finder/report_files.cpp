@@ -93,7 +93,7 @@ std::string diagnosis_json(const Diagnosis& d) {
 
 std::vector<std::string> diagnosis_files() {
   return with_figures({"diagnosis.json", "diagnosis.txt", "missing.toml", "flow.csv", "maps.csv",
-                       "ranking.csv", "fit.csv", "report.html"},
+                       "ranking.csv", "fit.csv", "report.html", "view.html"},
                       {"laws", "fit", "maps"});
 }
 
