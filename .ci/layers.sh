@@ -90,7 +90,7 @@ home world start world
 home search search
 home statistics normality statistics
 home assemblies assembly_record
-home io file_digest model_parameter report scenario table_layout trajectory
+home io file_digest model_parameter report run_events scenario table_layout trajectory
 home jobs run
 home recording camera experiment recording recording_io
 home smoothing smoothing
@@ -104,6 +104,7 @@ home filter predictor
 home finder diagnosis diagnosis_subject
 home proof proof
 home bodies bodies
+home view view
 home render render
 
 places=$(mktemp)
@@ -147,9 +148,10 @@ layer finder effects filter calibrate study jobs forces "${base[@]}"
 layer proof finder effects filter calibrate study jobs forces "${base[@]}"
 layer bodies finder study jobs "${base[@]}"
 base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
-layer render "${base[@]}"
-layer cli render forces "${base[@]}"
-layer python cli render forces "${base[@]}"
+layer view "${base[@]}"
+layer render view "${base[@]}"
+layer cli render view forces "${base[@]}"
+layer python cli render view forces "${base[@]}"
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

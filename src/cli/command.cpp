@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 
 #include "lilytank/error.hpp"
@@ -9,7 +10,6 @@
 #include "text/words.hpp"
 
 namespace lilytank::cli {
-namespace {
 
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> all{
@@ -32,9 +32,17 @@ const std::vector<Verb>& verbs() {
       {"info", "explain a scenario: every value, unit, bounds, and where it was set", info_verb},
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},
+      {"view", "play runs in a browser: one interactive HTML file", view_verb},
+      {"schema", "JSON Schemas of scenario, experiment, study and optimize files, for editors",
+       schema_verb},
+      {"completion", "completion of verbs, options and scenario keys for bash, zsh and fish",
+       completion_verb},
+      {"man", "manual pages", man_verb},
   };
   return all;
 }
+
+namespace {
 
 void print_help() {
   std::cout << "lilytank " LILYTANK_VERSION
@@ -55,6 +63,28 @@ const Verb& find_verb(const std::string& name) {
   const auto found = std::find_if(verbs().begin(), verbs().end(),
                                   [&](const Verb& verb) { return verb.name == name; });
   if (found != verbs().end()) return *found;
+  // What other programs call it.
+  static const std::map<std::string, std::string> synonyms{{"simulate", "run"},
+                                                           {"sweep", "study"},
+                                                           {"batch", "study"},
+                                                           {"optimise", "optimize"},
+                                                           {"fit", "calibrate"},
+                                                           {"tune", "optimize"},
+                                                           {"plot", "render"},
+                                                           {"video", "render"},
+                                                           {"movie", "render"},
+                                                           {"analyse", "analyze"},
+                                                           {"convert", "recording convert"},
+                                                           {"benchmark", "prove"},
+                                                           {"validate", "check"},
+                                                           {"explain", "info"},
+                                                           {"show", "info"},
+                                                           {"stats", "analyze"},
+                                                           {"compile", "synthesize"},
+                                                           {"synthesise", "synthesize"}};
+  if (const auto synonym = synonyms.find(name); synonym != synonyms.end()) {
+    throw InputError("unknown verb '" + name + "' - did you mean '" + synonym->second + "'?");
+  }
   std::vector<std::string> names{"help", "--help", "--version"};
   for (const Verb& verb : verbs()) names.push_back(verb.name);
   std::string help = did_you_mean(name, names);
@@ -91,7 +121,7 @@ bool names_its_subject(const std::string& message) {
 int act(const Arguments& words) {
   if (words.empty()) throw InputError("which verb? 'lilytank help' lists what there is");
   const Arguments rest(words.begin() + 1, words.end());
-  if (words[0] == "--version" || words[0] == "version") {
+  if (words[0] == "--version" || words[0] == "-V" || words[0] == "version") {
     std::cout << "lilytank " LILYTANK_VERSION "\n";
     return Exit::done;
   }

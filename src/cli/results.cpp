@@ -31,8 +31,8 @@ std::vector<std::string> essential(const Arguments& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& word = arguments[i];
     const std::string name = word.substr(0, word.find('='));
-    if (name == "--force" || name == "--quiet") continue;
-    if (name == "--out" || name == "--threads") {
+    if (name == "--force" || name == "--quiet" || name == "--open") continue;
+    if (name == "--out" || name == "--tank-results" || name == "--threads") {
       i += word == name ? 1 : 0;
       continue;
     }

@@ -144,6 +144,8 @@ class Verbs(TestCase):
         run = lilytank.run(lilytank.Scenario(CHAIN, {"run.duration": "5 s"}))
         lilytank.render(run, at=5, png=self.here / "a.png", size=120)
         self.assertEqual((self.here / "a.png").read_bytes()[:4], b"\x89PNG")
+        lilytank.view(run, out=self.here / "a.html")
+        self.assertIn("<html", (self.here / "a.html").read_text())
 
 
 class Recordings(TestCase):

@@ -29,6 +29,7 @@ from ._verbs import (
     study,
     synthesize,
     verb,
+    view,
 )
 from ._world import Event, World
 
@@ -64,4 +65,5 @@ __all__ = [
     "study",
     "synthesize",
     "verb",
+    "view",
 ]

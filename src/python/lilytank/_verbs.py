@@ -190,3 +190,8 @@ def synthesize(target: PathLike, *, out: PathLike | None = None, **options: Any)
 def render(run: Source, **options: Any) -> None:
     """Draws a run (docs/rendering.md): at=300, png="frame.png", or from_=0, to=60, mp4="film.mp4"."""
     verb("render", run, **options)
+
+
+def view(*sources: Source, out: PathLike, **options: Any) -> None:
+    """Writes an interactive page of runs, a study or a diagnosis to `out` (docs/view.md)."""
+    verb("view", *sources, out=out, **options)
