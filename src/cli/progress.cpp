@@ -31,6 +31,8 @@ double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
+}  // namespace
+
 std::string duration_text(double s) {
   char text[40];
   if (s < 90) {
@@ -42,8 +44,6 @@ std::string duration_text(double s) {
   }
   return text;
 }
-
-}  // namespace
 
 Progress::Progress(bool quiet)
     : quiet_(quiet || host != nullptr),
