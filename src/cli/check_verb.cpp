@@ -93,7 +93,8 @@ int check_verb(const Arguments& arguments) {
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));
   const KineticsReport kinetics = run_kinetics(job, input);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);
-  std::cout << (job.json ? report_json(report) : report_text(report)) << std::flush;
+  const std::string text = printed(report);
+  std::cout << (job.json ? report_json(report) : text) << std::flush;
   if (!kinetics.dir.empty() && job.options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;

@@ -1,4 +1,4 @@
-// The verbs. A verb is one file beside this one and one line in main.cpp.
+// The verbs. A verb is one file beside this one and one line in verbs.cpp.
 #pragma once
 #include <string>
 #include <vector>
