@@ -4,8 +4,7 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtom
                 libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev
                 libssl-dev nlohmann-json3-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
-# perl checks the texts, chromium opens the reports, NumPy reads trajectories
-test_packages=(libgtest-dev perl chromium python3-numpy)
+test_packages=(libgtest-dev perl chromium)  # perl checks the texts, chromium opens the reports
 python_packages=(python3-dev pybind11-dev python3-numpy)
 table_packages=(python3-pandas python3-xarray)  # for tests of conversions, which are skipped without
 slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run

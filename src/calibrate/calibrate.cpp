@@ -44,29 +44,26 @@ double processor_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// A setup, and how long it took: nearly all of it is the extraction of the flow.
-struct TimedSetup {
-  double begin = processor_time();
-  CalibrationSetup setup;
-  double time = 0;  ///< s
-  TimedSetup(const Experiment& experiment, const CalibrationOptions& options)
-      : setup(set_up(experiment, options)), time(processor_time() - begin) {}
-};
+template <class Work>
+double time_of(Work&& work) {
+  const double begin = processor_time();
+  static_cast<void>(work());
+  return processor_time() - begin;
+}
 
-CalibrationPlan plan_of(const TimedSetup& timed, const Stages& stages) {
-  const CalibrationSetup& setup = timed.setup;
+CalibrationPlan plan_of(const CalibrationSetup& setup, const Stages& stages) {
   CalibrationPlan out;
   out.coverage = coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
   out.recordings = static_cast<int>(setup.training.size());
   for (const RecordingShape& shape : setup.shapes) out.bodies = std::max(out.bodies, shape.bodies);
   out.experiments = stages.usual_experiments();
-  const double begin = processor_time();
-  static_cast<void>(
-      setup.emulator(setup.shapes, CalibrationSetup::Of::experiments).record(setup.start, 1));
-  out.experiment_time = processor_time() - begin;
+  out.experiment_time = time_of([&] {
+    return setup.emulator(setup.shapes, CalibrationSetup::Of::experiments).record(setup.start, 1);
+  });
   if (setup.draws_flow()) {
     out.extractions = setup.options.flow_draws;
-    out.extraction_time = timed.time;
+    out.extraction_time = time_of(
+        [&] { return redraw_flow(*setup.flow, setup.balls, setup.ball, FlowOptions{}, 1, 0); });
   }
   return out;
 }
@@ -74,20 +71,18 @@ CalibrationPlan plan_of(const TimedSetup& timed, const Stages& stages) {
 }  // namespace
 
 CalibrationPlan plan_calibration(const Experiment& experiment, const CalibrationOptions& options) {
-  TimedSetup timed(experiment, options);
-  check_directory(options.out, options.force, job_of(timed.setup));
-  const Stages stages(timed.setup);
-  return plan_of(timed, stages);
+  CalibrationSetup setup = set_up(experiment, options);
+  check_directory(options.out, options.force, job_of(setup));
+  return plan_of(setup, Stages(setup));
 }
 
 CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options) {
-  TimedSetup timed(experiment, options);
-  CalibrationSetup& setup = timed.setup;
+  CalibrationSetup setup = set_up(experiment, options);
   const auto lock = claim_directory(options.out, options.force, job_of(setup));
   if (options.lock != nullptr) *options.lock = lock;
   Stages stages(setup);
   CalibrationResult out = begun(setup);
-  if (options.planned) options.planned(plan_of(timed, stages));
+  if (options.planned) options.planned(plan_of(setup, stages));
   const FlowMaps maps = stages.flow_maps();
   out.flow_csv = setup.corrected_csv(*maps.best());
   const std::vector<double> searched = stages.search(out);

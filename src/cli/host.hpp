@@ -16,7 +16,8 @@ struct Host {
   std::function<void(const ReportDocument& report)> report;
 };
 
-/// Null in the command-line program.
+/// Null in the command-line program. Of the process, as its streams and signals are: one verb at a
+/// time acts in it.
 inline const Host* host = nullptr;
 
 }  // namespace lilytank::cli

@@ -1,4 +1,4 @@
-// The verbs. A verb is one file beside this one and one line in main.cpp.
+// The verbs. A verb is one file beside this one and one line in command.cpp.
 #pragma once
 #include <string>
 #include <vector>
