@@ -100,7 +100,7 @@ TEST_F(EarlyEndTest, ImpossibleConditionsAreRefused) {
   EXPECT_NE(many.err.find("run.until_copies = 8, but 15 modules are enough for 7 copies"),
             std::string::npos)
       << many.err;
-  const Answer none = run("x", "--set ruleset.file= --set run.until=all_copies");
+  const Answer none = run("x", "--set 'ruleset.file=\"\"' --set run.until=all_copies");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("there is no ruleset.file"), std::string::npos) << none.err;
   lilytank_.here.write("study.toml",
