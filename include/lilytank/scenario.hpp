@@ -28,11 +28,28 @@ struct OutputParameters {
   double metrics_interval = 10;  ///< simulated time between rows of metrics.csv, s
 };
 
+/// Which copies of the target end a run.
+enum class RunUntil : std::uint8_t {
+  end,         ///< none: the run lasts its whole duration
+  all_copies,  ///< all that the modules can form have been completed
+};
+
+/// When a run ends before its duration: as soon as one of these conditions holds. Copies are of the
+/// last target, where base station commands replace it.
+struct EndParameters {
+  RunUntil until = RunUntil::end;
+  int copies = 0;         ///< number of completed copies that ends a run; 0: off
+  double quiet_time = 0;  ///< time without an event that ends a run, s; 0: off
+  /// Whether there is a condition at all.
+  bool early() const { return until != RunUntil::end || copies > 0 || quiet_time > 0; }
+};
+
 /// A scenario with its model, ready to run.
 struct Scenario {
   std::string title;       ///< name of the scenario, also of its output directory
   double duration = 600;   ///< simulated time of a run, s
   std::uint64_t seed = 1;  ///< key of all random numbers of a run
+  EndParameters end;       ///< what ends a run earlier
   OutputParameters output;
   Model model;                         ///< built from the entries
   std::vector<ScenarioEntry> entries;  ///< every key, in the table's order

@@ -36,6 +36,7 @@ class Loader {
     build_field();
     build_start();
     build_commands();
+    check_end();
     return finish();
   }
 
@@ -266,6 +267,29 @@ class Loader {
         draft_.source == FlowSource::tank ? analytic_tank(tank, draft_.interpolation)
                                           : scaled(*m.field, power / draft_.tank.pump_power)));
     return 1 + index;
+  }
+
+  // Copies that end the run must be possible with one of its rulesets.
+  void check_end() {
+    const EndParameters& end = draft_.scenario.end;
+    if (end.until == RunUntil::end && end.copies == 0) return;
+    const Model& m = draft_.scenario.model;
+    int most = 0;
+    for (const Ruleset& rules : m.rulesets) {
+      most = std::max(most, possible_copies(rules, m.module.count));
+    }
+    const std::string enough = std::to_string(m.module.count) + " modules are enough for " +
+                               std::to_string(most) + (most == 1 ? " copy" : " copies");
+    if (end.copies > most) {
+      throw InputError(place("run.until_copies"),
+                       "run.until_copies = " + std::to_string(end.copies) + ", but " +
+                           (m.rulesets.empty() ? "there is no ruleset.file" : enough));
+    }
+    if (end.until == RunUntil::all_copies && most == 0) {
+      throw InputError(place("run.until"),
+                       "run.until = \"all_copies\", but " +
+                           (m.rulesets.empty() ? "there is no ruleset.file" : enough));
+    }
   }
 
   Scenario finish() {

@@ -27,6 +27,33 @@ void run_keys(ScenarioDraft& d, Keys& keys) {
   Scenario& s = d.scenario;
   keys.push_back({"title", &s.title, "", 0, 0, "name of the scenario, used for the output folder"});
   keys.push_back({"run.duration", &s.duration, "s", 0, 1e8, "simulated time"});
+  keys.push_back({"run.until",
+                  choice(s.end.until, {"end", "all_copies"}),
+                  "",
+                  0,
+                  0,
+                  "all_copies: the run ends once all possible copies have been completed",
+                  false,
+                  {},
+                  "\"end\""});
+  keys.push_back({"run.until_copies",
+                  &s.end.copies,
+                  "1",
+                  0,
+                  10000,
+                  "the run ends once so many copies have been completed; 0: off",
+                  false,
+                  {},
+                  "0"});
+  keys.push_back({"run.quiet_time",
+                  &s.end.quiet_time,
+                  "s",
+                  0,
+                  1e8,
+                  "the run ends after so long without an event; 0: off",
+                  false,
+                  {},
+                  "0"});
   keys.push_back({"run.dt", &s.model.dt, "s", kTick / 256, kTick,
                   "time step: 25 ms divided by a whole number"});
   keys.push_back({"run.seed", &s.seed, "1", 0, kLargestSeed, "where all random numbers come from"});

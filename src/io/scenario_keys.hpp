@@ -54,6 +54,8 @@ struct ScenarioKey {
   std::string meaning;                     ///< one sentence
   bool whole = false;                      ///< a double that must be a whole number
   std::optional<ModelNumber> number = {};  ///< of what may differ among models of one tank
+  /// Value at which resolved.toml leaves the key out: the identity is as without the key.
+  std::string neutral = {};
 };
 
 /// The table for a draft, in the order of resolved.toml. The draft must stay where it is.

@@ -66,6 +66,7 @@ std::string resolved_text(const std::vector<ScenarioKey>& keys,
   ScenarioText out;
   std::string header;
   for (const ScenarioKey& key : keys) {
+    if (!key.neutral.empty() && value_text(key) == key.neutral) continue;
     const auto [table, name] = parted(key.path);
     if (table != header) out.table(table);
     header = table;

@@ -92,7 +92,8 @@ std::string to_bytes(const Checkpoint& c, std::uint64_t identity) {
       << "\nscenario " << identity << digest_line("trajectory", c.files.trajectory)
       << digest_line("events", c.files.events) << digest_line("metrics", c.files.metrics)
       << "\ntallies " << c.tallies.evaluations << " " << c.tallies.snaps_refused << " "
-      << c.tallies.moves_undone << " " << shortest(c.tallies.deepest_overlap) << "\nrecord "
+      << c.tallies.moves_undone << " " << shortest(c.tallies.deepest_overlap)
+      << (c.last_event > 0 ? " " + std::to_string(c.last_event) : "") << "\nrecord "
       << c.record.size() << "\n"
       << c.record << to_snapshot(c.state, identity);
   const std::string body = out.str();
@@ -136,6 +137,7 @@ Checkpoint checkpoint_from(const std::string& bytes, std::uint64_t identity,
   Tallies& t = c.tallies;
   if (!(tallies >> t.evaluations >> t.snaps_refused >> t.moves_undone)) in.refuse();
   t.deepest_overlap = in.number(tallies);
+  if (!(tallies >> c.last_event)) c.last_event = 0;
   std::size_t size = 0;
   in.values("record", size);
   c.record = in.bytes(size);

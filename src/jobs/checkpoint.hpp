@@ -19,8 +19,9 @@ struct Checkpoint {
   RunStatus status = RunStatus::ok;
   Divergence divergence;  ///< of a diverged run
   RunFileDigests files;
-  Tallies tallies;     ///< since the start of the run
-  std::string record;  ///< AssemblyRecord::to_text
+  Tallies tallies;              ///< since the start of the run
+  std::int64_t last_event = 0;  ///< step; kept where run.quiet_time is set, else 0
+  std::string record;           ///< AssemblyRecord::to_text
   State state;
 };
 

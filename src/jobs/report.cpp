@@ -1,6 +1,7 @@
 #include "jobs/report.hpp"
 
 #include "io/json.hpp"
+#include "jobs/early_end.hpp"
 #include "lilytank/start.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -85,6 +86,7 @@ std::string summary_text(const Scenario& scenario, const World& world, const Ass
   std::string out = line("scenario", scenario.title.empty() ? "(no title)" : scenario.title);
   out += line("seed", std::to_string(scenario.seed));
   out += line("status", diverged ? divergence_text(outcome.divergence, model) : "complete");
+  if (scenario.end.early() && !diverged) out += line("ended", end_text(scenario, world, record));
   out += line("simulated", without_rounding(world.time()) + " s of " + bodies_text(model));
   if (record.possible_copies() > 0) {
     out += line("copies", std::to_string(record.copies()) + " of " +
@@ -108,6 +110,7 @@ std::string summary_json(const Scenario& scenario, const World& world, const Ass
   json["scenario"] = hex(scenario.identity);
   json["seed"] = scenario.seed;
   json["status"] = diverged ? "diverged" : "complete";
+  if (scenario.end.early() && !diverged) json["ended"] = end_text(scenario, world, record);
   json["time_s"] = printed(world.time());
   json["steps"] = world.state().step;
   json["modules"] = scenario.model.module.count;

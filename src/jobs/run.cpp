@@ -2,10 +2,10 @@
 #include "lilytank/run.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "jobs/early_end.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
 #include "jobs/run_files.hpp"
@@ -31,8 +31,7 @@ class Job {
                        : std::make_unique<RunDirectory>(options.out, scenario, options.force)),
         world_(begin()),
         record_(scenario.model) {
-    const auto parts = scenario.duration / scenario.model.dt;
-    steps_ = static_cast<std::int64_t>(std::floor(parts + 0.5));
+    steps_ = planned_steps(scenario);
   }
 
   RunResult run() {
@@ -43,6 +42,7 @@ class Job {
       refusals_of(directory_->path(run_file::checkpoint),
                   [&] { record_.restore(before->record, world_); });
       earlier_ = before->tallies;
+      last_event_ = before->last_event;
       outcome_ = {before->status, before->divergence, before->tallies};
     }
     result_.resumed = before != nullptr && !before->finished;
@@ -74,7 +74,7 @@ class Job {
       if (files_) files_->observe(world_, record_);
     }
     first_step_ = world_.state().step;
-    while (world_.state().step < steps_ && result_.status == RunStatus::ok) {
+    while (!over_ && world_.state().step < steps_ && result_.status == RunStatus::ok) {
       if (options_->stop_requested()) {
         save(false);
         throw Stopped("stopped at " + without_rounding(world_.time()) + " s of " +
@@ -83,6 +83,8 @@ class Job {
       result_.status = world_.step();
       record_.observe(world_);
       if (files_) files_->observe(world_, record_);
+      if (!world_.events().empty()) last_event_ = world_.state().step;
+      over_ = over(*scenario_, world_, record_, last_event_);
       look_at_clock();  // after every step: one may take seconds
     }
     outcome_ = {result_.status, world_.divergence(), sum(earlier_, world_.tallies())};
@@ -100,7 +102,7 @@ class Job {
       options_->report(done / total, note);
     }
     // Not at the last step: what comes after it belongs to the checkpoint of the finished run.
-    const bool more = world_.state().step < steps_;
+    const bool more = !over_ && world_.state().step < steps_;
     if (more && save_watch_.due(options_->checkpoint_seconds)) save(false);
   }
 
@@ -112,6 +114,7 @@ class Job {
     c.divergence = outcome_.divergence;
     c.files = files_->flush();
     c.tallies = sum(earlier_, world_.tallies());
+    if (scenario_->end.quiet_time > 0) c.last_event = last_event_;
     c.record = record_.to_text();
     c.state = world_.state();
     directory_->save(c);
@@ -144,8 +147,9 @@ class Job {
   World world_;
   AssemblyRecord record_;
   std::unique_ptr<RunFiles> files_;
-  std::int64_t steps_ = 0, first_step_ = 0;
-  Tallies earlier_;  // of the calls before this one
+  std::int64_t steps_ = 0, first_step_ = 0, last_event_ = 0;
+  bool over_ = false;  // a condition of Scenario::end holds
+  Tallies earlier_;    // of the calls before this one
   Outcome outcome_;
   RunResult result_;
   StopWatch watch_, report_watch_, save_watch_;

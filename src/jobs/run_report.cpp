@@ -59,6 +59,9 @@ ReportCard card_of(const Json& summary, const Model& model) {
       {"illegal assemblies", summary["illegal"].dump()},
       {"deepest overlap", significant(1000 * double(summary["deepest_overlap_m"]), 2) + " mm"},
       {"fingerprint", summary["fingerprint"]}};
+  if (summary.contains("ended")) {
+    card.facts.insert(card.facts.begin(), {"ended", std::string(summary["ended"])});
+  }
   if (!summary["completion_times_s"].empty()) {
     card.facts.insert(card.facts.begin(),
                       {"completed at", seconds_list(summary["completion_times_s"])});

@@ -139,6 +139,7 @@ std::vector<std::string> Optimization::Source::inputs() const {
 
 void Optimization::Source::prepare() {
   const Scenario base = built({});
+  refuse_early_end(base, "a search leaves each run once all copies have been completed");
   plan.name = file.name, plan.scenarios = files_;
   plan.seed = file.seed, plan.fitness = file.fitness;
   plan.horizon = base.duration;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "io/scenario_layers.hpp"
+#include "jobs/early_end.hpp"
 #include "study/axes.hpp"
 #include "study/study_file.hpp"
 #include "study/study_inputs.hpp"
@@ -227,6 +228,7 @@ struct Study::Source {
       out.values.push_back(parse_number(out.texts.back()).value_or(choice.position));
     }
     if (out.label.empty()) out.label = plan.name;
+    refuse_early_end(scenario, "a study leaves completed runs with until = \"settled\"");
     check_stop(scenario.model, out.label);
     try {
       initial_state(scenario.model, plan.seed_of(0));  // do the bodies fit?
