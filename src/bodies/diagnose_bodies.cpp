@@ -56,6 +56,25 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
   return hash.value();
 }
 
+// The reported laws with a rotation of any rate instead of the law that turns velocities; nothing
+// where none does, or the rotation has no fit.
+std::optional<LawTrial> with_free_rotation(const Comparison& c) {
+  Candidate freed;
+  bool turns = false;
+  for (const Law* law : c.reported->candidate.laws) {
+    if (law->variable == "turn")
+      turns = true;
+    else
+      freed.laws.push_back(law);
+  }
+  if (!turns) return std::nullopt;
+  const LawTrial* from = freed.laws.empty() ? &c.baseline : c.single_of(freed.laws.front());
+  freed.laws.push_back(find_law("rotation"));
+  if (from == nullptr) return std::nullopt;
+  LawTrial out = fit_candidate(c.groups, c.baseline, *from, freed);
+  return out.failure.empty() ? std::optional(std::move(out)) : std::nullopt;
+}
+
 // Fits laws one after the other.
 class Trials {
  public:
@@ -150,9 +169,10 @@ Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& optio
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);
   Trials(e, options, c).run();
-  c.repeats = repeats_of(e, c.groups, c.best());
-  c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, c.best()));
-  c.far_after = far_errors(c.groups, c.best());
+  c.select();
+  c.rotation = with_free_rotation(c);
+  c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, *c.reported));
+  c.far_after = far_errors(c.groups, *c.reported);
   return diagnosis_of(c);
 }
 

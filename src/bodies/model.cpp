@@ -147,13 +147,17 @@ Term term_of(const Law& law, const Typical& typical, const std::vector<double>& 
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Kind kind = t.parameters[i].kind;
     t.fitted[i] = kind != Kind::fixed;
-    if (kind == Kind::place) t.scale[i] = std::max(1e-9, typical.high - typical.low);
+    const double scale = t.parameters[i].scale;
+    if (kind == Kind::place) {
+      t.scale[i] = std::isnan(scale) ? std::max(1e-9, typical.high - typical.low) : scale;
+    }
     if (kind != Kind::amplitude) continue;
     const double unit = unit_size(t, i, runs, typical.dimensions);
     t.scale[i] = unit > 0 ? push / unit : 1;
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (t.parameters[i].kind == Kind::amplitude) t.value[i] = size * t.scale[i];
+    if (t.parameters[i].kind == Kind::amplitude && std::isnan(start[i]))
+      t.value[i] = size * t.scale[i];
   }
   return t;
 }
@@ -214,6 +218,8 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
   t.fastest = speeds.empty() ? 1 : std::max(1e-12, speeds[speeds.size() * 99 / 100]);
   if (!gaps.empty()) t.nearest = gaps.front(), t.middle = gaps[gaps.size() / 2];
   t.centre[0] = t.centre[1] = (t.low + t.high) / 2;
+  t.rate = strongest_rate(runs, e.dimensions);
+  t.mass = runs.front()->mass.front();
   return t;
 }
 

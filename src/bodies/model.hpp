@@ -62,6 +62,10 @@ void accelerate(const BodyModel& model, const Scene& scene, double* out);
 Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
              const std::vector<const BodyRun*>& runs, double push, double size = 1e-3);
 
+/// Rate (rad/s) of the strongest line in the spectrum of the velocities, all bodies together; in
+/// two dimensions positive where velocities turn clockwise. 0 where there are none.
+double strongest_rate(const std::vector<const BodyRun*>& runs, int dimensions);
+
 /// Sizes that occur in some runs.
 Typical typical_of(const BodyExperiment& experiment, const std::vector<const BodyRun*>& runs);
 

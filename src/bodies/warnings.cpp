@@ -13,13 +13,13 @@ namespace {
 void warn_of_pushes(const Comparison& c, Diagnosis& d) {
   double left = 0, had = 0;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    left += std::pow(c.best().fits[i].model.push, 2),
+    left += std::pow(c.reported->fits[i].model.push, 2),
         had += std::pow(c.baseline.fits[i].model.push, 2);
   }
   const auto n = static_cast<double>(c.groups.size());
   double far = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_after.size(); ++i) {
-    far += c.far_after[i], floor += std::pow(c.best().fits[i].model.noise, 2);
+    far += c.far_after[i], floor += std::pow(c.reported->fits[i].model.noise, 2);
   }
   if (far < 5 * floor) return;
   d.warnings.push_back(
@@ -31,7 +31,7 @@ void warn_of_pushes(const Comparison& c, Diagnosis& d) {
 }
 
 void warn_of_coefficients(const Comparison& c, Diagnosis& d) {
-  const LawTrial& best = c.best();
+  const LawTrial& best = *c.reported;
   if (c.repeats.z() > 3) {
     d.warnings.push_back("runs of the same bodies disagree in the coefficients of " +
                          std::string(best.candidate.laws.back()->name) + " by " +
@@ -72,7 +72,7 @@ void warn_of_worse(Diagnosis& d) {
 void warn_of_noise(const Comparison& c, Diagnosis& d) {
   std::string of;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const BodyModel &without = c.baseline.fits[i].model, &with = c.best().fits[i].model;
+    const BodyModel &without = c.baseline.fits[i].model, &with = c.reported->fits[i].model;
     if (!without.noise_fitted || with.noise > without.noise / 2) continue;
     const std::string& unit = c.experiment->unit;
     of += (of.empty() ? "" : "; ") + (c.groups[i].name.empty() ? "" : c.groups[i].name + ": ") +
