@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bodies/checks.hpp"
 #include "bodies/verdict.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/state.hpp"
@@ -104,18 +105,17 @@ class Trials {
     if (laws.empty()) {
       throw InputError("the baseline has every law that these recordings can have");
     }
-    for (const Candidate& law : laws) {
+    double done = 0;
+    const auto before = [&](const std::string& name) {
       options_.check_stop();
-      options_.report(
-          0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
-          law.name());
-      keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
-    }
+      const double share = std::min(1.0, done++ / static_cast<double>(laws.size()));
+      options_.report(0.05 + 0.25 * share, name);
+    };
+    c_.singles = fit_singles(c_.groups, c_.baseline, laws, before, c_.failures);
     if (c_.singles.empty()) {
       throw InputError("experiment " + experiment_.name +
                        ": no law can be evaluated: " + c_.failures.front());
     }
-    largest_first(c_.singles, &LawTrial::gain);
   }
 
   void pairs() {
@@ -165,6 +165,11 @@ Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& optio
   const auto lock = claim_directory(options.out, options.force,
                                     {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
   if (options.lock != nullptr) *options.lock = lock;
+  if (std::vector<DiagnosisFinding> faults = recording_faults(e); !faults.empty()) {
+    Diagnosis d = described(e);
+    d.verdict = Verdict::measurement, d.findings = std::move(faults);
+    return d;
+  }
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);

@@ -186,8 +186,8 @@ StateEstimate first_estimate(const BodyModel& model, const Typical& typical, con
     // A body with a single sample has no velocity.
     const bool moves = b < run.samples() && !std::isnan(u - x);
     out.z[n + i] = moves ? (u - x) / (run.time[b] - run.time[a]) : 0;
-    const double dt = run.time[to] - run.time[0];
-    out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * model.noise * model.noise;
+    const double dt = run.time[to] - run.time[0], noise = model.noise_of(i % typical.dimensions);
+    out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * noise * noise;
     out.P(n + i, n + i) = typical.speed * typical.speed;
     out.P(2 * n + i, 2 * n + i) = model.push * model.push;
     if (model.bias > 0) out.P(3 * n + i, 3 * n + i) = model.bias * model.bias;
@@ -261,7 +261,8 @@ class Filter {
         run_->position[k * static_cast<std::size_t>(n_) + static_cast<std::size_t>(i)];
     if (std::isnan(seen)) return;
     const Vector column = now_.P.col(i);
-    const double S = std::max(now_.P(i, i), 0.0) + model_->noise * model_->noise;
+    const double noise = model_->noise_of(i % typical_->dimensions);
+    const double S = std::max(now_.P(i, i), 0.0) + noise * noise;
     const double nu = seen - now_.z[i];
     if (!std::isfinite(nu) || !std::isfinite(S)) {  // the law has run away: as bad as can be
       now_ = first_estimate(*model_, *typical_, *run_, n_);
@@ -360,7 +361,7 @@ BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun&
     if (k > 0) mover.advance(k - 1, z, part);
     for (int i = 0; i < n; ++i) {
       double& x = out.position[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)];
-      if (!std::isnan(x)) x = z[i] + model.noise * draw(k, i, 1000)[0];
+      if (!std::isnan(x)) x = z[i] + model.noise_of(i % typical.dimensions) * draw(k, i, 1000)[0];
     }
   }
   return out;

@@ -10,18 +10,43 @@ namespace {
 struct OwnNumber {
   double BodyModel::*of;
   double least, most;
+  const char *name, *unit;
 };
 
 std::vector<OwnNumber> own_of(const BodyModel& m) {
   std::vector<OwnNumber> out;
-  if (m.noise_fitted) out.push_back({&BodyModel::noise, m.least_noise, 1e300});
-  out.push_back({&BodyModel::push, m.least_push, m.most_push});
-  out.push_back({&BodyModel::memory, m.least_memory, m.most_memory});
-  if (m.bias > 0) out.push_back({&BodyModel::bias, m.least_push, m.most_push});
+  const bool axes = m.noise_y > 0;
+  if (m.noise_fitted) {
+    out.push_back({&BodyModel::noise, m.least_noise, 1e300,
+                   axes ? "tracking noise of x" : "tracking noise", "m"});
+  }
+  if (m.noise_fitted && axes) {
+    out.push_back({&BodyModel::noise_y, m.least_noise, 1e300, "tracking noise of y", "m"});
+  }
+  out.push_back({&BodyModel::push, m.least_push, m.most_push, "process noise", "m/s^2"});
+  out.push_back({&BodyModel::memory, m.least_memory, m.most_memory,
+                 "correlation time of process noise", "s"});
+  if (m.bias > 0) {
+    out.push_back({&BodyModel::bias, m.least_push, m.most_push, "bias of a run", "m/s^2"});
+  }
   return out;
 }
 
 }  // namespace
+
+void BodyModel::scale_noise(double by) {
+  if (!noise_fitted) return;
+  noise = std::max(by * noise, least_noise);
+  if (noise_y > 0) noise_y = std::max(by * noise_y, least_noise);
+}
+
+std::vector<OwnValue> own_values(const BodyModel& model) {
+  std::vector<OwnValue> out;
+  for (const OwnNumber& own : own_of(model)) {
+    out.push_back({own.name, own.unit, model.*own.of, own.least, own.most});
+  }
+  return out;
+}
 
 std::size_t own_numbers(const BodyModel& model) {
   return own_of(model).size();

@@ -57,17 +57,41 @@ FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted
   return out;
 }
 
+// The distribution of each parameter over many bodies instead of a line for each.
+void add_distributions(const std::vector<FoundParameter>& all, DiagnosisFinding& f) {
+  std::map<std::string, std::vector<FoundParameter>> by_path;
+  for (const FoundParameter& p : all) by_path[p.path].push_back(p);
+  for (auto& [path, of] : by_path) {
+    std::sort(of.begin(), of.end(), [](auto& a, auto& b) { return a.value < b.value; });
+    const std::size_t n = of.size();
+    const auto add = [&](const std::string& what, FoundParameter p) {
+      p.name = path.substr(path.find('.') + 1) + ", " + what;
+      f.parameters.push_back(std::move(p));
+    };
+    FoundParameter middle = of[n / 2];
+    middle.low = of[n / 40].value, middle.high = of[n - 1 - n / 40].value;
+    add("median of " + std::to_string(n) + " bodies, 2.5 % to 97.5 % of them", middle);
+    add("smallest: " + of.front().name, of.front()), add("largest: " + of.back().name, of.back());
+  }
+}
+
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
+  constexpr std::size_t kLines = 12;  // bodies that have a line each
+  std::vector<FoundParameter> all;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
     const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
     const Term& t = fit.model.terms[k];
     for (std::size_t p = 0; p < t.value.size(); ++p) {
       if (t.fitted[p] || c.groups.size() == 1) {
-        f.parameters.push_back(parameter_of(c, i, fit, {k, p}));
+        all.push_back(parameter_of(c, i, fit, {k, p}));
       }
     }
   }
+  if (c.groups.size() > kLines)
+    add_distributions(all, f);
+  else
+    f.parameters.insert(f.parameters.end(), all.begin(), all.end());
 }
 
 // f over all samples; 0 where it is not known.
@@ -191,7 +215,7 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
 void add_fit(const Comparison& c, Diagnosis& d) {
   double before = 0, after = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_before.size(); ++i) {
-    const double noise = std::pow(c.reported->fits[i].model.noise, 2);
+    const double noise = c.reported->fits[i].model.squared_noise();
     const std::string name = c.groups[i].name.empty() ? "all bodies" : c.groups[i].name;
     d.held_out.push_back({name, c.far_before[i] / noise, c.far_after[i] / noise});
     const auto n = static_cast<double>(c.far_before.size());
@@ -202,9 +226,40 @@ void add_fit(const Comparison& c, Diagnosis& d) {
   d.msd_low = d.msd_high = d.msd_removed;
 }
 
-void add_moved(const Comparison& c, Diagnosis& d) {
+// Tracking and process noise, rms over the groups; with their interval where there is one group.
+void add_noise(const Comparison& c, const LawTrial& with, Diagnosis& d) {
+  const auto n = static_cast<double>(c.groups.size());
+  std::vector<OwnValue> squares[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (const Fitted& f : (side == 0 ? c.baseline : with).fits) {
+      std::vector<OwnValue> own = own_values(f.model);
+      if (squares[side].empty()) {
+        squares[side] = own;
+        for (OwnValue& v : squares[side]) v.value = 0;
+      }
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        squares[side][k].value += own[k].value * own[k].value / n;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < squares[0].size(); ++k) {
+    const double value = std::sqrt(squares[1][k].value);
+    MovedParameter& p = d.parameters.emplace_back();
+    p.path = squares[0][k].name, p.unit = unit_for(*c.experiment, squares[0][k].unit);
+    p.baseline = std::sqrt(squares[0][k].value), p.with_effects = value;
+    if (c.groups.size() > 1) continue;
+    p.deviation = p.baseline * c.baseline.fits[0].deviation[k];
+    const double half = normal_half_width() * with.fits[0].deviation[k];
+    const OwnValue& own = squares[1][k];
+    p.low = std::max(value * std::exp(-half), own.least);
+    p.high = std::min(value * std::exp(half), own.most);
+  }
+}
+
+// Fitted parameters of the baseline, alone and in `with`.
+void add_moved(const Comparison& c, const LawTrial& with, Diagnosis& d) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const Fitted &a = c.baseline.fits[i], &b = c.reported->fits[i];
+    const Fitted &a = c.baseline.fits[i], &b = with.fits[i];
     for (const TermParameter& of : fitted_parameters(a.model)) {
       const Term& t = a.model.terms[of.term];
       const double value = t.value[of.parameter];
@@ -216,6 +271,7 @@ void add_moved(const Comparison& c, Diagnosis& d) {
                               now.value, now.low, now.high});
     }
   }
+  add_noise(c, with, d);
 }
 
 // An amplitude that gains what chance does not: half a square of deviations, less its own cost.
@@ -247,25 +303,32 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis diagnosis_of(const Comparison& c) {
+Diagnosis described(const BodyExperiment& e) {
   Diagnosis d;
-  d.name = c.experiment->name, d.subject = &kPointBodies;
-  d.recordings = static_cast<int>(c.experiment->runs.size());
-  d.checks = c.experiment->left_out;
-  for (const BodyRun& r : c.experiment->runs) {
+  d.name = e.name, d.subject = &kPointBodies;
+  d.recordings = static_cast<int>(e.runs.size());
+  d.checks = e.left_out;
+  for (const BodyRun& r : e.runs) {
     d.modules = std::max(d.modules, static_cast<int>(r.bodies.size()));
     d.seconds += r.time.back();
   }
+  return d;
+}
+
+Diagnosis diagnosis_of(const Comparison& c) {
+  Diagnosis d = described(*c.experiment);
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
   const LawTrial& best = *c.reported;
   for (const std::string& failure : c.failures) d.warnings.push_back("not evaluated: " + failure);
   add_ranking(c, d);
   add_detectable(c, d);
-  add_moved(c, d);
   d.maps = maps_of(c);
-  if (!(best.gain > c.threshold())) {
+  const bool found = best.gain > c.threshold();
+  add_moved(c, found ? best : c.baseline, d);
+  if (!found) {
     d.verdict = Verdict::complete;
+    add_warnings(c, c.baseline, d);
     return d;
   }
   const Difference sure = difference(best.by_block, c.baseline.by_block);
@@ -275,7 +338,7 @@ Diagnosis diagnosis_of(const Comparison& c) {
   add_fit(c, d);
   // What is found must predict the motion itself, not only its next sample.
   if (d.msd_removed < 0 || d.removed() < 0) d.verdict = Verdict::undecided;
-  add_warnings(c, d);
+  add_warnings(c, best, d);
   return d;
 }
 

@@ -25,6 +25,8 @@ struct Comparison {
   double threshold() const;
   /// Probability of such a gain by chance: a share of the nulls, and beyond them by likelihood.
   double chance(double gain) const;
+  /// The laws that are to be reported, by the repeats so far.
+  const LawTrial& choice() const;
   /// Chooses the reported laws and compares the runs with them.
   void select();
   bool distinguished(const LawTrial& better, const LawTrial& worse) const;
@@ -38,12 +40,14 @@ struct Comparison {
  private:
   /// Whether the gains alone distinguish them.
   bool by_gain(const LawTrial& better, const LawTrial& worse) const;
-  const LawTrial& choice() const;
 };
 
-/// Adds warnings about the best outcome to a diagnosis that has its findings and its fit.
-void add_warnings(const Comparison& comparison, Diagnosis& diagnosis);
+/// Adds warnings about the model that a verdict is of: the reported laws, or the baseline where
+/// nothing was found. The diagnosis has its findings and its fit.
+void add_warnings(const Comparison& comparison, const LawTrial& model, Diagnosis& diagnosis);
 
+/// A diagnosis with the name, the bodies and the runs of an experiment, and nothing found.
+Diagnosis described(const BodyExperiment& experiment);
 Diagnosis diagnosis_of(const Comparison& comparison);
 
 }  // namespace lilytank::bodies

@@ -58,6 +58,42 @@ TEST(BodyVerdicts, twoNamedLawsLeadWhereTheyAreBetterThanAnUnnamedOne) {
   ASSERT_EQ(c.alternatives().size(), 1u);
 }
 
+// A null result keeps its warnings, and the noises are those of each axis.
+TEST(BodyVerdicts, aNegativeDragOfTheBaselineIsWarnedOfThoughNothingIsMissing) {
+  BodyExperiment e;
+  e.name = "driven", e.baseline = {{"linear_drag", 0, true, {}}};
+  const Acceleration force = [](const double*, const double* v, double* a) { a[0] = 0.7 * v[0]; };
+  for (std::uint64_t r = 0; r < 3; ++r) {
+    e.runs.push_back(run_of(force, {0}, {0.1 + 0.05 * double(r)}, 0.05, 60, 1e-3, 61 + r, 1));
+  }
+  const Diagnosis d = diagnosis_of(e);
+  EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
+  EXPECT_NE(diagnosis_text(d).find("linear_drag comes out negative (-0.7"), std::string::npos)
+      << diagnosis_text(d);
+}
+
+TEST(BodyVerdicts, theNoiseOfEachAxisIsReported) {
+  BodyExperiment e;
+  e.name = "axes", e.dimensions = 2;
+  const Acceleration none = [](const double*, const double*, double* a) { a[0] = a[1] = 0; };
+  for (std::uint64_t r = 0; r < 2; ++r) {
+    BodyRun run = run_of(none, {0, 0}, {1, 0.3}, 0.1, 100, 2e-3, 71 + r, 1);
+    for (std::size_t k = 0; k < run.samples(); ++k) {
+      double& y = run.position[2 * k + 1];
+      y += 24 * (y - 0.3 * run.time[k]);  // 5 cm
+    }
+    e.runs.push_back(std::move(run));
+  }
+  const Diagnosis d = diagnosis_of(e);
+  double x = 0, y = 0;
+  for (const MovedParameter& p : d.parameters) {
+    if (p.path == "tracking noise of x") x = p.with_effects;
+    if (p.path == "tracking noise of y") y = p.with_effects;
+  }
+  EXPECT_NEAR(x, 2e-3, 4e-4) << diagnosis_text(d);
+  EXPECT_NEAR(y, 5e-2, 1e-2) << diagnosis_text(d);
+}
+
 // Two radians a sample: a single step of Runge and Kutta would dissipate, as a drag does.
 TEST(BodyVerdicts, aSpringFastAgainstTheSamplesHasNoDrag) {
   BodyExperiment e;
