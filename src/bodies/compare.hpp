@@ -1,6 +1,8 @@
 // Candidate laws beside the baseline: how much better each predicts what it has not seen, and what
 // chance alone would give.
 #pragma once
+#include <functional>
+
 #include "bodies/fit.hpp"
 #include "study/kept_rows.hpp"
 
@@ -30,6 +32,10 @@ std::vector<Group> groups_of(const BodyExperiment& experiment);
 /// `failure` says so. Throws InputError where a law of it cannot be had.
 LawTrial fit_baseline(const BodyExperiment& experiment, std::vector<Group>& groups);
 
+/// Whether a fitted baseline has more than twice the noise of the tracker that it has with laws
+/// added: it attributes motion to noise.
+bool absorbs_motion(const BodyModel& baseline, const BodyModel& with_laws);
+
 /// The baseline where the tracker's noise is that of `best`, in groups whose own fit of the noise
 /// is more than twice that: it attributed motion to noise.
 LawTrial baseline_at_noise_of(const std::vector<Group>& groups, const LawTrial& baseline,
@@ -43,6 +49,14 @@ std::vector<Candidate> single_laws(const BodyExperiment& experiment,
 /// no start gives finite predictions, `failure` says so.
 LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
                        const LawTrial& from, const Candidate& candidate);
+
+/// All laws alone, best first; those without a fit are named in `failures`. Where the noise and the
+/// pushes of one of the best make the baseline better, all are fitted once more from it. `before`
+/// gets the name of each before its fit.
+std::vector<LawTrial> fit_singles(const std::vector<Group>& groups, LawTrial& baseline,
+                                  const std::vector<Candidate>& laws,
+                                  const std::function<void(const std::string&)>& before,
+                                  std::vector<std::string>& failures);
 
 /// Best gains of single laws in experiments that the fitted baseline makes up, sorted. Large
 /// recordings are cut: what chance gives hangs on the number of coefficients, not of samples. Kept
@@ -84,5 +98,8 @@ double acceleration_difference(const std::vector<Group>& groups, const LawTrial&
 /// Mean square of predictions over a quarter of a run from what the filter believed, per group
 /// (m^2).
 std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial& outcome);
+/// The same of runs that the outcome's models simulate, the largest of nine simulations: what
+/// process noise explains.
+std::vector<double> largest_far_errors(const std::vector<Group>& groups, const LawTrial& outcome);
 
 }  // namespace lilytank::bodies

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bodies/checks.hpp"
 #include "bodies/verdict.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/state.hpp"
@@ -56,6 +57,25 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
   return hash.value();
 }
 
+// The reported laws with a rotation of any rate instead of the law that turns velocities; nothing
+// where none does, or the rotation has no fit.
+std::optional<LawTrial> with_free_rotation(const Comparison& c) {
+  Candidate freed;
+  bool turns = false;
+  for (const Law* law : c.reported->candidate.laws) {
+    if (law->variable == "turn")
+      turns = true;
+    else
+      freed.laws.push_back(law);
+  }
+  if (!turns) return std::nullopt;
+  const LawTrial* from = freed.laws.empty() ? &c.baseline : c.single_of(freed.laws.front());
+  freed.laws.push_back(find_law("rotation"));
+  if (from == nullptr) return std::nullopt;
+  LawTrial out = fit_candidate(c.groups, c.baseline, *from, freed);
+  return out.failure.empty() ? std::optional(std::move(out)) : std::nullopt;
+}
+
 // Fits laws one after the other.
 class Trials {
  public:
@@ -85,18 +105,17 @@ class Trials {
     if (laws.empty()) {
       throw InputError("the baseline has every law that these recordings can have");
     }
-    for (const Candidate& law : laws) {
+    double done = 0;
+    const auto before = [&](const std::string& name) {
       options_.check_stop();
-      options_.report(
-          0.05 + 0.25 * static_cast<double>(c_.singles.size()) / static_cast<double>(laws.size()),
-          law.name());
-      keep(fit_candidate(c_.groups, c_.baseline, c_.baseline, law), c_.singles);
-    }
+      const double share = std::min(1.0, done++ / static_cast<double>(laws.size()));
+      options_.report(0.05 + 0.25 * share, name);
+    };
+    c_.singles = fit_singles(c_.groups, c_.baseline, laws, before, c_.failures);
     if (c_.singles.empty()) {
       throw InputError("experiment " + experiment_.name +
                        ": no law can be evaluated: " + c_.failures.front());
     }
-    largest_first(c_.singles, &LawTrial::gain);
   }
 
   void pairs() {
@@ -146,13 +165,19 @@ Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& optio
   const auto lock = claim_directory(options.out, options.force,
                                     {"diagnosis", hex(identity_of(e, options)), diagnosis_files()});
   if (options.lock != nullptr) *options.lock = lock;
+  if (std::vector<DiagnosisFinding> faults = recording_faults(e); !faults.empty()) {
+    Diagnosis d = described(e);
+    d.verdict = Verdict::measurement, d.findings = std::move(faults);
+    return d;
+  }
   Comparison c;
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);
   Trials(e, options, c).run();
-  c.repeats = repeats_of(e, c.groups, c.best());
-  c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, c.best()));
-  c.far_after = far_errors(c.groups, c.best());
+  c.select();
+  c.rotation = with_free_rotation(c);
+  c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, *c.reported));
+  c.far_after = far_errors(c.groups, *c.reported);
   return diagnosis_of(c);
 }
 

@@ -43,34 +43,43 @@ class Mover {
  public:
   Mover(const BodyModel& model, const Typical& typical, const BodyRun& run)
       : model_(&model),
+        typical_(&typical),
         run_(&run),
         dimensions_(typical.dimensions),
         n_(static_cast<int>(run.bodies.size()) * typical.dimensions) {
-    for (const Term& t : model.terms) {
-      if (t.law->variable == "pair") pairs_ = true;
-      turning_ += t.law->turning_rate(t.value);
-    }
+    for (const Term& t : model.terms) pairs_ = pairs_ || t.law->variable == "pair";
   }
   int coordinates() const { return n_; }
 
-  // z: positions, velocities, pushes at sample k; moved to sample k + 1.
+  // Increments of a position and a velocity for derivatives over a time T.
+  std::pair<double, double> increments(double T) const {
+    return {1e-4 * std::max(1e-12, std::min(typical_->speed * T, typical_->high - typical_->low)),
+            1e-4 * typical_->speed};
+  }
+
+  // z: positions, velocities, pushes at sample k; moved to sample k + 1 by calls of `part(time,
+  // h)`, which step z. NaN where the law's rate takes more parts than kMostParts: Runge and Kutta
+  // lose 0.02 % of a velocity that turns by kPart in a part, and are unstable beyond 2.8.
+  template <class Part>
+  void advance(std::size_t k, Vector& z, const Part& part) const {
+    constexpr double kPart = 0.5, kMostParts = 200;
+    const double end = run_->time[k + 1];
+    double t = run_->time[k];
+    for (int done = 0; t < end; ++done) {
+      const double parts = std::max(std::ceil(rate(k, t, end - t, z) * (end - t) / kPart),
+                                    done == 0 && pairs_ ? 2.0 : 1.0);
+      if (!(done + parts <= kMostParts)) {
+        z.setConstant(NAN);
+        return;
+      }
+      const double h = (end - t) / parts;
+      part(t, h);
+      t = parts > 1 ? t + h : end;
+    }
+  }
+
   void move(std::size_t k, Vector& z) const {
-    const double T = run_->time[k + 1] - run_->time[k];
-    const int parts = parts_of(T);
-    for (int i = 0; i < parts; ++i) step(k, run_->time[k] + T * i / parts, T / parts, z);
-  }
-
- private:
-  // Runge and Kutta lose 0.02 % of a velocity that turns by kTurn in a step, and are unstable
-  // beyond 2.8: fixes that are hours apart need several steps.
-  int parts_of(double T) const {
-    constexpr double kTurn = 0.5, kMostParts = 200;
-    const double turns = std::ceil(std::min(turning_ * T / kTurn, kMostParts));
-    return std::max(pairs_ ? 2 : 1, static_cast<int>(turns));
-  }
-
-  void slopes(std::size_t k, double time, const double* x, const double* v, double* a) const {
-    accelerate(*model_, scene_of(*run_, dimensions_, k, time, x, v), a);
+    advance(k, z, [&](double time, double h) { step(k, time, h, z); });
   }
 
   void step(std::size_t k, double time, double h, Vector& z) const {
@@ -100,6 +109,34 @@ class Mover {
     if (model_->restitution >= 0) collide(z);
   }
 
+ private:
+  // Fastest rate (1/s) at which the laws change velocities: bounds of the derivatives of
+  // accelerations by velocities, and of those by positions, whose square root is a frequency.
+  double rate(std::size_t k, double time, double T, const Vector& z) const {
+    if (model_->terms.empty()) return 0;
+    double x[kMost], v[kMost], a[kMost], moved[kMost], of_x[kMost] = {}, of_v[kMost] = {};
+    std::copy(z.data(), z.data() + n_, x), std::copy(z.data() + n_, z.data() + 2 * n_, v);
+    slopes(k, time, x, v, a);
+    const auto [dx, dv] = increments(T);
+    const auto derive = [&](double& at, double by, double* sum) {
+      const double before = at;
+      at += by;
+      slopes(k, time, x, v, moved);
+      at = before;
+      for (int j = 0; j < n_; ++j) sum[j] += std::fabs(moved[j] - a[j]) / by;
+    };
+    for (int i = 0; i < n_; ++i) derive(x[i], dx, of_x), derive(v[i], dv, of_v);
+    double out = 0, all = 0;
+    for (int j = 0; j < n_; ++j) {
+      out = std::max({out, of_v[j], std::sqrt(of_x[j])}), all += of_v[j] + of_x[j];
+    }
+    return std::isfinite(all) ? out : NAN;
+  }
+
+  void slopes(std::size_t k, double time, const double* x, const double* v, double* a) const {
+    accelerate(*model_, scene_of(*run_, dimensions_, k, time, x, v), a);
+  }
+
   // Bodies on a line that overlap and approach bounce.
   void collide(Vector& z) const {
     if (dimensions_ != 1) return;
@@ -118,10 +155,10 @@ class Mover {
   }
 
   const BodyModel* model_;
+  const Typical* typical_;
   const BodyRun* run_;
   int dimensions_, n_;
   bool pairs_ = false;
-  double turning_ = 0;  // rad/s
 };
 
 struct StateEstimate {
@@ -149,8 +186,8 @@ StateEstimate first_estimate(const BodyModel& model, const Typical& typical, con
     // A body with a single sample has no velocity.
     const bool moves = b < run.samples() && !std::isnan(u - x);
     out.z[n + i] = moves ? (u - x) / (run.time[b] - run.time[a]) : 0;
-    const double dt = run.time[to] - run.time[0];
-    out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * model.noise * model.noise;
+    const double dt = run.time[to] - run.time[0], noise = model.noise_of(i % typical.dimensions);
+    out.P(i, i) = std::pow(typical.speed * dt, 2) + 100 * noise * noise;
     out.P(n + i, n + i) = typical.speed * typical.speed;
     out.P(2 * n + i, 2 * n + i) = model.push * model.push;
     if (model.bias > 0) out.P(3 * n + i, 3 * n + i) = model.bias * model.bias;
@@ -180,17 +217,19 @@ class Filter {
 
  private:
   void advance(std::size_t k) {
-    const double T = run_->time[k + 1] - run_->time[k];
+    mover_.advance(k, now_.z, [&](double time, double h) { part(k, time, h); });
+  }
+
+  // One step of the mean and of the covariance.
+  void part(std::size_t k, double time, double T) {
     const Vector before = now_.z;
-    mover_.move(k, now_.z);
-    const double dx = 1e-4 * std::max(1e-12, std::min(typical_->speed * T,
-                                                      typical_->high - typical_->low)),
-                 dv = 1e-4 * typical_->speed;
+    mover_.step(k, time, T, now_.z);
+    const auto [dx, dv] = mover_.increments(T);
     for (int i = 0; i < 2 * n_; ++i) {
       const double d = i < n_ ? dx : dv;
       Vector moved = before;
       moved[i] += d;
-      mover_.move(k, moved);
+      mover_.step(k, time, T, moved);
       F_.col(i).head(2 * n_) = (moved.head(2 * n_) - now_.z.head(2 * n_)) / d;
     }
     const double b = 1 / model_->memory, e = std::exp(-b * T), u = b * T;
@@ -222,7 +261,8 @@ class Filter {
         run_->position[k * static_cast<std::size_t>(n_) + static_cast<std::size_t>(i)];
     if (std::isnan(seen)) return;
     const Vector column = now_.P.col(i);
-    const double S = std::max(now_.P(i, i), 0.0) + model_->noise * model_->noise;
+    const double noise = model_->noise_of(i % typical_->dimensions);
+    const double S = std::max(now_.P(i, i), 0.0) + noise * noise;
     const double nu = seen - now_.z[i];
     if (!std::isfinite(nu) || !std::isfinite(S)) {  // the law has run away: as bad as can be
       now_ = first_estimate(*model_, *typical_, *run_, n_);
@@ -279,8 +319,24 @@ std::vector<double> predicted(const BodyModel& model, const Typical& typical, co
   return {z.data(), z.data() + n};
 }
 
+namespace {
+
+// A root of the covariance of position, velocity and push.
+Eigen::Matrix3d root_of(const Gathered& g) {
+  Eigen::Matrix3d C;
+  C << g.xx, g.xv, g.xa, g.xv, g.vv, g.va, g.xa, g.va, g.aa;
+  // Scaled to a unit diagonal: powers of T would spoil the test for positive definiteness.
+  const Eigen::Vector3d size = C.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::Matrix3d R = size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal();
+  const Eigen::Matrix3d L = (R + 1e-10 * Eigen::Matrix3d::Identity()).llt().matrixL();
+  return size.asDiagonal() * L;
+}
+
+}  // namespace
+
 BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun& run,
                   std::uint64_t seed, std::uint32_t number) {
+  constexpr std::uint32_t kPart = 4096;  // numbers of a part's draws; the first has 0 to 2100
   const Mover mover(model, typical, run);
   const int n = mover.coordinates();
   BodyRun out = run;
@@ -291,26 +347,21 @@ BodyRun simulated(const BodyModel& model, const Typical& typical, const BodyRun&
   };
   for (int i = 0; i < n; ++i) z[2 * n + i] = model.push * draw(0, i, 2000)[0];
   for (std::size_t k = 0; k < run.samples(); ++k) {
-    if (k > 0) {
-      const double T = run.time[k] - run.time[k - 1];
-      mover.move(k - 1, z);
-      const Gathered g = gathered(model.push, 1 / model.memory, T);
-      Eigen::Matrix3d C;
-      C << g.xx, g.xv, g.xa, g.xv, g.vv, g.va, g.xa, g.va, g.aa;
-      // Scaled to a unit diagonal: powers of T would spoil the test for positive definiteness.
-      const Eigen::Vector3d size = C.diagonal().cwiseMax(1e-300).cwiseSqrt();
-      const Eigen::Matrix3d R =
-          size.cwiseInverse().asDiagonal() * C * size.cwiseInverse().asDiagonal();
-      const Eigen::Matrix3d L = (R + 1e-10 * Eigen::Matrix3d::Identity()).llt().matrixL();
+    std::uint32_t parts = 0;
+    const auto part = [&](double time, double h) {
+      mover.step(k - 1, time, h, z);
+      const Eigen::Matrix3d root = root_of(gathered(model.push, 1 / model.memory, h));
       for (int i = 0; i < n; ++i) {
-        const auto a = draw(k, i, 0), b = draw(k, i, 1);
-        const Eigen::Vector3d w = size.asDiagonal() * (L * Eigen::Vector3d(a[0], a[1], b[0]));
+        const auto a = draw(k, i, kPart * parts), b = draw(k, i, kPart * parts + 1);
+        const Eigen::Vector3d w = root * Eigen::Vector3d(a[0], a[1], b[0]);
         z[i] += w[0], z[n + i] += w[1], z[2 * n + i] += w[2];
       }
-    }
+      ++parts;
+    };
+    if (k > 0) mover.advance(k - 1, z, part);
     for (int i = 0; i < n; ++i) {
       double& x = out.position[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)];
-      if (!std::isnan(x)) x = z[i] + model.noise * draw(k, i, 1000)[0];
+      if (!std::isnan(x)) x = z[i] + model.noise_of(i % typical.dimensions) * draw(k, i, 1000)[0];
     }
   }
   return out;

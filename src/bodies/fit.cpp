@@ -14,6 +14,7 @@ constexpr double kImpossible = -1e300;  // log-likelihood where predictions are 
 constexpr double kLoose = 3.0;  // deviation of the weak prior on logarithms of noise and pushes
 constexpr double kCurve = 3.0;  // of knots, in sizes of the pushes that the baseline needs
 constexpr double kWide = 100;   // of other amplitudes
+constexpr double kRange = 1.5;  // of logarithms of exponents and ranges, about their start
 
 BodyResiduals innovations(const Group& g, const BodyModel& m) {
   BodyResiduals out;
@@ -35,9 +36,11 @@ class Hill {
     numbers_.assign(own_numbers(model), {kLoose, false, true});
     for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].centre = group.penalty_at[i];
     for (const auto& [k, i] : fitted_parameters(model)) {
-      const Kind kind = model.terms[k].parameters[i].kind;
-      numbers_.push_back({model.terms[k].law->curve ? kCurve : kWide, kind != Kind::amplitude,
-                          kind == Kind::positive});
+      const LawParameter& p = model.terms[k].parameters[i];
+      if (p.kind == Kind::positive)
+        numbers_.push_back({kRange, false, true, std::log(p.start)});
+      else
+        numbers_.push_back({model.terms[k].law->curve ? kCurve : kWide, p.kind == Kind::place});
     }
   }
 
@@ -129,12 +132,12 @@ class Hill {
   }
 
  private:
-  // Weak priors: noise and pushes about their size, amplitudes about 0; they determine knots
-  // without samples.
+  // Weak priors: noise, pushes, exponents and ranges about their size, amplitudes about 0. They
+  // determine knots without samples, and bound what the recordings do not determine.
   struct Number {
     double deviation;
     bool free;  // without a prior
-    bool logarithm;
+    bool logarithm = false;
     double centre = 0;
   };
   const Group* group_;
@@ -289,14 +292,16 @@ Group make_group(const BodyExperiment& e, const std::string& name,
 
 BodyModel first_model(const BodyExperiment& e, const Group& g) {
   BodyModel m;
-  std::vector<double> bends;
+  std::vector<double> bends, of_axis[2];
   for (const BodyRun* run : g.runs) {
     const std::size_t row = run->coordinates();
     for (std::size_t k = 2; k < run->samples(); ++k) {
       for (std::size_t i = 0; i < row; ++i) {
         const double bend = run->position[k * row + i] - 2 * run->position[(k - 1) * row + i] +
                             run->position[(k - 2) * row + i];
-        if (std::isfinite(bend)) bends.push_back(std::fabs(bend));
+        if (!std::isfinite(bend)) continue;
+        bends.push_back(std::fabs(bend));
+        of_axis[i % static_cast<std::size_t>(e.dimensions)].push_back(std::fabs(bend));
       }
     }
   }
@@ -304,6 +309,10 @@ BodyModel first_model(const BodyExperiment& e, const Group& g) {
   const double bend = std::max(middle(bends), 1e-6 * size);
   m.noise_fitted = e.noise <= 0;
   m.noise = m.noise_fitted ? bend / 3 : e.noise;
+  if (m.noise_fitted && e.dimensions == 2) {
+    m.noise = std::max(middle(of_axis[0]), 1e-6 * size) / 3;
+    m.noise_y = std::max(middle(of_axis[1]), 1e-6 * size) / 3;
+  }
   m.least_noise = 1e-6 * size;
   m.push = std::max(bend / (dt * dt) / 3, 0.1 * g.typical.speed / g.typical.duration);
   m.least_push = 1e-7 * m.push, m.usual_push = m.push, m.most_push = 1e4 * m.push;

@@ -2,6 +2,7 @@
 // integrated and fitted.
 #pragma once
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct Typical {
   double centre[2] = {0, 0};
   double nearest = 1, middle = 1;  ///< gap: smallest, median
   double duration = 1;
+  double rate = 0;     ///< rad/s, of the strongest line in the velocities' spectrum; 2-D: clockwise
+  double mass = 1;     ///< kg, of the first body
   double turning = 0;  ///< a known constant f, 1/s
   int latitude = -1;
 };
@@ -42,8 +45,9 @@ enum class Kind {
 struct LawParameter {
   std::string name, unit;  ///< in units of "m" for a position and "N" for a force
   Kind kind = Kind::amplitude;
-  double start = 1;    ///< where a fit starts; amplitudes are scaled by who fits
+  double start = NAN;  ///< where a fit starts; NaN of amplitudes: scaled by who fits
   double other = NAN;  ///< a second start, with the others at theirs; NaN: none
+  double scale = NAN;  ///< of a place's number; NaN: the range of the positions
 };
 
 /// Constant and without data, as the simulator's force terms are.
@@ -60,9 +64,6 @@ struct Law {
   void (*add)(const Scene& s, std::span<const double> p, double* force);
   /// Whether the recordings can have it at all.
   bool (*possible)(const Typical& t) = [](const Typical&) { return true; };
-  /// Fastest rate (rad/s) at which velocities turn with these numbers; 0 for laws that do not turn
-  /// them. Samples far apart are integrated in steps that follow it.
-  double (*turning_rate)(std::span<const double> p) = [](std::span<const double>) { return 0.0; };
 
   /// Values of the parameters from which fits start: one set, or two.
   std::vector<std::vector<double>> starts(const Typical& t) const;
@@ -81,6 +82,8 @@ VariableRange range_of(std::string_view variable, const Typical& t);
 /// Its unit; `unit`: of a position.
 std::string unit_of(std::string_view variable, const std::string& unit);
 
+/// Of the principal lunar tide (M2), rad/s.
+inline constexpr double kTideRate = 2 * std::numbers::pi / (12.4206 * 3600);
 /// Radians per second at which free motion turns clockwise at a latitude in degrees.
 double inertial_turning(double latitude);
 

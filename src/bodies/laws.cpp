@@ -11,7 +11,7 @@ namespace {
 using Values = std::span<const double>;
 using Parameters = std::vector<LawParameter>;
 
-constexpr double kTide = 12.4206 * 3600;  // s, the principal lunar tide (M2)
+constexpr double kTide = 2 * std::numbers::pi / kTideRate;  // s
 constexpr std::size_t kCurveKnots = 5;
 
 bool never(const Typical&) {
@@ -103,7 +103,7 @@ Parameters of_drivers(const Typical& t) {
     const bool known = i == t.latitude;
     for (int d = 0; d < t.dimensions; ++d) {
       out.push_back({"a" + std::to_string(i + 1) + (d == 0 ? "x" : "y"), "N",
-                     known ? Kind::fixed : Kind::amplitude, known ? 0.0 : 1.0});
+                     known ? Kind::fixed : Kind::amplitude, known ? 0.0 : NAN});
     }
   }
   return out;
@@ -231,7 +231,12 @@ constexpr Law kLaws[] = {
      .equation = "F = -k (x - x0)",
      .variable = "position",
      .split = kFarther,
-     .parameters = [](const Typical& t) { return towards(t, "N/m"); },
+     .parameters =
+         [](const Typical& t) {
+           Parameters out = towards(t, "N/m");
+           out[0].other = t.mass * t.rate * t.rate;
+           return out;
+         },
      .add = towards_place<[](double u) { return u; }>},
     {.name = "cubic_spring",
      .equation = "F = -k (x - x0)^3",
@@ -286,29 +291,27 @@ constexpr Law kLaws[] = {
              .possible =
                  [](const Typical& t) {
                    return t.dimensions == 2 && (t.latitude >= 0 || t.turning != 0);
-                 },
-             .turning_rate =
-                 [](Values p) { return p[1] >= 0 ? inertial_turning(90) : std::fabs(p[0]); }}),
+                 }}),
     // It fits whatever turns; the laws beside it say why.
-    turning({.name = "rotation",
-             .equation = "F = m w (v_y, -v_x), w free",
-             .curve = true,
-             .parameters = [](const Typical&) -> Parameters {
-               return {{"rate", "rad/s"}};
-             },
-             .add = turn<[](const Scene&, Values p) { return p[0]; }>,
-             .possible = in_a_plane,
-             .turning_rate = [](Values p) { return std::fabs(p[0]); }}),
+    turning(
+        {.name = "rotation",
+         .equation = "F = m w (v_y, -v_x), w free; w > 0: clockwise",
+         .curve = true,
+         .parameters = [](const Typical& t) -> Parameters {
+           return {{"rate", "rad/s", Kind::place, t.rate, 0, std::max(1e-300, std::fabs(t.rate))}};
+         },
+         .add = turn<[](const Scene&, Values p) { return p[0]; }>,
+         .possible = in_a_plane}),
     // A tide's current that is set anew all the time: what it leaves turns once a period.
     turning(
         {.name = "tide",
-         .equation = "velocities turn once in 12.4206 h (M2)",
+         .equation =
+             "velocities turn once in 12.4206 h (M2); sense 1: clockwise, -1: anticlockwise",
          .parameters = [](const Typical&) -> Parameters {
-           return {{"period", "s", Kind::fixed, kTide}};
+           return {{"period", "s", Kind::fixed, kTide}, {"sense", "1", Kind::fixed, 1, -1}};
          },
-         .add = turn<[](const Scene&, Values p) { return 2 * std::numbers::pi / p[0]; }>,
-         .possible = [](const Typical& t) { return t.dimensions == 2 && t.duration > 2 * kTide; },
-         .turning_rate = [](Values p) { return 2 * std::numbers::pi / std::fabs(p[0]); }}),
+         .add = turn<[](const Scene&, Values p) { return p[1] * 2 * std::numbers::pi / p[0]; }>,
+         .possible = [](const Typical& t) { return t.dimensions == 2 && t.duration > 2 * kTide; }}),
     {.name = "driver_force",
      .equation = "F = sum of a_i driver_i",
      .variable = "driver",

@@ -10,18 +10,43 @@ namespace {
 struct OwnNumber {
   double BodyModel::*of;
   double least, most;
+  const char *name, *unit;
 };
 
 std::vector<OwnNumber> own_of(const BodyModel& m) {
   std::vector<OwnNumber> out;
-  if (m.noise_fitted) out.push_back({&BodyModel::noise, m.least_noise, 1e300});
-  out.push_back({&BodyModel::push, m.least_push, m.most_push});
-  out.push_back({&BodyModel::memory, m.least_memory, m.most_memory});
-  if (m.bias > 0) out.push_back({&BodyModel::bias, m.least_push, m.most_push});
+  const bool axes = m.noise_y > 0;
+  if (m.noise_fitted) {
+    out.push_back({&BodyModel::noise, m.least_noise, 1e300,
+                   axes ? "tracking noise of x" : "tracking noise", "m"});
+  }
+  if (m.noise_fitted && axes) {
+    out.push_back({&BodyModel::noise_y, m.least_noise, 1e300, "tracking noise of y", "m"});
+  }
+  out.push_back({&BodyModel::push, m.least_push, m.most_push, "process noise", "m/s^2"});
+  out.push_back({&BodyModel::memory, m.least_memory, m.most_memory,
+                 "correlation time of process noise", "s"});
+  if (m.bias > 0) {
+    out.push_back({&BodyModel::bias, m.least_push, m.most_push, "bias of a run", "m/s^2"});
+  }
   return out;
 }
 
 }  // namespace
+
+void BodyModel::scale_noise(double by) {
+  if (!noise_fitted) return;
+  noise = std::max(by * noise, least_noise);
+  if (noise_y > 0) noise_y = std::max(by * noise_y, least_noise);
+}
+
+std::vector<OwnValue> own_values(const BodyModel& model) {
+  std::vector<OwnValue> out;
+  for (const OwnNumber& own : own_of(model)) {
+    out.push_back({own.name, own.unit, model.*own.of, own.least, own.most});
+  }
+  return out;
+}
 
 std::size_t own_numbers(const BodyModel& model) {
   return own_of(model).size();
@@ -147,13 +172,17 @@ Term term_of(const Law& law, const Typical& typical, const std::vector<double>& 
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Kind kind = t.parameters[i].kind;
     t.fitted[i] = kind != Kind::fixed;
-    if (kind == Kind::place) t.scale[i] = std::max(1e-9, typical.high - typical.low);
+    const double scale = t.parameters[i].scale;
+    if (kind == Kind::place) {
+      t.scale[i] = std::isnan(scale) ? std::max(1e-9, typical.high - typical.low) : scale;
+    }
     if (kind != Kind::amplitude) continue;
     const double unit = unit_size(t, i, runs, typical.dimensions);
     t.scale[i] = unit > 0 ? push / unit : 1;
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (t.parameters[i].kind == Kind::amplitude) t.value[i] = size * t.scale[i];
+    if (t.parameters[i].kind == Kind::amplitude && std::isnan(start[i]))
+      t.value[i] = size * t.scale[i];
   }
   return t;
 }
@@ -214,6 +243,8 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
   t.fastest = speeds.empty() ? 1 : std::max(1e-12, speeds[speeds.size() * 99 / 100]);
   if (!gaps.empty()) t.nearest = gaps.front(), t.middle = gaps[gaps.size() / 2];
   t.centre[0] = t.centre[1] = (t.low + t.high) / 2;
+  t.rate = strongest_rate(runs, e.dimensions);
+  t.mass = runs.front()->mass.front();
   return t;
 }
 

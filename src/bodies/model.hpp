@@ -25,12 +25,19 @@ struct Term {
 struct BodyModel {
   std::vector<Term> terms;
   double noise = 0, push = 0, memory = 1;
+  double noise_y = 0;  ///< of the second axis; 0: `noise`
   bool noise_fitted = false;
   double bias =
       0;  ///< deviation of an acceleration that lasts a whole run, m/s^2; 0: there is none
   double restitution = -1;  ///< of contacts between bodies; negative: they pass each other
   double least_noise = 0, least_push = 0, usual_push = 0, most_push = 0;
   double least_memory = 0, most_memory = 0;
+
+  double noise_of(int axis) const { return axis == 1 && noise_y > 0 ? noise_y : noise; }
+  /// Mean square over the axes.
+  double squared_noise() const { return (noise * noise + noise_of(1) * noise_of(1)) / 2; }
+  /// Both axes' noise times `by`, if it is fitted, down to the least.
+  void scale_noise(double by);
 };
 
 /// The fitted numbers: log noise (if fitted), log push, log memory, log bias (if there is one),
@@ -39,6 +46,12 @@ std::vector<double> packed(const BodyModel& model);
 BodyModel unpacked(const BodyModel& model, const std::vector<double>& numbers);
 /// How many come before those of the terms.
 std::size_t own_numbers(const BodyModel& model);
+/// One of them.
+struct OwnValue {
+  std::string name, unit;                 ///< in units of "m" for a position
+  double value = 0, least = 0, most = 0;  ///< with its bounds
+};
+std::vector<OwnValue> own_values(const BodyModel& model);
 /// A parameter of a term, both by index.
 struct TermParameter {
   std::size_t term = 0, parameter = 0;
@@ -61,6 +74,10 @@ void accelerate(const BodyModel& model, const Scene& scene, double* out);
 /// `size` the share of it at which amplitudes start.
 Term term_of(const Law& law, const Typical& typical, const std::vector<double>& start,
              const std::vector<const BodyRun*>& runs, double push, double size = 1e-3);
+
+/// Rate (rad/s) of the strongest line in the spectrum of the velocities, all bodies together; in
+/// two dimensions positive where velocities turn clockwise. 0 where there are none.
+double strongest_rate(const std::vector<const BodyRun*>& runs, int dimensions);
 
 /// Sizes that occur in some runs.
 Typical typical_of(const BodyExperiment& experiment, const std::vector<const BodyRun*>& runs);

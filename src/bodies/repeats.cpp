@@ -1,6 +1,7 @@
 // Differences between runs: signs of faults of the measurement.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bodies/compare.hpp"
 #include "statistics/quantiles.hpp"
@@ -118,6 +119,27 @@ std::vector<double> far_errors(const std::vector<Group>& groups, const LawTrial&
       }
     }
     out.push_back(count > 0 ? sum / count : 0);
+  }
+  return out;
+}
+
+std::vector<double> largest_far_errors(const std::vector<Group>& groups, const LawTrial& outcome) {
+  constexpr std::uint32_t kSimulations = 9;
+  std::vector<double> out;
+  double largest = -1;
+  for (std::uint32_t s = 0; s < kSimulations; ++s) {
+    std::vector<Group> drawn = groups;
+    std::vector<std::vector<BodyRun>> runs(groups.size());
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      for (std::size_t r = 0; r < groups[i].runs.size(); ++r) {
+        runs[i].push_back(simulated(outcome.fits[i].model, groups[i].typical, *groups[i].runs[r], s,
+                                    static_cast<std::uint32_t>(100 * i + r)));
+      }
+      for (std::size_t r = 0; r < runs[i].size(); ++r) drawn[i].runs[r] = &runs[i][r];
+    }
+    std::vector<double> far = far_errors(drawn, outcome);
+    const double sum = std::accumulate(far.begin(), far.end(), 0.0);
+    if (sum > largest) largest = sum, out = std::move(far);
   }
   return out;
 }

@@ -15,58 +15,6 @@ namespace {
 constexpr std::size_t kPairsReported = 5;
 }  // namespace
 
-double Comparison::threshold() const {
-  if (nulls.empty()) return 5;
-  const auto n = static_cast<double>(nulls.size());
-  const auto over = static_cast<std::size_t>(std::floor(false_alarms * (n + 1)));
-  // Fewer nulls than the rate requires: the largest gain plus the log of the missing factor.
-  if (over == 0) return std::max(0.0, nulls.back()) + std::log(1 / (false_alarms * (n + 1)));
-  return std::max(0.0, nulls[nulls.size() - over]);
-}
-
-double Comparison::chance(double gain) const {
-  const auto n = static_cast<double>(nulls.size());
-  const auto over =
-      static_cast<double>(nulls.end() - std::lower_bound(nulls.begin(), nulls.end(), gain));
-  const double most = nulls.empty() ? 0 : std::max(0.0, nulls.back());
-  return over > 0 ? (over + 1) / (n + 1) : std::exp(-std::max(0.0, gain - most)) / (n + 1);
-}
-
-namespace {
-
-std::multiset<std::string_view> variables_of(const Candidate& candidate) {
-  std::multiset<std::string_view> out;
-  for (const Law* law : candidate.laws) out.insert(law->variable);
-  return out;
-}
-
-}  // namespace
-
-bool Comparison::apart(const LawTrial& better, const LawTrial& worse) const {
-  Difference d = difference(better.by_block, worse.by_block);
-  d.error *= repeats.factor();
-  if (!d.distinguished()) return false;
-  // Laws of one variable: what no law explains must be less than what they differ by.
-  const bool alike = variables_of(better.candidate) == variables_of(worse.candidate);
-  if (alike && acceleration_difference(groups, better, worse) < 1) return false;
-  if (better.shaken.empty() || worse.shaken.empty()) return true;
-  Difference still = difference(better.shaken, worse.shaken);
-  still.error *= repeats.factor();
-  return still.distinguished();
-}
-
-const LawTrial* Comparison::pair() const {
-  if (pairs.empty() || singles.empty()) return nullptr;
-  const Difference d = difference(pairs.front().by_block, singles.front().by_block);
-  const bool more = d.value > std::max(2.0, threshold()) && d.distinguished();
-  return more ? &pairs.front() : nullptr;
-}
-
-const LawTrial& Comparison::best() const {
-  const LawTrial* two = pair();
-  return two != nullptr ? *two : singles.front();
-}
-
 namespace {
 
 // Units of a law's parameter for the experiment's: forces are per mass where masses are unknown.
@@ -109,17 +57,70 @@ FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted
   return out;
 }
 
+// The distribution of each parameter over many bodies instead of a line for each.
+void add_distributions(const std::vector<FoundParameter>& all, DiagnosisFinding& f) {
+  std::map<std::string, std::vector<FoundParameter>> by_path;
+  for (const FoundParameter& p : all) by_path[p.path].push_back(p);
+  for (auto& [path, of] : by_path) {
+    std::sort(of.begin(), of.end(), [](auto& a, auto& b) { return a.value < b.value; });
+    const std::size_t n = of.size();
+    const auto add = [&](const std::string& what, FoundParameter p) {
+      p.name = path.substr(path.find('.') + 1) + ", " + what;
+      f.parameters.push_back(std::move(p));
+    };
+    FoundParameter middle = of[n / 2];
+    middle.low = of[n / 40].value, middle.high = of[n - 1 - n / 40].value;
+    add("median of " + std::to_string(n) + " bodies, 2.5 % to 97.5 % of them", middle);
+    add("smallest: " + of.front().name, of.front()), add("largest: " + of.back().name, of.back());
+  }
+}
+
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
+  constexpr std::size_t kLines = 12;  // bodies that have a line each
+  std::vector<FoundParameter> all;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
     const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
     const Term& t = fit.model.terms[k];
     for (std::size_t p = 0; p < t.value.size(); ++p) {
       if (t.fitted[p] || c.groups.size() == 1) {
-        f.parameters.push_back(parameter_of(c, i, fit, {k, p}));
+        all.push_back(parameter_of(c, i, fit, {k, p}));
       }
     }
   }
+  if (c.groups.size() > kLines)
+    add_distributions(all, f);
+  else
+    f.parameters.insert(f.parameters.end(), all.begin(), all.end());
+}
+
+// f over all samples; 0 where it is not known.
+double mean_turning(const Comparison& c) {
+  const BodyExperiment& e = *c.experiment;
+  if (e.latitude < 0) return e.turning;
+  double sum = 0, n = 0;
+  for (const BodyRun& run : e.runs) {
+    for (std::size_t k = 0; k < run.samples(); ++k, ++n) {
+      sum += inertial_turning(run.drivers_at(k)[e.latitude]);
+    }
+  }
+  return sum / n;
+}
+
+// The rate of a free rotation beside the rates that have names.
+void add_rotation(const Comparison& c, DiagnosisFinding& f) {
+  if (!c.rotation) return;
+  for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const Fitted& fit = c.rotation->fits[i];
+    FoundParameter rate = parameter_of(c, i, fit, {fit.model.terms.size() - 1, 0});
+    rate.name = "rate of a free rotation, clockwise" + of_group(c.groups[i]);
+    f.parameters.push_back(std::move(rate));
+  }
+  const auto known = [&](const std::string& name, double rate) {
+    f.parameters.push_back({name, name, rate, rate, rate, "rad/s"});
+  };
+  if (const double f0 = mean_turning(c); f0 != 0) known("f of the latitude, clockwise", f0);
+  known("M2 tide, of either sense", kTideRate);
 }
 
 // Interval of a gain by resampling blocks (2.5 % and 97.5 % of their normal approximation).
@@ -130,23 +131,6 @@ void add_gain(const Comparison& c, const LawTrial& o, const LawTrial& without,
   f.gain = d.value, f.gain_low = d.value - half, f.gain_high = d.value + half;
   f.z = std::sqrt(2 * std::max(0.0, d.value));
   f.confidence = 1 - std::min(1.0, c.chance(d.value));
-}
-
-const LawTrial* single_of(const Comparison& c, const Law* law) {
-  for (const LawTrial& o : c.singles) {
-    if (o.candidate.laws.front() == law) return &o;
-  }
-  return nullptr;
-}
-
-// Other outcomes of as many laws that predict as well.
-std::vector<const LawTrial*> as_good(const Comparison& c, const LawTrial& best) {
-  std::vector<const LawTrial*> out;
-  for (const LawTrial& o : best.candidate.laws.size() == 1 ? c.singles : c.pairs) {
-    const bool other = &o != &best && !o.candidate.curve();
-    if (other && o.gain > c.threshold() && !c.apart(best, o)) out.push_back(&o);
-  }
-  return out;
 }
 
 std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
@@ -169,8 +153,13 @@ std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   return out;
 }
 
+// Laws without a variable act everywhere.
+std::string variable_or_position(const Law& law) {
+  return std::string(law.variable.empty() ? "position" : law.variable);
+}
+
 void set_range(const Comparison& c, const std::string& variable, DiagnosisFinding& f) {
-  f.variable = variable.empty() ? "position" : variable;
+  f.variable = variable;
   f.from = 1e300, f.to = -1e300;
   for (const Group& g : c.groups) {
     const VariableRange range = range_of(variable, g.typical);
@@ -179,28 +168,21 @@ void set_range(const Comparison& c, const std::string& variable, DiagnosisFindin
   f.unit = unit_of(variable, c.experiment->unit);
 }
 
-// The law that stands for a group: one with a name, before curves that do no better.
-const LawTrial& head_of(const Comparison& c) {
-  const LawTrial& best = c.best();
-  if (!best.candidate.curve()) return best;
-  const auto others = as_good(c, best);
-  return others.empty() ? best : *others.front();
-}
-
 std::vector<DiagnosisFinding> findings(const Comparison& c) {
   std::vector<DiagnosisFinding> out;
-  const LawTrial& head = head_of(c);
-  const std::vector<const LawTrial*> others = as_good(c, head);
+  const LawTrial& head = *c.reported;
+  const std::vector<const LawTrial*> others = c.alternatives();
   const std::size_t laws = head.candidate.laws.size();
   for (std::size_t k = 0; k < laws; ++k) {
     const Law& law = *head.candidate.laws[k];
     DiagnosisFinding f;
     f.effect = law.name, f.equation = law.equation, f.split = law.split;
-    set_range(c, std::string(law.variable), f);
+    set_range(c, variable_or_position(law), f);
     f.text = strongest_bodies(c, head);
-    const LawTrial* without = laws == 2 ? single_of(c, head.candidate.laws[1 - k]) : nullptr;
+    const LawTrial* without = laws == 2 ? c.single_of(head.candidate.laws[1 - k]) : nullptr;
     add_gain(c, head, without != nullptr ? *without : c.baseline, f);
     add_parameters(c, head, k, f);
+    if (law.variable == "turn") add_rotation(c, f);
     std::set<std::string> names;
     for (const LawTrial* o : others) {
       // A pair's other laws stand for the one of ours that they do not share.
@@ -214,6 +196,10 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
       }
     }
     f.alternatives.assign(names.begin(), names.end());
+    for (const LawTrial* o : c.better_unnamed()) {
+      f.alternatives.push_back("an unnamed law over " +
+                               variable_or_position(*o->candidate.laws.front()));
+    }
     if (law.curve) {
       f.effect = "unnamed";
       f.text = "no law of the library predicts as well as a free law over " + f.variable +
@@ -229,7 +215,7 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
 void add_fit(const Comparison& c, Diagnosis& d) {
   double before = 0, after = 0, floor = 0;
   for (std::size_t i = 0; i < c.far_before.size(); ++i) {
-    const double noise = std::pow(c.best().fits[i].model.noise, 2);
+    const double noise = c.reported->fits[i].model.squared_noise();
     const std::string name = c.groups[i].name.empty() ? "all bodies" : c.groups[i].name;
     d.held_out.push_back({name, c.far_before[i] / noise, c.far_after[i] / noise});
     const auto n = static_cast<double>(c.far_before.size());
@@ -240,9 +226,40 @@ void add_fit(const Comparison& c, Diagnosis& d) {
   d.msd_low = d.msd_high = d.msd_removed;
 }
 
-void add_moved(const Comparison& c, Diagnosis& d) {
+// Tracking and process noise, rms over the groups; with their interval where there is one group.
+void add_noise(const Comparison& c, const LawTrial& with, Diagnosis& d) {
+  const auto n = static_cast<double>(c.groups.size());
+  std::vector<OwnValue> squares[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (const Fitted& f : (side == 0 ? c.baseline : with).fits) {
+      std::vector<OwnValue> own = own_values(f.model);
+      if (squares[side].empty()) {
+        squares[side] = own;
+        for (OwnValue& v : squares[side]) v.value = 0;
+      }
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        squares[side][k].value += own[k].value * own[k].value / n;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < squares[0].size(); ++k) {
+    const double value = std::sqrt(squares[1][k].value);
+    MovedParameter& p = d.parameters.emplace_back();
+    p.path = squares[0][k].name, p.unit = unit_for(*c.experiment, squares[0][k].unit);
+    p.baseline = std::sqrt(squares[0][k].value), p.with_effects = value;
+    if (c.groups.size() > 1) continue;
+    p.deviation = p.baseline * c.baseline.fits[0].deviation[k];
+    const double half = normal_half_width() * with.fits[0].deviation[k];
+    const OwnValue& own = squares[1][k];
+    p.low = std::max(value * std::exp(-half), own.least);
+    p.high = std::min(value * std::exp(half), own.most);
+  }
+}
+
+// Fitted parameters of the baseline, alone and in `with`.
+void add_moved(const Comparison& c, const LawTrial& with, Diagnosis& d) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const Fitted &a = c.baseline.fits[i], &b = c.best().fits[i];
+    const Fitted &a = c.baseline.fits[i], &b = with.fits[i];
     for (const TermParameter& of : fitted_parameters(a.model)) {
       const Term& t = a.model.terms[of.term];
       const double value = t.value[of.parameter];
@@ -254,6 +271,7 @@ void add_moved(const Comparison& c, Diagnosis& d) {
                               now.value, now.low, now.high});
     }
   }
+  add_noise(c, with, d);
 }
 
 // An amplitude that gains what chance does not: half a square of deviations, less its own cost.
@@ -285,25 +303,32 @@ void add_ranking(const Comparison& c, Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis diagnosis_of(const Comparison& c) {
+Diagnosis described(const BodyExperiment& e) {
   Diagnosis d;
-  d.name = c.experiment->name, d.subject = &kPointBodies;
-  d.recordings = static_cast<int>(c.experiment->runs.size());
-  d.checks = c.experiment->left_out;
-  for (const BodyRun& r : c.experiment->runs) {
+  d.name = e.name, d.subject = &kPointBodies;
+  d.recordings = static_cast<int>(e.runs.size());
+  d.checks = e.left_out;
+  for (const BodyRun& r : e.runs) {
     d.modules = std::max(d.modules, static_cast<int>(r.bodies.size()));
     d.seconds += r.time.back();
   }
+  return d;
+}
+
+Diagnosis diagnosis_of(const Comparison& c) {
+  Diagnosis d = described(*c.experiment);
   d.false_alarms = c.false_alarms, d.effect_threshold = std::sqrt(2 * c.threshold());
   d.shape_threshold = d.effect_threshold;
-  const LawTrial& best = c.best();
+  const LawTrial& best = *c.reported;
   for (const std::string& failure : c.failures) d.warnings.push_back("not evaluated: " + failure);
   add_ranking(c, d);
   add_detectable(c, d);
-  add_moved(c, d);
   d.maps = maps_of(c);
-  if (!(best.gain > c.threshold())) {
+  const bool found = best.gain > c.threshold();
+  add_moved(c, found ? best : c.baseline, d);
+  if (!found) {
     d.verdict = Verdict::complete;
+    add_warnings(c, c.baseline, d);
     return d;
   }
   const Difference sure = difference(best.by_block, c.baseline.by_block);
@@ -312,8 +337,8 @@ Diagnosis diagnosis_of(const Comparison& c) {
   d.findings = findings(c);
   add_fit(c, d);
   // What is found must predict the motion itself, not only its next sample.
-  if (d.msd_removed < 0) d.verdict = Verdict::undecided;
-  add_warnings(c, d);
+  if (d.msd_removed < 0 || d.removed() < 0) d.verdict = Verdict::undecided;
+  add_warnings(c, best, d);
   return d;
 }
 
