@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12), builds, lets 15 Lilies build chains of five, and leaves a
-# film, a plot of the yield and a summary in out/demo.
+# film, an interactive page, a plot of the yield and a summary in out/demo.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source .ci/packages.sh
@@ -19,4 +19,5 @@ cmake --build build --target lilytank
 wait "$film_packages_ready"
 
 build/lilytank run scenarios/demo.toml --out "$out" --force --video
-echo "In $out: video.mp4, yield.png, summary.txt, and the run's data"
+build/lilytank view "$out" --force --quiet > /dev/null
+echo "In $out: video.mp4, view.html (for a browser), yield.png, summary.txt, and the run's data"

@@ -19,6 +19,14 @@ esac
 need_packages "${build_packages[@]}" "${film_packages[@]}" "${test_packages[@]}" \
               "${slurm_packages[@]}" "${bench_packages[@]}"
 
+python=(-DLILYTANK_PYTHON=OFF)
+if need_packages "${python_packages[@]}"; then
+  python=(-DLILYTANK_PYTHON=ON "-DPython_EXECUTABLE=$(PATH=/usr/bin:$PATH command -v python3)")
+else
+  echo "The Python package is not tested."
+fi
+need_packages "${table_packages[@]}" || echo "Conversions to pandas and xarray are not tested."
+
 run_tests() {  # <tree> [ctest option...]
   ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error \
         --no-label-summary "${@:2}"
@@ -31,7 +39,7 @@ cmake --build build-debug --target core_tests determinism_tests ${all:+unit_test
 run_tests build-debug --exclude-regex '_NOT_BUILT' --label-exclude '^(tree|slurm|program)$'
 
 configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH=ON \
-                -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
+                -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON "${python[@]}"
 cmake --build build
 if [[ $all ]]; then
   run_tests build

@@ -62,8 +62,10 @@ layer() {
 }
 
 only_in 'src/study/' '#include <(tbb|oneapi)/' 'TBB belongs to src/study'
-only_in 'src/study/|src/cli/progress\.' '#include <(thread|future|mutex|condition_variable|execution)>' \
-  'threads belong to src/study and src/cli/progress'
+only_in 'src/study/|src/cli/progress\.|src/python/(job|verb)\.' \
+  '#include <(thread|future|mutex|condition_variable|execution)>' \
+  'threads belong to src/study, src/cli/progress and src/python'
+only_in 'src/python/' '#include <pybind11' 'pybind11 belongs to src/python'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
 only_in 'src/statistics/quantiles.cpp' '#include <boost/' 'Boost.Math belongs to src/statistics/quantiles.cpp'
@@ -88,7 +90,7 @@ home world start world
 home search search
 home statistics normality statistics
 home assemblies assembly_record
-home io file_digest model_parameter report scenario table_layout trajectory
+home io file_digest model_parameter report run_events scenario table_layout trajectory
 home jobs run
 home recording camera experiment recording recording_io
 home smoothing smoothing
@@ -102,6 +104,7 @@ home filter predictor
 home finder diagnosis diagnosis_subject
 home proof proof
 home bodies bodies
+home view view
 home render render
 
 places=$(mktemp)
@@ -145,8 +148,10 @@ layer finder effects filter calibrate study jobs forces "${base[@]}"
 layer proof finder effects filter calibrate study jobs forces "${base[@]}"
 layer bodies finder study jobs "${base[@]}"
 base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
-layer render "${base[@]}"
-layer cli render forces "${base[@]}"
+layer view "${base[@]}"
+layer render view "${base[@]}"
+layer cli render view forces "${base[@]}"
+layer python cli render view forces "${base[@]}"
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's

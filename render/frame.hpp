@@ -6,8 +6,8 @@
 #include "canvas.hpp"
 #include "lilytank/render.hpp"
 #include "panel.hpp"
-#include "pumps.hpp"
 #include "tank.hpp"
+#include "view/pumps.hpp"
 
 namespace lilytank {
 

@@ -4,9 +4,9 @@
 #include "bodies.hpp"
 #include "palette.hpp"
 #include "panel.hpp"
-#include "pumps.hpp"
-#include "streamlines.hpp"
 #include "text/number.hpp"
+#include "view/pumps.hpp"
+#include "view/streamlines.hpp"
 
 namespace lilytank {
 namespace {

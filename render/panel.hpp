@@ -19,8 +19,8 @@ class Panel {
   /// `run` must outlive the panel. `speed`: simulated seconds per second of film, 0: a still.
   Panel(const StoredRun& run, const FrameStyle& style, const Box& box, double speed);
 
-  /// Title, captions, the whole yield curve and the legend while a flow is in force (pumps.hpp).
-  /// `power`: of the pumps, empty where it is always the same.
+  /// Title, captions, the whole yield curve and the legend while a flow is in force
+  /// (view/pumps.hpp). `power`: of the pumps, empty where it is always the same.
   void draw_static(const Canvas& canvas, int field, const std::string& power) const;
   /// Clock, counter, icons of copies and the curve's cursor.
   void draw_moving(const Canvas& canvas, const Snapshot& now) const;
@@ -49,7 +49,7 @@ class Panel {
 
 /// Draws the legend of a run with its top left corner at (x, y), `width` units wide: control
 /// states, faces, marks and flow, as far as they can appear on its frames. `field`: the flow in
-/// force (pumps.hpp).
+/// force (view/pumps.hpp).
 void draw_legend(const Canvas& canvas, const StoredRun& run, const FrameStyle& style, int field,
                  double x, double y, double width);
 /// Its height (units).

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSide = 54, kPitch = 62;             // units, of a module
 constexpr double kStageCaption = 30, kStageGap = 46;  // above a stage, between two
 constexpr double kPageMargin = 24, kFoot = 34, kHead = 40;
-constexpr double kWidest = 1290, kHighest = 900;
+constexpr double kWidestPage = 1290, kHighestPage = 900;
 constexpr double kHop = 16;  // of the hop numbers from a module's centre
 constexpr std::array<int, 4> kX = {1, 0, -1, 0}, kY = {0, 1, 0, -1};
 const TextStyle kRuleName{15, palette::ink, true, Align::left};
@@ -38,10 +38,10 @@ Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage
   grid.height = (high.y + 1) * kPitch + kStageCaption;
   const int n = static_cast<int>(stages.size());
   const double across = grid.width + kStageGap;
-  if (n * across <= kWidest)
+  if (n * across <= kWidestPage)
     grid.columns = n;
-  else if (n * (grid.height + kStageGap) > kHighest)
-    grid.columns = std::max(1, static_cast<int>(kWidest / across));
+  else if (n * (grid.height + kStageGap) > kHighestPage)
+    grid.columns = std::max(1, static_cast<int>(kWidestPage / across));
   grid.rows = (n + grid.columns - 1) / grid.columns;
   return grid;
 }

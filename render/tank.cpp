@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "palette.hpp"
-#include "pumps.hpp"
-#include "streamlines.hpp"
 #include "text/number.hpp"
+#include "view/pumps.hpp"
+#include "view/streamlines.hpp"
 
 namespace lilytank {
 namespace {

@@ -7,8 +7,8 @@
 
 namespace lilytank {
 
-/// Draws everything of the tank that does not move, with the flow of that number (pumps.hpp). Its
-/// colour and width show its speed, relative to the fastest water of all of the model's flows.
+/// Draws everything of the tank that does not move, with the flow of that number (view/pumps.hpp).
+/// Its colour and width show its speed, relative to the fastest water of all of the model's flows.
 /// Still water has no inlets.
 void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow,
                int number);

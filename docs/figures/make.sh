@@ -13,6 +13,13 @@ picture() {
   ffmpeg -v error -y -i "$1" -vf "scale=$3:-1:flags=lanczos" -pix_fmt rgb24 "docs/$2.png"
 }
 
+# page <file> <to> <time, s>: a picture of a page of `lilytank view` with the width of a screen.
+page() {
+  chromium --headless --no-sandbox --disable-gpu --no-first-run --user-data-dir=$out/profile --window-size=1280,800 \
+    --virtual-time-budget=4000 --screenshot=$out/page.png "file://$(realpath "$1")#t=$3" 2> /dev/null
+  picture $out/page.png "$2" 1000
+}
+
 "$program" run scenarios/chain5.toml --seed 1 --set output.rate=2 --out $out/run --quiet > /dev/null
 "$program" render $out/run --at 1150 --png $out/run/frame.png > /dev/null
 picture $out/run/frame.png tour/run 800
@@ -20,6 +27,8 @@ picture $out/run/frame.png tour/run 800
 "$program" run scenarios/demo.toml --out $out/demo --quiet > /dev/null
 "$program" render $out/demo --at 400 --png $out/demo/frame.png > /dev/null
 picture $out/demo/frame.png figures/tank 1280
+"$program" view $out/demo --force > /dev/null
+page $out/demo/view.html figures/view 400
 
 "$program" study scenarios/studies/tour.toml --set run.duration='2 h' --out $out/study > /dev/null
 picture $out/study/yield.png tour/yield 800
@@ -51,6 +60,8 @@ picture $out/calibration/estimates.png figures/estimates 900
 "$program" diagnose $tour --budget 3 --out $out/diagnosis > /dev/null
 picture $out/diagnosis/laws.png tour/laws 700
 picture $out/diagnosis/fit.png tour/fit 800
+"$program" view $out/diagnosis $tour --force > /dev/null
+page $out/diagnosis/view.html figures/view_diagnosis 20
 
 "$program" run scenarios/tank_lilies.toml $out/diagnosis/missing.toml --set module.count=10 \
   --set run.duration='12 min' --set output.rate=20 --out $out/with-effect --quiet > /dev/null

@@ -70,6 +70,19 @@ enum class CalibrationFlow : std::uint8_t {
 CalibrationFlow flow_named(const std::string& word);
 std::string name_of(CalibrationFlow flow);
 
+/// What a calibration will do, and about how long that takes.
+struct CalibrationPlan {
+  Coverage coverage;
+  int recordings = 0, bodies = 0;  ///< that are fitted; bodies of the largest
+  double experiments = 0;          ///< simulated, about
+  double experiment_time = 0;      ///< s of processor time, of one
+  int extractions = 0;             ///< of the flow from simulated balls
+  double extraction_time = 0;      ///< s of processor time, of one
+  double processor_time() const {  ///< s
+    return experiments * experiment_time + extractions * extraction_time;
+  }
+};
+
 /// Settings of a calibration. The defaults are those whose coverage docs/calibration.md reports.
 struct CalibrationOptions : JobControl {
   BodyKind body = BodyKind::lily;
@@ -108,8 +121,8 @@ struct CalibrationOptions : JobControl {
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Simulations at a time; 0: one per core. The result does not depend on it.
   int threads = 0;
-  /// Receives what the recordings cover, before anything is simulated.
-  std::function<void(const Coverage& coverage)> covered;
+  /// Receives what will be done, before anything is simulated but for one experiment.
+  std::function<void(const CalibrationPlan& plan)> planned;
 };
 
 /// What was found of one parameter.
@@ -221,6 +234,9 @@ struct CalibrationResult {
 /// Stopped, and InputError if the experiment has no recordings of the body, the directory
 /// holds another calibration, or the model diverges wherever it is tried.
 CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options);
+/// What calibrate() would do. Writes nothing; takes one extraction of the flow and one simulated
+/// experiment.
+CalibrationPlan plan_calibration(const Experiment& experiment, const CalibrationOptions& options);
 
 struct CalibrationSetup;
 

@@ -30,9 +30,8 @@ struct Event {
   std::int8_t last_a = -1, last_b = -1;
 };
 
-/// ok: go on. diverged: the state is not usable and nothing steps it further. stopped: a signal
-/// or a caller ended the run early; the state is valid.
-enum class RunStatus { ok, diverged, stopped };
+/// ok: go on. diverged: the state is not usable and nothing steps it further.
+enum class RunStatus { ok, diverged };
 
 /// Divergence::force of a simulation that was given up because one step took too much work: more
 /// visits of contacts than Divergence::size. It stalled; nothing in it need have been fast.

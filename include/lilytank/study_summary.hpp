@@ -29,7 +29,7 @@ struct SettingSummary {
   /// Finished runs.
   int runs = 0;
   /// Runs without a result; statistics leave them out.
-  int diverged = 0, stopped = 0;
+  int diverged = 0;
   /// Assemblies that the rules cannot make, in all runs.
   std::int64_t illegal = 0;
   /// Copies that the modules could make.

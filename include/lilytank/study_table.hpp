@@ -23,7 +23,7 @@ struct RunRow {
   RunStatus status = RunStatus::ok;
   /// [axes] Values of the axes; units as in Setting::texts.
   std::vector<double> values;
-  /// Simulated time, s: the setting's, unless the run diverged or was stopped.
+  /// Simulated time, s: the setting's, unless the run diverged.
   double duration = 0;
   /// Largest number of copies that the modules can form.
   int possible = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "calibrate/fit_conditions.hpp"
 #include "calibrate/stages.hpp"
@@ -28,20 +29,60 @@ CalibrationResult begun(const CalibrationSetup& setup) {
     out.parameters.push_back(std::move(p));
   }
   out.coverage = coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
-  if (setup.options.covered) setup.options.covered(out.coverage);
   out.conditions = fit_conditions(setup.model, setup.body, setup.paths());
+  return out;
+}
+
+DirectoryJob job_of(const CalibrationSetup& setup) {
+  return {"calibration", "1 " + hex(setup.identity), calibration_files()};
+}
+
+// Processor time of this thread, s. For plans alone: no result depends on it.
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+template <class Work>
+double time_of(Work&& work) {
+  const double begin = processor_time();
+  static_cast<void>(work());
+  return processor_time() - begin;
+}
+
+CalibrationPlan plan_of(const CalibrationSetup& setup, const Stages& stages) {
+  CalibrationPlan out;
+  out.coverage = coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
+  out.recordings = static_cast<int>(setup.training.size());
+  for (const RecordingShape& shape : setup.shapes) out.bodies = std::max(out.bodies, shape.bodies);
+  out.experiments = stages.usual_experiments();
+  out.experiment_time = time_of([&] {
+    return setup.emulator(setup.shapes, CalibrationSetup::Of::experiments).record(setup.start, 1);
+  });
+  if (setup.draws_flow()) {
+    out.extractions = setup.options.flow_draws;
+    out.extraction_time = time_of(
+        [&] { return redraw_flow(*setup.flow, setup.balls, setup.ball, FlowOptions{}, 1, 0); });
+  }
   return out;
 }
 
 }  // namespace
 
+CalibrationPlan plan_calibration(const Experiment& experiment, const CalibrationOptions& options) {
+  CalibrationSetup setup = set_up(experiment, options);
+  check_directory(options.out, options.force, job_of(setup));
+  return plan_of(setup, Stages(setup));
+}
+
 CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptions& options) {
   CalibrationSetup setup = set_up(experiment, options);
-  const auto lock = claim_directory(
-      options.out, options.force, {"calibration", "1 " + hex(setup.identity), calibration_files()});
+  const auto lock = claim_directory(options.out, options.force, job_of(setup));
   if (options.lock != nullptr) *options.lock = lock;
   Stages stages(setup);
   CalibrationResult out = begun(setup);
+  if (options.planned) options.planned(plan_of(setup, stages));
   const FlowMaps maps = stages.flow_maps();
   out.flow_csv = setup.corrected_csv(*maps.best());
   const std::vector<double> searched = stages.search(out);

@@ -6,6 +6,7 @@
 #include "io/json.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/calibration.hpp"
+#include "statistics/csv_cells.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -74,7 +75,7 @@ std::string profiles_csv(const CalibrationResult& c) {
 std::string numbers_csv(const CalibrationResult& c) {
   std::string out = "group,number,observed,expected,deviation,z\n";
   for (const ComparedNumber& n : c.numbers) {
-    out += n.entry.group + "," + n.entry.name;
+    out += cell(n.entry.group) + "," + cell(n.entry.name);
     for (const double v : {n.observed, n.expected, n.deviation, n.z()}) out += "," + number(v);
     out += "\n";
   }

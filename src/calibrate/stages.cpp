@@ -56,10 +56,10 @@ Stages::Stages(CalibrationSetup& setup)
   for (const RecordingShape& shape : setup.shapes) seconds += shape.frames / shape.rate;
   piece_cost_ = setup.piece / seconds;
   search_cost_ = static_cast<double>(budget_of(o)) * piece_cost_;
-  expected_ = (setup.flow ? kFlowCost * o.flow_draws : 0) + search_cost_ +
-              (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round + o.replicates +
-              (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
-              (setup.held_out.empty() ? 2 : 4) * o.comparisons;
+  usual_ = search_cost_ + (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round +
+           o.replicates + (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
+           (setup.held_out.empty() ? 2 : 4) * o.comparisons;
+  expected_ = (setup.draws_flow() ? kFlowCost * o.flow_draws : 0) + usual_;
 }
 
 std::string Stages::file(const std::string& stage) const {

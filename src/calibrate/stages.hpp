@@ -45,6 +45,8 @@ class Stages {
   /// How many simulated experiments are still to come, for the progress, by whoever knows better
   /// than a calibration's usual course.
   void expect(double experiments) { expected_ = spent_ + experiments; }
+  /// What a calibration's usual course simulates besides the flow's errors.
+  double usual_experiments() const { return usual_; }
   /// In simulated experiments, for the progress: what is done, and that so much is, by work that
   /// simulates less than was expected.
   double spent() const { return spent_; }
@@ -60,7 +62,7 @@ class Stages {
   CalibrationSetup& setup_;
   Emulator whole_, piece_;  ///< in the flow without its mean error
   int simulations_ = 0;
-  double piece_cost_ = 0, search_cost_ = 0, expected_ = 0,
+  double piece_cost_ = 0, search_cost_ = 0, usual_ = 0, expected_ = 0,
          spent_ = 0;  ///< in simulated experiments
 };
 

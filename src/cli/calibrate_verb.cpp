@@ -13,6 +13,7 @@
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/recovery.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -66,6 +67,7 @@ void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
   options.add({"out", "directory of the results (default: out/calibrate-<name>)", "DIR"});
   options.add({"seed", "of everything that is drawn (1)", "N"}, &c.seed, 0, INT64_MAX);
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &c.threads, 0, 4096);
+  options.add({"dry-run", "check everything, say how long it would take, write nothing"});
   options.add({"force", "replace another calibration's files"}, &c.force);
   options.add({"quiet", "no progress"}, &job.quiet);
 }
@@ -135,12 +137,33 @@ std::vector<double> start_values(const std::vector<std::string>& files,
   return values;
 }
 
+// "2 recordings of 15 bodies; 24 extractions of the flow and about 640 simulated experiments: 33
+// min of processor time"
+std::string plan_line(const CalibrationPlan& plan) {
+  std::string out = counted(plan.recordings, "recording") + " of up to " +
+                    std::to_string(plan.bodies) + (plan.bodies == 1 ? " body; " : " bodies; ");
+  if (plan.extractions > 0) {
+    out += counted(plan.extractions, "extraction") + " of the flow (" +
+           significant(plan.extraction_time, 2) + " s each) and ";
+  }
+  return out + "about " + significant(plan.experiments, 2) + " simulated experiments (" +
+         significant(plan.experiment_time, 2) + " s each): about " +
+         duration_text(plan.processor_time()) + " of processor time";
+}
+
+void print_shortfalls(const Coverage& coverage) {
+  for (const Shortfall& s : coverage.flow) {
+    std::cerr << "warning: " << s.what << ": record " << to_record({s}) << "\n";
+  }
+}
+
 // --recover: no recordings are read, they are simulated.
 int recover_verb(const VerbOptions& options, const Arguments& arguments, CalibrateJob& job,
                  Progress& progress) {
   CalibrationOptions& c = job.calibration;
   RecoveryOptions& r = job.recovery;
-  options.refuse_given({"start", "comparisons", "balls"}, "has no effect with --recover");
+  options.refuse_given({"start", "comparisons", "balls", "dry-run"},
+                       "has no effect with --recover");
   if (c.flow == CalibrationFlow::paper) {
     options.refuse("--flow " + job.flow + " does not go with --recover: smooth or scenario");
   }
@@ -193,10 +216,16 @@ int calibrate_verb(const Arguments& arguments) {
     c.start = start_values(files, job.sets, c.parameters);
   }
   c.out = options.out("out/calibrate-" + experiment.name);
-  c.covered = [](const Coverage& coverage) {
-    for (const Shortfall& s : coverage.flow) {
-      std::cerr << "warning: " << s.what << ": record " << to_record({s}) << "\n";
-    }
+  if (options.has("dry-run")) {
+    const CalibrationPlan plan = plan_calibration(experiment, c);
+    print_shortfalls(plan.coverage);
+    std::cout << "would calibrate " << experiment.name << ": " << plan_line(plan) << "; in "
+              << c.out << "\n";
+    return Exit::done;
+  }
+  c.planned = [&](const CalibrationPlan& plan) {
+    print_shortfalls(plan.coverage);
+    if (!job.quiet) std::cerr << plan_line(plan) << "\n";
   };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   c.lock = &lock;

@@ -22,7 +22,7 @@ struct CheckJob {
   std::vector<std::string> scenarios, sets;
   double duration = 0;   ///< s; 0: not given
   int gillespie = 1000;  ///< runs of the well-mixed model
-  bool force = false, quiet = false;
+  bool force = false, quiet = false, json = false;
 };
 
 /// Adds --measure, --rates, --gillespie, --kappa, --bngl and the options that belong to them.

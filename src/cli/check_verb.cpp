@@ -23,6 +23,7 @@ void add_check_options(CheckJob& job) {
               1000000000);
   options.add({"seed", "of all random numbers (1)", "N"}, &job.measured.seed, 0, INT64_MAX);
   options.add({"force", "replace other results"}, &job.force);
+  options.add({"json", "print JSON"}, &job.json);
   options.add({"quiet", "no progress"}, &job.quiet);
   add_kinetics_options(job);
 }
@@ -92,7 +93,8 @@ int check_verb(const Arguments& arguments) {
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));
   const KineticsReport kinetics = run_kinetics(job, input);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);
-  std::cout << report_text(report) << std::flush;
+  const std::string text = printed(report);
+  std::cout << (job.json ? report_json(report) : text) << std::flush;
   if (!kinetics.dir.empty() && job.options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;
   return check.faults.empty() ? Exit::done : Exit::fault;

@@ -41,11 +41,14 @@ void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
   options.add({"quiet", "no progress"}, &job.quiet);
 }
 
-DiagnosedTank diagnosed_tank(const std::string& file, std::string dir,
-                             const std::vector<std::string>& sets) {
-  DiagnosedTank tank{load_experiment({file}, sets), std::move(dir)};
+DiagnosedTank diagnosed_tank(const DiagnoseJob& job, const std::vector<std::string>& sets) {
+  DiagnosedTank tank{load_experiment({job.tank}, sets), job.tank_results};
   if (tank.directory.empty()) tank.directory = "out/diagnose-" + tank.experiment.name;
   return tank;
+}
+
+void add_sources(const Experiment& experiment, std::vector<std::string>& inputs) {
+  for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
 }
 
 }  // namespace
@@ -81,10 +84,12 @@ int diagnose_verb(const Arguments& arguments) {
     sets.insert(sets.end(), job.sets.begin(), job.sets.end());
     const Experiment experiment = load_experiment(inputs, sets);
     d.out = options.out("out/diagnose-" + experiment.name);
-    for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
+    add_sources(experiment, inputs);
     if (options.has("tank")) {
+      const DiagnosedTank tank = diagnosed_tank(job, sets);
       inputs.push_back(job.tank);
-      found = diagnose(experiment, diagnosed_tank(job.tank, job.tank_results, sets), d);
+      add_sources(tank.experiment, inputs);
+      found = diagnose(experiment, tank, d);
     } else {
       found = diagnose(experiment, d);
     }

@@ -82,9 +82,7 @@ void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings,
 
 std::vector<std::string> input_files(const VerbOptions& options, const Experiment& experiment) {
   std::vector<std::string> files = options.positional();
-  for (const RecordingSource& source : experiment.sources) {
-    if (source.options.body == BodyKind::ball) files.push_back(source.file);
-  }
+  for (const RecordingSource& source : experiment.sources) files.push_back(source.file);
   return files;
 }
 

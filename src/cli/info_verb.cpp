@@ -4,6 +4,7 @@
 
 #include "cli/inputs.hpp"
 #include "cli/options.hpp"
+#include "io/json.hpp"
 #include "io/scenario_commands.hpp"
 #include "lilytank/assembly_record.hpp"
 #include "lilytank/run.hpp"
@@ -17,14 +18,44 @@ std::string with_unit(const ScenarioEntry& entry) {
   return entry.unit.empty() || entry.unit == "1" ? entry.value : entry.value + " " + entry.unit;
 }
 
-void print_entries(const Scenario& scenario) {
+Json entries_json(const std::vector<ScenarioEntry>& entries) {
+  Json out = Json::array();
+  for (const ScenarioEntry& e : entries) {
+    out.push_back({{"path", e.path},
+                   {"value", e.value},
+                   {"unit", e.unit},
+                   {"bounds", e.bounds},
+                   {"default", e.is_default},
+                   {"where", e.is_default ? "" : e.where.text()},
+                   {"meaning", e.meaning}});
+  }
+  return out;
+}
+
+Json scenario_json(const Scenario& scenario, const std::vector<ScenarioEntry>& entries) {
+  const Model& m = scenario.model;
+  Json forces = Json::array();
+  for (const ActiveForce& force : m.forces) forces.push_back(force.term->name());
+  return {{"schema", "info/1"},
+          {"title", scenario.title},
+          {"scenario", hex(scenario.identity)},
+          {"modules", m.module.count},
+          {"balls", m.ball.count},
+          {"duration_s", scenario.duration},
+          {"step_s", m.dt},
+          {"forces", std::move(forces)},
+          {"values", entries_json(entries)}};
+}
+
+/// A value in TOML, or a number with its unit, in columns.
+void print_entries(const std::vector<ScenarioEntry>& entries) {
   std::size_t path = 0, value = 0, bounds = 0;
-  for (const ScenarioEntry& e : scenario.entries) {
+  for (const ScenarioEntry& e : entries) {
     path = std::max(path, e.path.size());
     value = std::max(value, std::min<std::size_t>(32, with_unit(e).size()));
     bounds = std::max(bounds, std::min<std::size_t>(28, e.bounds.size()));
   }
-  for (const ScenarioEntry& e : scenario.entries) {
+  for (const ScenarioEntry& e : entries) {
     std::cout << padded(e.path, path) << "  " << padded(with_unit(e), value) << "  "
               << padded(e.bounds, bounds) << "  "
               << (e.is_default ? "default" : "set at " + e.where.text()) << " - " << e.meaning
@@ -64,15 +95,31 @@ int info_verb(const Arguments& arguments) {
   VerbOptions options("info", "SCENARIO...",
                       "Explains a scenario: every value, where it was set, and what follows.");
   std::vector<std::string> sets;
+  std::string only;
+  bool changed = false, json = false;
   options.add({"set", "a value, as tank.radius=0.3", "PATH=VALUE"}, &sets);
+  options.add({"only", "values whose paths begin so, as forces.face_drag", "PREFIX"}, &only);
+  options.add({"changed", "values that are not the defaults"}, &changed);
+  options.add({"json", "print JSON"}, &json);
   if (!options.parse(arguments,
                      "which scenario? write lilytank info SCENARIO, as scenarios/chain5.toml")) {
     return Exit::done;
   }
   refuse_point_bodies(options.positional());
   const Scenario scenario = load_scenario(options.positional(), sets);
-  print_entries(scenario);
-  print_derived(scenario);
+  std::vector<ScenarioEntry> shown = scenario.entries;
+  std::erase_if(shown, [&](const ScenarioEntry& e) {
+    return !e.path.starts_with(only) || (changed && e.is_default);
+  });
+  if (shown.empty() && !changed) {
+    options.refuse("no value's path begins with '" + only + "'");
+  }
+  if (json) {
+    std::cout << json_text(scenario_json(scenario, shown));
+    return Exit::done;
+  }
+  print_entries(shown);
+  if (only.empty()) print_derived(scenario);
   return Exit::done;
 }
 

@@ -120,7 +120,7 @@ int optimize_verb(const Arguments& arguments) {
   }
   ReportDocument document = optimization_report(what.plan(), result);
   document.provenance = provenance("optimize", arguments, what.plan().seed, what.source().inputs());
-  std::cout << report_text(document) << std::flush;
+  std::cout << printed(document) << std::flush;
   write_report(what.plan(), result, document, job.out);
   if (result.compare.empty() || options.has("no-compare")) return Exit::done;
   return compare(what, result, job, quiet);

@@ -31,15 +31,27 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
+VerbDescription describe(const Verb& verb, const std::string& own) {
+  try {
+    verb.act(own.empty() ? Arguments{kDescribe} : Arguments{own, kDescribe});
+  } catch (const VerbDescription& description) {
+    return description;
+  } catch (const InputError&) {
+    // Its options are those of its own verbs.
+  }
+  return {"", verb.summary, {}};
+}
+
 VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
                          const std::string& summary)
-    : verb_(verb), options_("lilytank " + verb, summary) {
+    : verb_(verb), description_{usage, summary, {}}, options_("lilytank " + verb, summary) {
   options_.custom_help("[OPTION...] " + usage);
   options_.add_options()("h,help", "print this");
 }
 
 void VerbOptions::add(const Option& option, const std::shared_ptr<cxxopts::Value>& type,
                       const std::function<void()>& store) {
+  description_.options.push_back(option);
   options_.add_options()(option.name, option.help, type, option.value);
   stores_.push_back([=, this] {
     if (store && has(option.name)) store();
@@ -80,6 +92,7 @@ void VerbOptions::add(const Option& option, double* out, double low, double high
 }
 
 bool VerbOptions::parse(const Arguments& arguments, const std::string& none_given) {
+  if (arguments == Arguments{kDescribe}) throw description_;
   // What follows "--" are files, even if they begin with a dash.
   const auto end = std::find(arguments.begin(), arguments.end(), "--");
   const Arguments before(arguments.begin(), end);

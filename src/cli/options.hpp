@@ -25,6 +25,15 @@ struct Option {
   std::string value = "";  ///< what the help calls its value; empty: a switch
 };
 
+/// What parse() throws if the only argument is kDescribe: a verb as others show it.
+struct VerbDescription {
+  std::string usage, summary;
+  std::vector<Option> options;
+};
+inline const std::string kDescribe = "--describe-options";
+/// Of a verb, or of `lilytank recording` with one of its own verbs.
+VerbDescription describe(const Verb& verb, const std::string& own = "");
+
 /// Options and positional arguments of one verb. Where add() gets a variable, parse() stores the
 /// value there if the option is given; the variable must exist until then.
 class VerbOptions {
@@ -86,6 +95,7 @@ class VerbOptions {
   void check_names(const Arguments& arguments);
   void check_switch(const std::string& name, const std::string& value) const;
   std::string verb_;
+  VerbDescription description_;
   cxxopts::Options options_;
   cxxopts::ParseResult result_;
   std::vector<std::string> positional_;

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "cli/host.hpp"
 #include "text/printable.hpp"
 
 namespace lilytank::cli {
@@ -30,6 +31,8 @@ double seconds(std::chrono::steady_clock::duration d) {
   return std::chrono::duration<double>(d).count();
 }
 
+}  // namespace
+
 std::string duration_text(double s) {
   char text[40];
   if (s < 90) {
@@ -42,10 +45,10 @@ std::string duration_text(double s) {
   return text;
 }
 
-}  // namespace
-
 Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()) {
+    : quiet_(quiet || host != nullptr),
+      terminal_(::isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()) {
   next_line_ = terminal_ ? start_ : start_ + kFirstLine;
   if (quiet_ || terminal_) return;
   try {
@@ -71,6 +74,7 @@ void Progress::watch(JobControl& job) {
 }
 
 void Progress::show(double done, const std::string& note) {
+  if (host != nullptr) host->progress(done, note);
   if (quiet_) return;
   const std::lock_guard hold(lock_);
   const auto now = Clock::now();
@@ -122,6 +126,7 @@ void Progress::clear() {
 }
 
 const std::atomic<bool>& stop_signal() {
+  if (host != nullptr) return *host->stop;
   struct sigaction action {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);

@@ -12,6 +12,9 @@
 
 namespace lilytank::cli {
 
+/// "40 s", "12 min", "2.5 h".
+std::string duration_text(double seconds);
+
 class Progress {
  public:
   explicit Progress(bool quiet);

@@ -122,11 +122,9 @@ int recording_verb(const Arguments& arguments) {
                  "track, or an experiment (*.toml).\n";
     return Exit::done;
   }
-  throw InputError("lilytank recording: say info, check or convert" +
-                   (word.empty() ? ""
-                                 : ", not '" + word + "'" +
-                                       did_you_mean(word, std::vector<std::string>{"info", "check",
-                                                                                   "convert"})));
+  throw InputError(
+      "lilytank recording: say info, check or convert" +
+      (word.empty() ? "" : ", not '" + word + "'" + did_you_mean(word, kRecordingVerbs)));
 }
 
 }  // namespace lilytank::cli

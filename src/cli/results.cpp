@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/host.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
@@ -30,8 +31,8 @@ std::vector<std::string> essential(const Arguments& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& word = arguments[i];
     const std::string name = word.substr(0, word.find('='));
-    if (name == "--force" || name == "--quiet") continue;
-    if (name == "--out" || name == "--threads") {
+    if (name == "--force" || name == "--quiet" || name == "--open") continue;
+    if (name == "--out" || name == "--tank-results" || name == "--threads") {
       i += word == name ? 1 : 0;
       continue;
     }
@@ -88,8 +89,13 @@ void say_undrawn(const std::string& what) {
             << ": this program was built without the renderer (Cairo was not found)\n";
 }
 
+std::string printed(const ReportDocument& report) {
+  if (host != nullptr) host->report(report);
+  return report_text(report);
+}
+
 int print_results(const ReportDocument& report, const std::string& dir) {
-  std::cout << report_text(report) << std::flush;
+  std::cout << printed(report) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }

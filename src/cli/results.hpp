@@ -35,6 +35,8 @@ ReportProvenance provenance(const std::string& verb, const Arguments& arguments,
 /// the same.
 std::string identity_of(const ReportProvenance& provenance);
 
+/// The report as text to print; the host receives it as a document.
+std::string printed(const ReportDocument& report);
 /// Prints the report, and the directory of the results; returns the exit code.
 int print_results(const ReportDocument& report, const std::string& dir);
 

@@ -89,7 +89,7 @@ std::string report(const StoredStudy& study, const std::string& dir) {
   write_study_summary(summary, document, dir);
   if constexpr (kDraws) draw_study(summary, document, dir);
   if constexpr (!kDraws) say_undrawn("plots");
-  return report_text(document);
+  return printed(document);
 }
 
 int study_merge(const Arguments& arguments) {

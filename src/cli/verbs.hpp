@@ -1,4 +1,4 @@
-// The verbs. A verb is one file beside this one and one line in main.cpp.
+// The verbs. A verb is one file beside this one and one line in command.cpp.
 #pragma once
 #include <string>
 #include <vector>
@@ -24,6 +24,11 @@ struct Verb {
   int (*act)(const Arguments& arguments);
 };
 
+/// All, in the order of the help.
+const std::vector<Verb>& verbs();
+/// Of `lilytank recording`.
+inline const std::vector<std::string> kRecordingVerbs{"info", "check", "convert"};
+
 int run_verb(const Arguments& arguments);
 int flow_verb(const Arguments& arguments);
 int info_verb(const Arguments& arguments);
@@ -38,5 +43,9 @@ int analyze_verb(const Arguments& arguments);
 int recording_verb(const Arguments& arguments);
 int synthesize_verb(const Arguments& arguments);
 int check_verb(const Arguments& arguments);
+int schema_verb(const Arguments& arguments);
+int completion_verb(const Arguments& arguments);
+int man_verb(const Arguments& arguments);
+int view_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -176,9 +176,23 @@ std::shared_ptr<const DirectoryLock> claim_tank(const DiagnosisSetup& tank) {
   return claim(tank.options, tank.identity());
 }
 
-// Whether the verdict is out already: faults of the recordings, or too little of them.
-bool ends_early(const std::vector<Shortfall>& shortfalls, const DiagnosisOptions& options,
-                Diagnosis& out) {
+// Whether faults of the recordings are the verdict; its directory is claimed then.
+bool ends_at_fault(const Experiment& experiment, const DiagnosisOptions& options, Diagnosis& out) {
+  if (!recordings_at_fault(experiment, out)) return false;
+  out.verdict = Verdict::measurement;
+  claim(options, "measurement " + identity_of(experiment));
+  return true;
+}
+
+// The flow is that of the tank: other balls are not looked at.
+Experiment lilies_of(Experiment experiment) {
+  std::erase_if(experiment.recordings, [](const Recording& r) { return r.body == BodyKind::ball; });
+  return experiment;
+}
+
+// Whether too little was recorded; then that is the verdict.
+bool is_insufficient(const std::vector<Shortfall>& shortfalls, const DiagnosisOptions& options,
+                     Diagnosis& out) {
   out.shortfalls = shortfalls;
   if (shortfalls.empty()) return false;
   if (!options.uncertified) {
@@ -189,6 +203,16 @@ bool ends_early(const std::vector<Shortfall>& shortfalls, const DiagnosisOptions
     out.warnings.push_back(s.what + ": error rates are not known here");
   }
   return false;
+}
+
+// `recordings`: of the tank's experiment or of another one in the same tank.
+void diagnose_in(DiagnosisSetup& setup, const CalibrationSetup& recordings,
+                 const DiagnosisOptions& options, Diagnosis& out) {
+  const CalibrationSetup& known = setup.calibration;
+  const FlowEstimate* flow = known.flow ? &*known.flow : nullptr;
+  if (is_insufficient(shortfalls_of(flow, known.balls, recordings.training), options, out)) return;
+  PreparedTank tank(setup, setup.model_cost());
+  search(tank, recordings, out);
 }
 
 }  // namespace
@@ -231,31 +255,17 @@ std::string name_of(Verdict verdict) {
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisOptions& options) {
   Diagnosis out = begun(experiment);
-  if (recordings_at_fault(experiment, out)) {
-    const auto lock = claim(options, "measurement " + identity_of(experiment));
-    out.verdict = Verdict::measurement;
-    return out;
-  }
+  if (ends_at_fault(experiment, options, out)) return out;
   DiagnosisSetup setup(experiment, options);
-  const CalibrationSetup& recordings = setup.calibration;
   const auto lock = claim(options, setup.identity());
-  const FlowEstimate* flow = recordings.flow ? &*recordings.flow : nullptr;
-  if (ends_early(shortfalls_of(flow, recordings.balls, recordings.training), options, out)) {
-    return out;
-  }
-  PreparedTank tank(setup, setup.model_cost());
-  search(tank, recordings, out);
+  diagnose_in(setup, setup.calibration, options, out);
   return out;
 }
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& earlier,
                    const DiagnosisOptions& options) {
   Diagnosis out = begun(experiment);
-  if (recordings_at_fault(experiment, out)) {
-    const auto lock = claim(options, "measurement " + identity_of(experiment));
-    out.verdict = Verdict::measurement;
-    return out;
-  }
+  if (ends_at_fault(experiment, options, out)) return out;
   if (experiment.base.identity != earlier.experiment.base.identity) {
     throw InputError("the tank of " + earlier.experiment.name +
                      " has other values of the model than " + experiment.name +
@@ -263,17 +273,12 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& earlier,
   }
   DiagnosisOptions in_tank = options;
   in_tank.out = earlier.directory, in_tank.force = false, in_tank.lock = nullptr;
-  DiagnosisSetup setup(earlier.experiment, in_tank);
-  const DiagnosisSetup own(experiment, options);
-  const CalibrationSetup& recordings = own.calibration;
-  refuse_unlike(setup.calibration, recordings);
-  const auto lock = claim(options, own.identity() + " in " + setup.identity());
-  const auto tank_lock = claim_tank(setup);
-  const CalibrationSetup& known = setup.calibration;
-  const FlowEstimate* flow = known.flow ? &*known.flow : nullptr;
-  if (ends_early(shortfalls_of(flow, known.balls, recordings.training), options, out)) return out;
-  PreparedTank tank(setup, setup.model_cost());
-  search(tank, recordings, out);
+  DiagnosisSetup tank(earlier.experiment, in_tank);
+  const DiagnosisSetup own(lilies_of(experiment), options);
+  refuse_unlike(tank.calibration, own.calibration);
+  const auto lock = claim(options, own.identity() + " in " + tank.identity());
+  const auto tank_lock = claim_tank(tank);
+  diagnose_in(tank, own.calibration, options, out);
   return out;
 }
 

@@ -77,10 +77,8 @@ std::string diagnosis_json(const Diagnosis& d) {
                                  {"high", p.high},
                                  {"unit", p.unit}});
   }
-  if (!d.shortfalls.empty()) {
-    for (const Shortfall& s : d.shortfalls) {
-      out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
-    }
+  for (const Shortfall& s : d.shortfalls) {
+    out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
   }
   out["detectable"] = Json::array();
   for (const Detectable& one : d.detectable) {
@@ -95,7 +93,7 @@ std::string diagnosis_json(const Diagnosis& d) {
 
 std::vector<std::string> diagnosis_files() {
   return with_figures({"diagnosis.json", "diagnosis.txt", "missing.toml", "flow.csv", "maps.csv",
-                       "ranking.csv", "fit.csv", "report.html"},
+                       "ranking.csv", "fit.csv", "report.html", "view.html"},
                       {"laws", "fit", "maps"});
 }
 

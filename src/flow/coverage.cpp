@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 
 #include "flow/grid.hpp"
@@ -25,24 +24,18 @@ void for_sightings(std::span<const Recording> recordings, BodyKind body, Use use
   }
 }
 
-double minutes_seen(std::span<const Recording> recordings, BodyKind body) {
-  double seconds = 0;
-  for_sightings(recordings, body, [&](double, double, double s) { seconds += s; });
-  return seconds / 60;
-}
+// Of bodies of a kind. Their number is a mean over the recordings: trackers that lose a body give
+// it another identity, so identities are no count.
+struct TimeSeen {
+  double minutes = 0;
+  double bodies = 1;
+};
 
-// The largest number of bodies of a recording.
-std::size_t bodies_in(std::span<const Recording> recordings, BodyKind body) {
-  std::size_t most = 0;
-  for (const Recording& one : recordings) {
-    if (one.body != body) continue;
-    std::vector<std::int64_t> ids;
-    for (const Track& track : one.tracks) ids.push_back(track.id);
-    std::sort(ids.begin(), ids.end());
-    most =
-        std::max(most, static_cast<std::size_t>(std::unique(ids.begin(), ids.end()) - ids.begin()));
-  }
-  return most;
+TimeSeen time_seen(std::span<const Recording> recordings, BodyKind body) {
+  double seen = 0, recorded = 0;  // s
+  for_sightings(recordings, body, [&](double, double, double s) { seen += s; });
+  for (const Recording& one : recordings) recorded += one.body == body ? one.frames / one.rate : 0;
+  return {seen / 60, recorded > 0 ? std::max(1.0, std::round(seen / recorded)) : 1};
 }
 
 // Seconds that Lilies were in each cell.
@@ -122,13 +115,13 @@ void measure_flow(const FlowEstimate& flow, const std::vector<double>& where, Co
 }
 
 // What the flow map falls short of, and by what factor the balls' time must grow.
-void check_flow(const FlowEstimate& flow, const std::vector<double>& where, std::size_t balls,
+void check_flow(const FlowEstimate& flow, const std::vector<double>& where, double balls,
                 Coverage& out) {
-  const double minutes = out.ball_minutes / static_cast<double>(std::max<std::size_t>(1, balls));
+  const double minutes = out.ball_minutes / balls;
   const auto add = [&](const std::string& what, double value, const char* bound, double needed,
                        double factor) {
     out.flow.push_back({what + ": " + percent(value) + " (" + bound + " " + percent(needed) + ")",
-                        (factor - 1) * minutes, std::to_string(balls) + " balls"});
+                        (factor - 1) * minutes, significant(balls, 6) + " balls"});
   };
   if (out.measured < kLeastMeasured) {
     std::vector<double> samples;
@@ -160,21 +153,21 @@ std::string to_record(const std::vector<Shortfall>& shortfalls) {
 Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
                      std::span<const Recording> lilies) {
   Coverage out;
-  out.ball_minutes = minutes_seen(balls, BodyKind::ball);
-  out.lily_minutes = minutes_seen(lilies, BodyKind::lily);
-  if (out.lily_minutes < kLeastLilyMinutes) {
-    const std::size_t count = std::max<std::size_t>(1, bodies_in(lilies, BodyKind::lily));
+  const TimeSeen ball = time_seen(balls, BodyKind::ball);
+  const TimeSeen lily = time_seen(lilies, BodyKind::lily);
+  out.ball_minutes = ball.minutes, out.lily_minutes = lily.minutes;
+  if (lily.minutes < kLeastLilyMinutes) {
     out.lilies.push_back(
-        {"time of the Lilies, summed over modules: " + significant(out.lily_minutes, 2) +
+        {"time of the Lilies, summed over modules: " + significant(lily.minutes, 2) +
              " min (at least " + significant(kLeastLilyMinutes, 2) + " min)",
-         (kLeastLilyMinutes - out.lily_minutes) / static_cast<double>(count),
-         std::to_string(count) + " Lilies"});
+         (kLeastLilyMinutes - lily.minutes) / lily.bodies,
+         significant(lily.bodies, 6) + " Lilies"});
   }
   out.flow_error = out.flow_speed = out.gust_error = NAN;
   if (flow == nullptr || out.lily_minutes <= 0) return out;
   const std::vector<double> where = seconds_by_cell({flow->cells, flow->extent}, lilies);
   measure_flow(*flow, where, out);
-  check_flow(*flow, where, bodies_in(balls, BodyKind::ball), out);
+  check_flow(*flow, where, ball.bodies, out);
   return out;
 }
 

@@ -135,30 +135,12 @@ void sum_modules(const Task& task, const Modules& m, WrenchSum& out) {
     sum_faces<Gusts::moment_matched, kAt>(task, m, out);
 }
 
-// How many numbers a module takes.
-int numbers(const DragSettings& s) {
-  switch (s.gusts) {
-    case Gusts::per_point:
-      return 4 * s.segments + 4;
-    case Gusts::per_module:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
 }  // namespace
 
-void drag(const DragSettings& settings, const std::uint32_t counter[4], const std::uint32_t key[2],
-          const DragBlock& block, DragSums& out) {
+// `z`: the modules' normal numbers.
+void drag(const DragSettings& settings, const DragBlock& block, const float* z, DragSums& out) {
   const Floats d;
   const Lookup field(*settings.field);
-  alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
-  const bool drawn = settings.gusty && !settings.expected;
-  if (drawn)
-    normals_of_all(counter, key, numbers(settings), z);
-  else
-    std::fill(z, z + 4 * kBulkBodies, 0.0f);
   for (int i = 0; i < kBulkBodies; i += static_cast<int>(hn::Lanes(d))) {
     const Modules m{hn::Load(d, block.x + i),    hn::Load(d, block.y + i),
                     hn::Load(d, block.c + i),    hn::Load(d, block.s + i),
@@ -187,6 +169,22 @@ HWY_AFTER_NAMESPACE();
 namespace lilytank {
 
 HWY_EXPORT(drag);
+
+namespace {
+
+// How many numbers a module takes.
+int numbers(const DragSettings& s) {
+  switch (s.gusts) {
+    case Gusts::per_point:
+      return 4 * s.segments + 4;
+    case Gusts::per_module:
+      return 2;
+    default:
+      return 4;
+  }
+}
+
+}  // namespace
 
 DragSettings::DragSettings(const Model& model, int segments_, const StepContext& now)
     : field(&field_now(model, now)),
@@ -219,9 +217,13 @@ void DragSettings::set_nodes(double second, double fourth) {
 }
 
 void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out) {
-  const auto counter = counter_of(settings.draw);
-  const auto key = key_of(settings.draw.seed);
-  HWY_DYNAMIC_DISPATCH(drag)(settings, counter.data(), key.data(), block, out);
+  alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
+  if (settings.gusty && !settings.expected) {
+    bulk_normals(settings.draw, numbers(settings), z);
+  } else {
+    std::fill(z, z + 4 * kBulkBodies, 0.0f);
+  }
+  HWY_DYNAMIC_DISPATCH(drag)(settings, block, z, out);
 }
 
 }  // namespace lilytank

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <set>
@@ -67,8 +68,31 @@ int write_all(int descriptor, std::string_view content) {
   return 0;
 }
 
+namespace {
+
+// The nearest name in the directory of a file that is not there, among those of its kind.
+std::string nearest_in_directory(const std::string& file) {
+  const std::filesystem::path path(file);
+  const std::filesystem::path in = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code ignored;
+  std::vector<std::string> stems;
+  for (const auto& entry : std::filesystem::directory_iterator(in, ignored)) {
+    const std::filesystem::path& other = entry.path();
+    if (other.extension() == path.extension()) stems.push_back(other.stem().string());
+  }
+  std::sort(stems.begin(), stems.end());
+  std::string advice = did_you_mean(path.stem().string(), stems);
+  if (const auto end = advice.rfind("'?"); end != std::string::npos) {
+    advice.insert(end, path.extension().string());
+  }
+  return advice;
+}
+
+}  // namespace
+
 std::string system_problem(const std::string& what, const std::string& file, int number) {
-  return what + " '" + file + "': " + std::generic_category().message(number);
+  return what + " '" + file + "': " + std::generic_category().message(number) +
+         (number == ENOENT ? nearest_in_directory(file) : "");
 }
 
 void write_atomically(const std::string& file, std::string_view content) {

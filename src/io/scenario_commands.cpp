@@ -59,7 +59,8 @@ class CommandReader {
   }
 
   void check_names() const {
-    static const std::vector<std::string> names{"at", "copies", "do", "modules", "file", "power"};
+    std::vector<std::string> names;
+    for (const TomlKey& key : command_keys()) names.push_back(key.name);
     for (const Assignment& field : table_->fields) {
       const std::string name = field.path();
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
@@ -148,6 +149,16 @@ class CommandReader {
 };
 
 }  // namespace
+
+TomlKeys command_keys() {
+  using namespace toml_key;
+  return {number("at", "s", 0, kLatest, "when"),
+          whole("copies", 1, 10000, "with so many finished copies, instead of a time"),
+          needed(word("do", command_words(), "what")),
+          numbers("modules", "which modules (all)"),
+          text("file", "the ruleset to go on with, for do = \"ruleset\""),
+          number("power", "%", 0, 100, "for do = \"pump_power\"")};
+}
 
 std::vector<ScheduledCommand> read_commands(const std::vector<CommandTable>& tables, int modules,
                                             std::vector<RulesetFile>& files) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/scenario_layers.hpp"
+#include "io/toml_key.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank {
@@ -20,6 +21,8 @@ struct ScheduledCommand {
   double power = 0;  ///< %, for do = "pump_power"
 };
 
+/// The keys of a command.
+TomlKeys command_keys();
 /// Reads the tables, sorted by time, equal times in the file's order; after them those that go with
 /// finished copies, by their number. Files named by do =
 /// "ruleset" are added to `files`, each once. Throws InputError.

@@ -1,5 +1,8 @@
 #include "io/scenario_keys.hpp"
 
+#include "io/scenario_commands.hpp"
+#include "io/scenario_values.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -146,6 +149,26 @@ void output_keys(ScenarioDraft& d, Keys& keys) {
                   "time between rows of metrics.csv"});
 }
 
+constexpr const char* kRuleP = "probability per evaluation that the rule fires";
+
+/// The kind of a key by its target.
+TomlKey described(const ScenarioKey& key) {
+  using Kind = TomlKey::Kind;
+  TomlKey out{key.path, Kind::text, key.meaning, key.unit, key.low, key.high};
+  if (const auto* choice = std::get_if<WordChoice>(&key.target)) {
+    out.kind = Kind::word, out.words = choice->words;
+  } else if (std::holds_alternative<bool*>(key.target)) {
+    out.kind = Kind::flag;
+  } else if (std::holds_alternative<double*>(key.target) && !key.whole) {
+    out.kind = Kind::number;
+  } else if (!std::holds_alternative<std::string*>(key.target) &&
+             !std::holds_alternative<FileName>(key.target)) {
+    out.kind = Kind::whole;
+  }
+  out.standard = value_text(key);
+  return out;
+}
+
 }  // namespace
 
 ScenarioDraft::ScenarioDraft() {
@@ -168,11 +191,21 @@ std::vector<ScenarioKey> scenario_keys(ScenarioDraft& draft) {
   return keys;
 }
 
+TomlKeys scenario_file_keys() {
+  using namespace toml_key;
+  ScenarioDraft draft;
+  TomlKeys paths{texts("base", "scenario files that this one overrides")};
+  for (const ScenarioKey& key : scenario_keys(draft)) paths.push_back(described(key));
+  paths.push_back(
+      by_name("rules", {number("p", "1", 0, 1, kRuleP)}, "rules of the ruleset's file"));
+  paths.push_back(tables("command", command_keys(), "what the base station does during the run"));
+  return nested(paths);
+}
+
 std::vector<ScenarioKey> rule_keys(ScenarioDraft& draft) {
   Keys keys;
   for (Rule& rule : draft.rules.rules) {
-    keys.push_back({"rules." + rule.name + ".p", &rule.p, "1", 0, 1,
-                    "probability per evaluation that the rule fires"});
+    keys.push_back({"rules." + rule.name + ".p", &rule.p, "1", 0, 1, kRuleP});
   }
   return keys;
 }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "io/toml_key.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/scenario.hpp"
 
@@ -57,6 +58,8 @@ struct ScenarioKey {
 
 /// The table for a draft, in the order of resolved.toml. The draft must stay where it is.
 std::vector<ScenarioKey> scenario_keys(ScenarioDraft& draft);
+/// The tables of a scenario file, with their keys.
+TomlKeys scenario_file_keys();
 /// Keys rules.<name>.p of the draft's ruleset.
 std::vector<ScenarioKey> rule_keys(ScenarioDraft& draft);
 

@@ -144,6 +144,11 @@ void read_set(const std::string& option, const std::string& set, std::vector<Ass
   }
   const std::string path(trimmed(std::string_view(set).substr(0, equals)));
   const std::string raw(trimmed(std::string_view(set).substr(equals + 1)));
+  for (const char quote : {'"', '\''}) {
+    if (raw.starts_with(quote) && (raw.size() == 1 || !raw.ends_with(quote))) {
+      throw InputError(place, "the quotation mark of " + raw + " is not closed");
+    }
+  }
   toml::table root;
   bool text = false;
   try {

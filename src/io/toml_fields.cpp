@@ -1,16 +1,66 @@
 #include "io/toml_fields.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "io/scenario_values.hpp"
+#include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
+namespace {
+
+std::vector<std::string> names_of(const TomlKeys& keys) {
+  std::vector<std::string> out;
+  for (const TomlKey& key : keys) out.push_back(key.name);
+  return out;
+}
+
+}  // namespace
+
+const TomlKey* find_key(const TomlKeys& keys, const std::string& name) {
+  const auto found =
+      std::find_if(keys.begin(), keys.end(), [&](const TomlKey& key) { return key.name == name; });
+  return found == keys.end() ? nullptr : &*found;
+}
+
+TomlKeys nested(const TomlKeys& paths) {
+  TomlKeys out;
+  for (TomlKey key : paths) {
+    TomlKeys* level = &out;
+    for (auto dot = key.name.find('.'); dot != std::string::npos; dot = key.name.find('.')) {
+      const std::string table = key.name.substr(0, dot);
+      key.name.erase(0, dot + 1);
+      if (find_key(*level, table) == nullptr) level->push_back(toml_key::table(table, {}, ""));
+      const auto at = std::find_if(level->begin(), level->end(),
+                                   [&](const TomlKey& one) { return one.name == table; });
+      level = &at->keys;
+    }
+    level->push_back(std::move(key));
+  }
+  return out;
+}
 
 TomlFields::TomlFields(const toml::table& table, std::string path, std::string file,
                        const std::vector<std::string>& names)
     : table_(&table), path_(std::move(path)), file_(std::move(file)) {
   check_names(names);
+}
+
+TomlFields::TomlFields(const toml::table& table, std::string path, std::string file, TomlKeys keys)
+    : TomlFields(table, std::move(path), std::move(file), names_of(keys)) {
+  keys_ = std::move(keys);
+}
+
+const toml::node& TomlFields::value(const std::string& name) const {
+  if (!has(name)) need(name, key(name).meaning);
+  return *node(name);
+}
+
+const TomlKey& TomlFields::key(const std::string& name) const {
+  const TomlKey* found = find_key(keys_, name);
+  assert(found != nullptr);
+  return *found;
 }
 
 // toml++ keeps keys sorted by name; the message should be about the first in the file.
@@ -38,7 +88,7 @@ std::string TomlFields::path(const std::string& name) const {
 }
 
 Assignment TomlFields::assignment(const std::string& name) const {
-  return {{name}, {place(name)}, value_of(*node(name)), place(name), "", ""};
+  return {{name}, {place(name)}, value_of(value(name)), place(name), "", ""};
 }
 
 std::string TomlFields::text(const std::string& name) const {
@@ -48,7 +98,7 @@ std::string TomlFields::text(const std::string& name) const {
 }
 
 std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::int64_t high) const {
-  const toml::node& value = *node(name);
+  const toml::node& value = this->value(name);
   if (!value.is_integer()) {
     refuse(name, path(name) + " is a whole number, not " + kind_of(value_of(value)));
   }
@@ -59,7 +109,7 @@ std::int64_t TomlFields::whole(const std::string& name, std::int64_t low, std::i
 }
 
 bool TomlFields::flag(const std::string& name) const {
-  const toml::node& value = *node(name);
+  const toml::node& value = this->value(name);
   if (!value.is_boolean()) {
     refuse(name, path(name) + " is true or false, not " + kind_of(value_of(value)));
   }
@@ -68,6 +118,24 @@ bool TomlFields::flag(const std::string& name) const {
 
 double TomlFields::number(const std::string& name, const std::string& unit) const {
   return number_of(assignment(name), path(name), unit);
+}
+
+std::int64_t TomlFields::whole(const std::string& name) const {
+  const TomlKey& one = key(name);
+  return whole(name, static_cast<std::int64_t>(one.low), static_cast<std::int64_t>(one.high));
+}
+
+double TomlFields::number(const std::string& name) const {
+  const TomlKey& one = key(name);
+  const double value = number(name, one.unit);
+  if (value >= one.low && value <= one.high) return value;
+  const std::string unit = one.unit == "1" ? "" : " " + one.unit;
+  refuse(name, path(name) + " = " + shortest(value) + unit + " is outside " + shortest(one.low) +
+                   " .. " + shortest(one.high) + unit);
+}
+
+std::size_t TomlFields::word(const std::string& name) const {
+  return index_of_word(assignment(name), path(name), key(name).words);
 }
 
 const toml::table& TomlFields::table(const std::string& name) const {
@@ -86,11 +154,11 @@ std::vector<std::pair<std::string, SourcePlace>> TomlFields::texts(const std::st
     }
     out.emplace_back(text->get(), where);
   };
-  if (const toml::array* list = node(name)->as_array()) {
-    for (const toml::node& value : *list) one(value);
+  if (const toml::array* list = value(name).as_array()) {
+    for (const toml::node& item : *list) one(item);
     if (out.empty()) refuse(name, path(name) + " is empty");
   } else {
-    one(*node(name));
+    one(value(name));
   }
   return out;
 }
@@ -104,6 +172,18 @@ std::vector<const toml::table*> TomlFields::tables(const std::string& name) cons
     refuse(name, path(name) + " is a list of tables, each under its own line [[" + name + "]]");
   }
   for (const toml::node& item : *list) out.push_back(item.as_table());
+  return out;
+}
+
+TomlFields TomlFields::fields(const std::string& name) const {
+  return {table(name), path(name), file_, key(name).keys};
+}
+
+std::vector<TomlFields> TomlFields::list_of_fields(const std::string& name) const {
+  std::vector<TomlFields> out;
+  for (const toml::table* one : tables(name)) {
+    out.emplace_back(*one, path(name), file_, key(name).keys);
+  }
   return out;
 }
 

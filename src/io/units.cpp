@@ -205,6 +205,18 @@ std::optional<Unit> parse_unit(std::string_view text) {
   return UnitReader(in_ascii(text)).whole();
 }
 
+std::vector<std::string> units_like(std::string_view unit) {
+  std::vector<std::string> out;
+  const auto like = parse_unit(unit);
+  for (const NamedUnit& known : kUnits) {
+    if (!like || !known.unit.same_dimension(*like)) continue;
+    out.emplace_back(known.name);
+    if (!known.prefixes) continue;
+    for (const auto& [prefix, ten] : kPrefixes) out.push_back(std::string(prefix) += known.name);
+  }
+  return out;
+}
+
 std::string described(std::string_view unit) {
   if (unit == "1" || unit.empty()) return "a number without a unit";
   if (unit == "%") return "a fraction in %";

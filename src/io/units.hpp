@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lilytank/error.hpp"
 
@@ -23,6 +24,10 @@ struct Unit {
 /// as people type them are read as well: both micro signs, blanks that do not break, raised
 /// powers, a degree sign, the dot of a product.
 std::optional<Unit> parse_unit(std::string_view text);
+
+/// The names with the dimension of a unit, prefixes included: "m", "mm", "cm" of "m"; none of a
+/// product such as "kg/m^3".
+std::vector<std::string> units_like(std::string_view unit);
 
 /// What is measured in a unit: "a length in m", "a number without a unit".
 std::string described(std::string_view unit);

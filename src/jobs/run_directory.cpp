@@ -152,6 +152,7 @@ void RunDirectory::remove_old() const {
   // Only beside a resolved.toml are these names sure to be a run's copies and not a user's files.
   const bool run = fs::remove(path(run_file::resolved), ignored);
   for (const char* name : kResults) fs::remove(path(name), ignored);
+  fs::remove(path(run_file::view), ignored);
   for (const std::string& name : pictures_of_run()) fs::remove(path(name), ignored);
   for (const std::string& name : run ? attached_names(dir_) : std::vector<std::string>{}) {
     fs::remove(path(name), ignored);

@@ -23,6 +23,7 @@ inline constexpr const char* species = "species.csv";
 inline constexpr const char* summary_text = "summary.txt";
 inline constexpr const char* summary_json = "summary.json";
 inline constexpr const char* checkpoint = "checkpoint.bin";
+inline constexpr const char* view = "view.html";  ///< by `lilytank view`
 }  // namespace run_file
 
 /// Paths of the files in `dir` that are a run's own, present or not: scenario, what it refers to,

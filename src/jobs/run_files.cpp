@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "io/scenario_commands.hpp"
+#include "lilytank/run_events.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
-
-const std::string kEventColumns =
-    "time,step,kind,module_a,face_a,module_b,face_b,rule,label_a,last_a,label_b,last_b,copies\n";
-
-std::string kind_word(EventKind kind) {
-  constexpr const char* words[] = {"latch",  "unlatch", "link",   "unlink",
-                                   "update", "report",  "command"};
-  return words[static_cast<int>(kind)];
-}
 
 /// The rule that fired, or what the base station said.
 std::string rule_of(const Event& event, const World& world) {
@@ -39,7 +31,7 @@ std::string row_of(const Event& event, const World& world) {
   const bool spoken = event.kind == EventKind::command;
   const bool a = event.a >= 0 && !spoken, b = event.b >= 0;
   return without_rounding(world.time()) + "," + std::to_string(world.state().step) + "," +
-         kind_word(event.kind) + pair_of(a, event.a, event.face_a) +
+         event_words()[static_cast<std::size_t>(event.kind)] + pair_of(a, event.a, event.face_a) +
          pair_of(b, event.b, event.face_b) + "," + rule_of(event, world) +
          pair_of(a, event.label_a, event.last_a) + pair_of(b, event.label_b, event.last_b) + ",\n";
 }
@@ -95,7 +87,7 @@ RunFiles::RunFiles(const Scenario& scenario, const RunDirectory& directory, int 
       metrics_due_(scenario.output.metrics_interval / scenario.model.dt, step_done(directory)),
       copies_(copies) {
   if (directory.checkpoint()) return;
-  events_.append(kEventColumns);
+  events_.append(kEventColumns + "\n");
   metrics_.append(metric_columns(scenario.model.module.count));
 }
 
@@ -118,8 +110,8 @@ void RunFiles::events(const World& world, const AssemblyRecord& record) {
   for (const Event& event : world.events()) events_.append(row_of(event, world));
   if (record.copies() == copies_) return;
   copies_ = record.copies();
-  events_.append(without_rounding(world.time()) + "," + std::to_string(world.state().step) +
-                 ",copy,,,,,,,,,," + std::to_string(copies_) + "\n");
+  events_.append(without_rounding(world.time()) + "," + std::to_string(world.state().step) + "," +
+                 event_words()[kCopyEvent] + ",,,,,,,,,," + std::to_string(copies_) + "\n");
 }
 
 void RunFiles::metrics(const World& world, const AssemblyRecord& record) {

@@ -153,8 +153,9 @@ HWY_INLINE void store_pair(const Blocks& block, Word rest, float* out) {
   hn::Store(x, d, out + 2 * j * kBulkBodies), hn::Store(y, d, out + (2 * j + 1) * kBulkBodies);
 }
 
-// The first `count` (up to six) numbers of a block.
-HWY_INLINE void store_numbers(const Blocks& block, int count, float* out) {
+// The first `count` (up to six) numbers of a block. Not inlined: it would take most of the time to
+// compile, and run no faster.
+static HWY_NOINLINE void store_numbers(const Blocks& block, int count, float* out) {
   const Word rest = word_of<3>(block);
   store_pair<0>(block, rest, out);
   if (count > 2) store_pair<1>(block, rest, out);

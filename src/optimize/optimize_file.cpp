@@ -25,14 +25,13 @@ class Reader {
         root_(parse_toml(read_whole(file), file)) {}
 
   OptimizeFile read() {
-    const TomlFields top(root_, "", file_,
-                         {"optimize", "parameter", "agitation", "race", "compare"});
+    const TomlFields top(root_, "", file_, optimize_file_keys());
     if (!top.has("optimize")) throw InputError({file_, 1, 1}, "there is no [optimize] table");
-    optimize(top.table("optimize"));
-    for (const toml::table* one : top.tables("parameter")) parameter(*one);
-    if (top.has("agitation")) agitation(top.table("agitation"));
-    if (top.has("race")) race(top.table("race"));
-    if (top.has("compare")) compare(top.table("compare"));
+    optimize(top.fields("optimize"));
+    for (const TomlFields& one : top.list_of_fields("parameter")) parameter(one);
+    if (top.has("agitation")) agitation(top.fields("agitation"));
+    if (top.has("race")) race(top.fields("race"));
+    if (top.has("compare")) compare(top.fields("compare"));
     if (out_.parameters.empty() && out_.agitation.kind == Agitation::none) {
       throw InputError(top.place("optimize"),
                        "nothing is to be searched: there is no [[parameter]] and no [agitation]");
@@ -51,19 +50,11 @@ class Reader {
     return out;
   }
 
-  void optimize(const toml::table& from) {
-    const TomlFields fields(
-        from, "optimize", file_,
-        {"name", "scenario", "seed", "fitness", "rate_weight", "yield_weight", "hybrid", "method",
-         "preset", "evaluations", "population", "sigma", "particles", "iterations", "repeats",
-         "noise", "neighbourhood", "final_evaluations", "common_random_numbers"});
+  void optimize(const TomlFields& fields) {
     out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
     check_name(out_.name, "optimize.name", fields.place("name"));
-    fields.need("scenario", "a scenario file, or a list with its overlays");
     out_.scenarios = paths(fields, "scenario");
-    if (fields.has("seed")) {
-      out_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed));
-    }
+    if (fields.has("seed")) out_.seed = static_cast<std::uint64_t>(fields.whole("seed"));
     fitness(fields);
     if (fields.has("hybrid")) out_.hybrid = fields.flag("hybrid");
     out_.hybrid_place = fields.place("hybrid");
@@ -71,27 +62,20 @@ class Reader {
   }
 
   void fitness(const TomlFields& fields) {
-    if (fields.has("fitness")) {
-      out_.fitness.fitness = static_cast<Fitness>(word_of(fields, "fitness", fitness_names()));
-    }
-    const auto weight = [&](const char* name, const char* unit, double& value) {
+    if (fields.has("fitness")) out_.fitness.fitness = static_cast<Fitness>(fields.word("fitness"));
+    const auto weight = [&](const char* name, double& value) {
       if (!fields.has(name)) return;
       if (out_.fitness.fitness != Fitness::rate_and_yield) {
         fields.refuse(name, fields.path(name) + " goes with fitness = \"rate_and_yield\" only");
       }
-      value = fields.number(name, unit);
-      if (!(value >= 0)) {
-        fields.refuse(name, fields.path(name) + " = " + shortest(value) + " is below 0");
-      }
+      value = fields.number(name);
     };
-    weight("rate_weight", "s", out_.fitness.rate_weight);
-    weight("yield_weight", "1", out_.fitness.yield_weight);
+    weight("rate_weight", out_.fitness.rate_weight);
+    weight("yield_weight", out_.fitness.yield_weight);
   }
 
   void method(const TomlFields& fields) {
-    if (fields.has("method")) {
-      out_.method = static_cast<SearchMethod>(word_of(fields, "method", {"cma_es", "swarm"}));
-    }
+    if (fields.has("method")) out_.method = static_cast<SearchMethod>(fields.word("method"));
     const bool swarm = out_.method == SearchMethod::swarm;
     const auto goes_with = [&](const std::vector<const char*>& names, const char* word) {
       for (const char* name : names) {
@@ -113,52 +97,42 @@ class Reader {
     }
   }
 
-  static int whole(const TomlFields& fields, const char* name, int otherwise, std::int64_t low,
-                   std::int64_t high) {
-    return fields.has(name) ? static_cast<int>(fields.whole(name, low, high)) : otherwise;
+  static int whole(const TomlFields& fields, const char* name, int otherwise) {
+    return fields.has(name) ? static_cast<int>(fields.whole(name)) : otherwise;
   }
 
   void take_swarm(const TomlFields& fields) {
     SwarmOptions& o = out_.swarm;
     o.particles = 15, o.iterations = 20;
     if (fields.has("preset")) {
-      const auto names = swarm_presets();
-      o = swarm_preset(names[word_of(fields, "preset", names)]);
+      o = swarm_preset(swarm_presets()[fields.word("preset")]);
       out_.start_anywhere = true;
     }
-    o.particles = whole(fields, "particles", o.particles, 2, 100000);
-    o.iterations = whole(fields, "iterations", o.iterations, 1, 1000000);
-    o.evaluations = whole(fields, "repeats", o.evaluations, 1, 10000);
-    o.final_evaluations =
-        whole(fields, "final_evaluations", o.final_evaluations, 0, kMostEvaluations);
-    if (fields.has("noise")) {
-      o.noise = static_cast<NoiseRule>(word_of(fields, "noise", {"none", "reevaluate", "ocba"}));
-    }
+    o.particles = whole(fields, "particles", o.particles);
+    o.iterations = whole(fields, "iterations", o.iterations);
+    o.evaluations = whole(fields, "repeats", o.evaluations);
+    o.final_evaluations = whole(fields, "final_evaluations", o.final_evaluations);
+    if (fields.has("noise")) o.noise = static_cast<NoiseRule>(fields.word("noise"));
     if (fields.has("neighbourhood")) {
-      o.neighbourhood = static_cast<Neighbourhood>(
-          word_of(fields, "neighbourhood", {"global", "ring", "von-neumann"}));
+      o.neighbourhood = static_cast<Neighbourhood>(fields.word("neighbourhood"));
     }
   }
 
   void take_cma_es(const TomlFields& fields) {
     CmaEsOptions& o = out_.cma_es;
     o.budget = 300, o.final_evaluations = 60;
-    if (fields.has("evaluations")) o.budget = fields.whole("evaluations", 1, kMostEvaluations);
-    o.final_evaluations =
-        whole(fields, "final_evaluations", static_cast<int>(o.budget / 5), 0, kMostEvaluations);
+    if (fields.has("evaluations")) o.budget = fields.whole("evaluations");
+    o.final_evaluations = whole(fields, "final_evaluations", static_cast<int>(o.budget / 5));
     if (!fields.has("final_evaluations") && o.final_evaluations < 4) o.final_evaluations = 0;
-    o.population = whole(fields, "population", 0, 0, 100000);
-    if (fields.has("sigma")) o.sigma = fields.number("sigma", "1");
+    o.population = whole(fields, "population", 0);
+    if (fields.has("sigma")) o.sigma = fields.number("sigma");
   }
 
-  void parameter(const toml::table& from) {
-    const TomlFields fields(from, "parameter", file_, {"path", "low", "high", "scale", "start"});
+  void parameter(const TomlFields& fields) {
     OptimizeParameter out;
     out.place = fields.place();
-    fields.need("path", "what is searched, as rules.r1_reverse.p");
     out.path = path_of(fields);
     const KeyFacts facts = facts_of(out.path);
-    fields.need("low", "the least value"), fields.need("high", "the largest value");
     out.low = fields.number("low", facts.unit), out.high = fields.number("high", facts.unit);
     out.whole = facts.whole;
     out.logarithmic = log_scale(fields);
@@ -176,14 +150,10 @@ class Reader {
     out_.parameters.push_back(std::move(out));
   }
 
-  void agitation(const toml::table& from) {
-    const TomlFields fields(from, "agitation", file_, {"kind", "low", "high", "pieces"});
+  void agitation(const TomlFields& fields) {
     AgitationTable& out = out_.agitation;
     out.place = fields.place();
-    fields.need("kind", "\"schedule\" or \"feedback\"");
-    out.kind = static_cast<Agitation>(1 + word_of(fields, "kind", {"schedule", "feedback"}));
-    fields.need("low", "the least pump power, as \"50 %\"");
-    fields.need("high", "the largest pump power");
+    out.kind = static_cast<Agitation>(1 + fields.word("kind"));
     out.low = fields.number("low", "%"), out.high = fields.number("high", "%");
     if (out.low < 0 || out.high > 100 || !(out.low < out.high)) {
       fields.refuse("high", "agitation.low = " + shortest(out.low) + " % and agitation.high = " +
@@ -192,30 +162,26 @@ class Reader {
     if (fields.has("pieces") && out.kind == Agitation::feedback) {
       fields.refuse("pieces", "agitation.pieces goes with kind = \"schedule\" only");
     }
-    out.pieces = whole(fields, "pieces", out.pieces, 1, 20);
+    out.pieces = whole(fields, "pieces", out.pieces);
   }
 
-  void race(const toml::table& from) {
-    const TomlFields fields(from, "race", file_, {"target", "rulesets", "evaluations"});
+  void race(const TomlFields& fields) {
     RaceTable out;
     out.place = fields.place();
     if (fields.has("target")) out.target = paths(fields, "target").front();
-    out.rulesets = whole(fields, "rulesets", out.rulesets, 2, 100000);
-    out.evaluations = whole(fields, "evaluations", out.evaluations, 2, 1000000);
+    out.rulesets = whole(fields, "rulesets", out.rulesets);
+    out.evaluations = whole(fields, "evaluations", out.evaluations);
     if (out_.method != SearchMethod::cma_es) {
       throw InputError(out.place, "a race is run with method = \"cma_es\"");
     }
     out_.race = out;
   }
 
-  void compare(const toml::table& from) {
-    const TomlFields fields(from, "compare", file_, {"overlays", "labels", "replicates", "seed"});
+  void compare(const TomlFields& fields) {
     CompareTable& out = out_.compare;
-    fields.need("replicates", "how many simulations of the optimum and of each overlay");
-    out.replicates = whole(fields, "replicates", 0, 1, 10'000'000);
-    out.seed = fields.has("seed")
-                   ? static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed))
-                   : out_.seed + 1;
+    out.replicates = whole(fields, "replicates", 0);
+    out.seed =
+        fields.has("seed") ? static_cast<std::uint64_t>(fields.whole("seed")) : out_.seed + 1;
     if (fields.has("overlays")) out.overlays = paths(fields, "overlays");
     if (fields.has("labels")) {
       for (const auto& [text, place] : fields.texts("labels")) out.labels.push_back(text);
@@ -234,7 +200,60 @@ class Reader {
   OptimizeFile out_;
 };
 
+TomlKeys optimize_keys() {
+  using namespace toml_key;
+  return {
+      text("name", "names files and the report (default: the file's name)"),
+      needed(texts("scenario", "a scenario file, or a list with its overlays")),
+      whole("seed", 0, kLargestSeed, "where the seeds of the simulations come from (1)"),
+      word("fitness", fitness_names(), "what is minimised"),
+      number("rate_weight", "s", 0, 1e12, "of the assembly rate, of \"rate_and_yield\""),
+      number("yield_weight", "1", 0, 1e12, "of the full yield, of \"rate_and_yield\""),
+      flag("hybrid", "a second set of probabilities after some completed copies"),
+      word("method", {"cma_es", "swarm"}, "of the search (cma_es)"),
+      word("preset", swarm_presets(), "a published swarm, for method = \"swarm\""),
+      whole("evaluations", 1, kMostEvaluations, "simulations in all, of cma_es (300)"),
+      whole("population", 0, 100000, "points of a generation, of cma_es; 0: by dimension"),
+      number("sigma", "1", -1e9, 1e9, "first step as a fraction of the bounds, of cma_es"),
+      whole("particles", 2, 100000, "of the swarm (15)"),
+      whole("iterations", 1, 1000000, "of the swarm (20)"),
+      whole("repeats", 1, 10000, "simulations of a particle and iteration, of the swarm"),
+      word("noise", {"none", "reevaluate", "ocba"}, "how the swarm treats noise"),
+      word("neighbourhood", {"global", "ring", "von-neumann"}, "of the swarm"),
+      whole("final_evaluations", 0, kMostEvaluations,
+            "of the candidates at the end, which the optimum is chosen from"),
+      flag("common_random_numbers", "candidates are compared with the same seeds"),
+  };
+}
+
 }  // namespace
+
+TomlKeys optimize_file_keys() {
+  using namespace toml_key;
+  const TomlKeys parameter{needed(text("path", "what is searched, as rules.r1_reverse.p")),
+                           needed(quantity("low", "the least value")),
+                           needed(quantity("high", "the largest value")), scale_key(),
+                           quantity("start", "where the search begins (the scenario's value)")};
+  const TomlKeys agitation{
+      needed(word("kind", {"schedule", "feedback"}, "\"schedule\" or \"feedback\"")),
+      needed(number("low", "%", -1e9, 1e9, "the least pump power, as \"50 %\"")),
+      needed(number("high", "%", -1e9, 1e9, "the largest pump power")),
+      whole("pieces", 1, 20, "of the schedule")};
+  const TomlKeys race{text("target", "drawing of the target; rulesets are made from it"),
+                      whole("rulesets", 2, 100000, "that race"),
+                      whole("evaluations", 2, 1000000, "of each ruleset in the first round")};
+  const TomlKeys compare{
+      texts("overlays", "files that the optimum is compared with"),
+      texts("labels", "one for each overlay"),
+      needed(whole("replicates", 1, 10'000'000,
+                   "how many simulations of the optimum and of each overlay")),
+      whole("seed", 0, kLargestSeed, "of the comparison (one above the search's)")};
+  return {table("optimize", optimize_keys(), "what is minimised, and how"),
+          tables("parameter", parameter, "what is searched"),
+          table("agitation", agitation, "pump power over time or copies"),
+          table("race", race, "rulesets for one target against each other"),
+          table("compare", compare, "the optimum against other settings")};
+}
 
 OptimizeFile read_optimize_file(const std::string& file) {
   return Reader(file).read();

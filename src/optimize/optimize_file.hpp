@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/scenario_layers.hpp"
+#include "io/toml_key.hpp"
 #include "lilytank/optimize.hpp"
 
 namespace lilytank {
@@ -61,6 +62,8 @@ struct OptimizeFile {
   CompareTable compare;
 };
 
+/// The keys of an optimisation file.
+TomlKeys optimize_file_keys();
 /// Throws InputError: unreadable file, TOML syntax, unknown key, wrong kind, out of bounds.
 OptimizeFile read_optimize_file(const std::string& file);
 

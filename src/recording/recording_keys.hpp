@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/scenario_layers.hpp"
+#include "io/toml_key.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/model.hpp"
 #include "lilytank/recording_io.hpp"
@@ -14,6 +15,8 @@ namespace lilytank {
 /// InputError: unknown key, another kind, out of bounds.
 void assign_recording_option(const Assignment& from, const std::string& prefix,
                              RecordingOptions& options);
+/// The tables of an experiment's file beside those of its scenario: [experiment], [[recording]].
+TomlKeys experiment_tables();
 /// The same for a camera; the prefix is "camera".
 void assign_camera_option(const Assignment& from, Camera& camera);
 /// Sets the tank's radius and the body's from the model's bodies of the options' kind.

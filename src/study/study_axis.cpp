@@ -53,16 +53,29 @@ Assignment path_of(const TomlFields& fields) {
   return out;
 }
 
-std::size_t word_of(const TomlFields& fields, const std::string& name,
-                    const std::vector<std::string>& words) {
-  const std::string word = fields.text(name);
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw unknown_word(fields.place(name), fields.path(name), word, words);
+TomlKey scale_key() {
+  return toml_key::word("scale", {"linear", "log"}, "equal steps or equal ratios (linear)");
 }
 
 bool log_scale(const TomlFields& fields) {
-  return fields.has("scale") && word_of(fields, "scale", {"linear", "log"}) == 1;
+  return fields.has("scale") && fields.word("scale") == 1;
+}
+
+TomlKeys axis_keys() {
+  using namespace toml_key;
+  const TomlKey from = quantity("from", "where the values begin");
+  const TomlKey to = quantity("to", "where the values end");
+  return {
+      text("name", "names a column (default: the path)"),
+      text("path", "what is varied, as module.count"),
+      list("values", "the values"),
+      from,
+      to,
+      whole("count", 2, kMostValues, "how many values"),
+      scale_key(),
+      table("latin", {from, to, scale_key()}, "one random value in each of study.samples parts"),
+      texts("overlays", "files that override the scenario"),
+      texts("labels", "one for each value or overlay")};
 }
 
 namespace {
@@ -83,7 +96,7 @@ AxisRange ends(const TomlFields& fields, const KeyFacts& facts) {
 }
 
 std::vector<Assignment> listed(const TomlFields& fields, const Assignment& path,
-                               const std::string& file, const std::string& directory) {
+                               const std::string& directory) {
   const toml::array* list = fields.node("values")->as_array();
   if (list == nullptr || list->empty()) {
     fields.refuse("values", "axis.values is a list with at least one value");
@@ -92,24 +105,25 @@ std::vector<Assignment> listed(const TomlFields& fields, const Assignment& path,
   for (const toml::node& node : *list) {
     Assignment value = path;
     value.value = value_of(node);
-    value.place = place_of(node.source(), file);
+    value.place = place_of(node.source(), path.place.file);
     value.directory = directory;
     out.push_back(std::move(value));
   }
   return out;
 }
 
-AxisRange computed(const TomlFields& fields, const KeyFacts& facts, const std::string& file) {
+AxisRange computed(const TomlFields& fields, const KeyFacts& facts) {
   if (fields.has("latin")) {
-    const toml::table* table = fields.node("latin")->as_table();
-    if (table == nullptr) fields.refuse("latin", "axis.latin is {from = ..., to = ...}");
-    AxisRange range = ends(TomlFields(*table, "axis.latin", file, {"from", "to", "scale"}), facts);
+    if (!fields.node("latin")->is_table()) {
+      fields.refuse("latin", "axis.latin is {from = ..., to = ...}");
+    }
+    AxisRange range = ends(fields.fields("latin"), facts);
     range.latin = true;
     return range;
   }
   AxisRange range = ends(fields, facts);
   fields.need("count", "how many values");
-  range.count = static_cast<int>(fields.whole("count", 2, kMostValues));
+  range.count = static_cast<int>(fields.whole("count"));
   return range;
 }
 
@@ -176,11 +190,7 @@ bool is_column(const std::string& name) {
 
 }  // namespace
 
-StudyAxis read_axis(const toml::table& table, const std::string& file,
-                    const std::string& directory) {
-  const TomlFields fields(
-      table, "axis", file,
-      {"name", "path", "values", "from", "to", "count", "scale", "latin", "overlays", "labels"});
+StudyAxis read_axis(const TomlFields& fields, const std::string& directory) {
   StudyAxis axis;
   axis.place = fields.place();
   const std::string way = way_of(fields);
@@ -194,9 +204,9 @@ StudyAxis read_axis(const toml::table& table, const std::string& file,
     fields.need("path", "what is varied, as module.count");
     axis.path = path_of(fields);
     if (way == "values") {
-      axis.values = listed(fields, axis.path, file, directory);
+      axis.values = listed(fields, axis.path, directory);
     } else {
-      axis.range = computed(fields, facts_of(axis.path), file);
+      axis.range = computed(fields, facts_of(axis.path));
     }
   }
   if (fields.has("labels")) axis.labels = labels(fields, axis);

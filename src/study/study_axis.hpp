@@ -8,9 +8,10 @@
 
 namespace lilytank {
 
+/// The keys of an axis.
+TomlKeys axis_keys();
 /// Reads an axis of a study file in `directory`. Throws InputError.
-StudyAxis read_axis(const toml::table& table, const std::string& file,
-                    const std::string& directory);
+StudyAxis read_axis(const TomlFields& fields, const std::string& directory);
 
 /// What a range must know about the key that it runs over.
 struct KeyFacts {
@@ -22,10 +23,9 @@ struct KeyFacts {
 KeyFacts facts_of(const Assignment& path);
 /// The key `path` of a table as a path of a scenario that may be varied. Throws InputError.
 Assignment path_of(const TomlFields& fields);
-/// Which of `words` a key holds. Throws InputError with the nearest one.
-std::size_t word_of(const TomlFields& fields, const std::string& name,
-                    const std::vector<std::string>& words);
-/// The key `scale` of a table: "log" is true, "linear" and none false. Throws InputError.
+/// The key `scale`, of a range of numbers.
+TomlKey scale_key();
+/// Its value: "log" is true, "linear" and none false. Throws InputError.
 bool log_scale(const TomlFields& fields);
 
 /// Refuses names that do not fit in tables and file names; `what` is the key for the message.

@@ -59,7 +59,6 @@ std::string summary_csv(const StudySummary& s) {
     SettingRows rows(s, i, out);
     rows.count("finished", setting.runs);
     rows.count("diverged", setting.diverged);
-    rows.count("stopped", setting.stopped);
     rows.count("illegal", setting.illegal);
     rows.count("possible", setting.possible);
     rows.estimate("copies", "", "1", setting.copies);

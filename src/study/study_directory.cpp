@@ -27,7 +27,7 @@ bool is_rows(const std::string& name) {
 bool is_made(const std::string& name) {
   static const std::vector<std::string> kNames =
       with_figures({study_file::table, "summary.txt", "summary.csv", "comparisons.csv",
-                    "yield_curve.csv", "survival.csv", "report.html"},
+                    "yield_curve.csv", "survival.csv", "report.html", "view.html"},
                    {"yield", "mean_time"});
   if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return true;
   if (!name.ends_with(".png") && !name.ends_with(".svg")) return false;

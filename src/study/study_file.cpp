@@ -33,16 +33,16 @@ class Reader {
         root_(parse_toml(read_whole(file), file)) {}
 
   StudyFile read() {
-    const TomlFields top(root_, "", file_, {"study", "stop", "axis"});
+    const TomlFields top(root_, "", file_, study_file_keys());
     if (!top.has("study")) throw InputError({file_, 1, 1}, "there is no [study] table");
-    study(top.table("study"));
-    if (top.has("stop")) stop(top.table("stop"));
+    study(top.fields("study"));
+    if (top.has("stop")) stop(top.fields("stop"));
     if (out_.replicates < 0) {
       throw InputError(top.place("study"),
                        "study.replicates is missing: the number of simulations of each setting");
     }
-    for (const toml::table* axis : top.tables("axis")) {
-      out_.axes.push_back(read_axis(*axis, file_, directory_));
+    for (const TomlFields& axis : top.list_of_fields("axis")) {
+      out_.axes.push_back(read_axis(axis, directory_));
       check_axis(top);
     }
     const bool latin = std::any_of(out_.axes.begin(), out_.axes.end(), [](const StudyAxis& axis) {
@@ -55,40 +55,32 @@ class Reader {
   }
 
  private:
-  void study(const toml::table& from) {
-    const TomlFields fields(from, "study", file_,
-                            {"name", "scenario", "replicates", "seed", "samples", "until"});
+  void study(const TomlFields& fields) {
     out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
     check_name(out_.name, "study.name", fields.place("name"));
-    fields.need("scenario", "a scenario file, or a list with its overlays");
     for (const auto& [name, place] : fields.texts("scenario")) {
       const std::string path = (fs::path(directory_) / name).string();
       static_cast<void>(read_whole(path, place));  // the message should point here
       out_.scenarios.push_back(path);
     }
-    if (fields.has("seed")) {
-      out_.seed = static_cast<std::uint64_t>(fields.whole("seed", 0, kLargestSeed));
-    }
-    out_.until_settled = fields.has("until") && word_of(fields, "until", {"end", "settled"}) == 1;
+    if (fields.has("seed")) out_.seed = static_cast<std::uint64_t>(fields.whole("seed"));
+    out_.until_settled = fields.has("until") && fields.word("until") == 1;
     out_.replicates = -1;
     if (fields.has("replicates")) {
-      out_.replicates = static_cast<int>(fields.whole("replicates", 1, kMostReplicates));
+      out_.replicates = static_cast<int>(fields.whole("replicates"));
       replicates_place_ = fields.place("replicates");
     }
     if (fields.has("samples")) {
-      out_.samples = static_cast<int>(fields.whole("samples", 1, kMostSamples));
+      out_.samples = static_cast<int>(fields.whole("samples"));
       samples_place_ = fields.place("samples");
     }
   }
 
-  void stop(const toml::table& from) {
-    const TomlFields fields(from, "stop", file_, {"metric", "half_width", "min", "max", "round"});
+  void stop(const TomlFields& fields) {
     StoppingRule rule;
-    fields.need("metric", "whose interval is to be narrow, as copies");
     rule.metric = fields.text("metric");
     out_.stop_place = fields.place("metric");
     check_metric(rule.metric, out_.stop_place);
-    fields.need("half_width", "how narrow: half of the 95 % interval");
     const std::string unit = metric_unit(rule.metric);
     rule.half_width = fields.number("half_width", unit);
     if (!(rule.half_width > 0)) {
@@ -99,14 +91,11 @@ class Reader {
       throw InputError(replicates_place_,
                        "study.replicates is a fixed number; with [stop] give stop.max instead");
     }
-    fields.need("max", "the most replicates of a setting");
-    rule.max = static_cast<int>(fields.whole("max", 2, kMostReplicates));
+    rule.max = static_cast<int>(fields.whole("max"));
     rule.min = std::min(rule.max, 20);
     if (fields.has("min")) rule.min = static_cast<int>(fields.whole("min", 2, rule.max));
     rule.round = 10;
-    if (fields.has("round")) {
-      rule.round = static_cast<int>(fields.whole("round", 1, kMostReplicates));
-    }
+    if (fields.has("round")) rule.round = static_cast<int>(fields.whole("round"));
     out_.replicates = rule.max;
     out_.stop = rule;
   }
@@ -134,6 +123,30 @@ class Reader {
 };
 
 }  // namespace
+
+TomlKeys study_file_keys() {
+  using namespace toml_key;
+  const TomlKeys study{
+      text("name", "names files and the report (default: the file's name)"),
+      needed(texts("scenario", "a scenario file, or a list with its overlays")),
+      whole("replicates", 1, kMostReplicates,
+            "simulations of each setting, unless there is [stop]"),
+      whole("seed", 0, kLargestSeed, "where the seeds of the replicates come from (1)"),
+      whole("samples", 1, kMostSamples, "points of the latin hypercube"),
+      word("until", {"end", "settled"},
+           "simulate to run.duration, or until all possible copies are completed"),
+  };
+  const TomlKeys stop{
+      needed(text("metric", "whose interval is to be narrow, as copies")),
+      needed(quantity("half_width", "how narrow: half of the 95 % interval")),
+      needed(whole("max", 2, kMostReplicates, "the most replicates of a setting")),
+      whole("min", 2, kMostReplicates, "the fewest replicates (20)"),
+      whole("round", 1, kMostReplicates, "replicates between two looks at the interval (10)"),
+  };
+  return {table("study", study, "what is simulated"),
+          table("stop", stop, "replicates until an interval is narrow"),
+          tables("axis", axis_keys(), "what is varied")};
+}
 
 StudyFile read_study_file(const std::string& file) {
   return Reader(file).read();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/scenario_layers.hpp"
+#include "io/toml_key.hpp"
 #include "lilytank/study.hpp"
 
 namespace lilytank {
@@ -42,6 +43,8 @@ struct StudyFile {
   std::vector<StudyAxis> axes;
 };
 
+/// The keys of a study file.
+TomlKeys study_file_keys();
 /// Throws InputError: unreadable file, TOML syntax, unknown key, wrong kind, out of bounds.
 StudyFile read_study_file(const std::string& file);
 

@@ -26,16 +26,14 @@ const SettingSummary* best_of(const StudySummary& s, const Get& get) {
 }
 
 ReportCard card_of(const StudySummary& s, const TimeScale& unit) {
-  std::int64_t runs = 0, diverged = 0, stopped = 0, illegal = 0;
+  std::int64_t runs = 0, diverged = 0, illegal = 0;
   for (const SettingSummary& setting : s.settings) {
-    runs += setting.runs, diverged += setting.diverged, stopped += setting.stopped;
-    illegal += setting.illegal;
+    runs += setting.runs, diverged += setting.diverged, illegal += setting.illegal;
   }
   ReportCard card;
   card.tone = illegal > 0 ? ReportTone::fault : ReportTone::good;
   card.verdict = counted(static_cast<std::int64_t>(s.settings.size()), "setting") + ", " +
-                 counted(runs + diverged + stopped, "run") + " to " +
-                 duration_text(s.horizon, unit);
+                 counted(runs + diverged, "run") + " to " + duration_text(s.horizon, unit);
   if (!s.axes.empty()) {
     std::string axes;
     for (const std::string& axis : s.axes) axes += (axes.empty() ? "" : ", ") + axis;
@@ -56,9 +54,6 @@ ReportCard card_of(const StudySummary& s, const TimeScale& unit) {
       "highest rate", [](const SettingSummary& of) { return of.rate; }, 3600, " copies per hour");
   card.facts.emplace_back("diverged",
                           std::to_string(diverged) + (diverged > 0 ? ", excluded below" : ""));
-  if (stopped > 0) {
-    card.facts.emplace_back("stopped early", std::to_string(stopped) + ", excluded below");
-  }
   card.facts.emplace_back("illegal assemblies", std::to_string(illegal));
   return card;
 }

@@ -62,7 +62,6 @@ void count_rows(const StudyTable& table, int setting, SettingSummary& summary) {
     summary.illegal += row.illegal;
     summary.runs += row.status == RunStatus::ok;
     summary.diverged += row.status == RunStatus::diverged;
-    summary.stopped += row.status == RunStatus::stopped;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "io/file_digest.hpp"
 #include "io/json.hpp"
 #include "lilytank/kinetics.hpp"
+#include "lilytank/run_events.hpp"
 #include "lilytank/scenario.hpp"
 #include "text/number.hpp"
 
@@ -14,8 +15,6 @@ namespace lilytank {
 namespace {
 
 const std::string kColumns = "kind,rule,a,b,events,exposure_s";
-const std::string kEventColumns =
-    "time,step,kind,module_a,face_a,module_b,face_b,rule,label_a,last_a,label_b,last_b,copies";
 
 // Keys have commas, which cells may not.
 std::string cell_of(std::string key) {
@@ -28,19 +27,22 @@ std::string key_in(std::string_view cell) {
   return key;
 }
 
-EventKind kind_in(const CsvReader& rows) {
-  constexpr std::string_view kWords[] = {"latch",  "unlatch", "link",   "unlink",
-                                         "update", "report",  "command"};
-  for (std::size_t k = 0; k < std::size(kWords); ++k)
-    if (rows.text(2) == kWords[k]) return static_cast<EventKind>(k);
-  if (rows.text(2) == "copy") return EventKind::report;  // nothing happens between modules
-  rows.refuse(2, "is not a kind of event");
-}
-
-int rule_in(const CsvReader& rows, const Ruleset& rules) {
-  for (std::size_t k = 0; k < rules.rules.size(); ++k)
-    if (rows.text(7) == rules.rules[k].name) return static_cast<int>(k);
-  rows.refuse(7, "is not a rule of " + rules.name);
+/// An event between two modules; `place` is that of its row.
+Event event_of(const StoredEvent& row, const Ruleset& rules, const SourcePlace& place) {
+  Event event;
+  event.kind = static_cast<EventKind>(row.kind);
+  event.a = row.a, event.face_a = static_cast<std::int8_t>(row.face_a);
+  event.b = row.b, event.face_b = static_cast<std::int8_t>(row.face_b);
+  event.label_a = row.label_a, event.last_a = static_cast<std::int8_t>(row.last_a);
+  event.label_b = row.label_b, event.last_b = static_cast<std::int8_t>(row.last_b);
+  if (row.rule.empty()) return event;
+  const auto found = std::find_if(rules.rules.begin(), rules.rules.end(),
+                                  [&](const Rule& rule) { return rule.name == row.rule; });
+  if (found == rules.rules.end()) {
+    throw InputError(place, "'" + row.rule + "' is not a rule of " + rules.name);
+  }
+  event.rule = static_cast<std::int16_t>(found - rules.rules.begin());
+  return event;
 }
 
 // A number that a run's summary.json holds.
@@ -185,24 +187,11 @@ RateTable rates_of_run(const std::string& dir) {
   const RunEnd end = end_of_run(dir);
   RateRecord record(rules, modules);
   const std::string file = (fs::path(dir) / "events.csv").string();
-  const std::string text = read_whole(file);
-  CsvReader rows(whole_lines(text), file, {kEventColumns});
-  while (rows.next()) {
-    Event event;
-    event.kind = kind_in(rows);
-    const double time = rows.number(0);
-    if (event.kind == EventKind::report || event.kind == EventKind::command) continue;
-    const auto small = [&](std::size_t column, int low, int high) {
-      return rows.empty(column) ? -1 : static_cast<int>(rows.whole(column, low, high));
-    };
-    event.a = static_cast<int>(rows.whole(3, 0, modules - 1));
-    event.face_a = static_cast<std::int8_t>(rows.whole(4, 0, 3));
-    event.b = static_cast<int>(rows.whole(5, 0, modules - 1));
-    event.face_b = static_cast<std::int8_t>(rows.whole(6, 0, 3));
-    if (!rows.empty(7)) event.rule = static_cast<std::int16_t>(rule_in(rows, rules));
-    event.label_a = small(8, 0, 255), event.last_a = static_cast<std::int8_t>(small(9, 0, 3));
-    event.label_b = small(10, 0, 255), event.last_b = static_cast<std::int8_t>(small(11, 0, 3));
-    record.observe(event, time);
+  int line = 1;
+  for (const StoredEvent& row : read_events(read_whole(file), file, modules)) {
+    ++line;
+    if (row.kind >= static_cast<int>(EventKind::report)) continue;  // not between two modules
+    record.observe(event_of(row, rules, {file, line, 0}), row.time);
   }
   record.count_evaluations(end.exchanges);
   return record.table(end.time);

@@ -50,6 +50,19 @@ TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
   EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);
 }
 
+TEST(calibrateVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
+  const Program lilytank;
+  const Answer a = lilytank(words(kQuick) + "--dry-run --out c");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_TRUE(
+      a.out.starts_with("would calibrate tank: 1 recording of up to 15 bodies; 3 extractions"))
+      << a.out;
+  EXPECT_NE(a.out.find("of processor time; in c\n"), std::string::npos) << a.out;
+  EXPECT_TRUE(lilytank.names().empty());
+  lilytank.here.write("c/calibration.txt", "mine");
+  EXPECT_EQ(lilytank(words(kQuick) + "--dry-run --out c").code, 2);
+}
+
 // calibrated.toml of another experiment has that one's modules, which are not those of this one.
 TEST(calibrateVerb, startsFromTheParametersOfAFileAlone) {
   const Program lilytank;

@@ -57,6 +57,7 @@ overwriting() {
     --out "$out/check"
   replaced measured/check.json check "$in/pair.rules" --lattice 0 --measure "$in/tank.toml" \
     --worlds 1 --duration 20 --gillespie 10 --quiet --out "$out/measured"
+  replaced view.html view "$home/dense" --quiet --out "$out/view.html"
   replaced converted.csv recording convert "$in/tracks.csv" --out "$out/converted.csv"
   replaced filmed.csv recording convert "$home/dense" --out "$out/filmed.csv"
   replaced findings.csv recording check "$in/tracks.csv" --csv "$out/findings.csv"

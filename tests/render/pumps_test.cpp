@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "../../render/layout.hpp"
-#include "../../render/pumps.hpp"
 #include "render/picture.hpp"
 #include "render/sample_run.hpp"
+#include "view/pumps.hpp"
 
 namespace lilytank {
 double legend_height(const StoredRun& run, const FrameStyle& style);  // its header needs Cairo's

@@ -1,4 +1,4 @@
-#include "../../render/streamlines.hpp"
+#include "view/streamlines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -79,7 +79,7 @@ TEST(Coverage, MinutesToRecordFollowTheStandardError) {
   EXPECT_EQ(to_record(c.flow), "5 min more of 24 balls");
 }
 
-// Where cells get samples evenly, the minutes that are asked for measure them.
+// Where cells get samples evenly, the recommended minutes measure them.
 TEST(Coverage, MinutesToRecordMeasureTheCells) {
   const Recording balls = passing(BodyKind::ball, 24, 1), lilies = passing(BodyKind::lily, 15, 4);
   FlowEstimate flow = flow_with(1, 3, 0.01);

@@ -332,7 +332,7 @@ TEST_F(StudyFileTest, MistakesInAxes) {
   expect("[[axis]]\noverlays = [\"sticky.toml\"]\n",
          "study.toml:4:1: axis.name is missing: what the overlays differ in, for tables");
   expect("[[axis]]\nname = \"p\"\noverlays = [\"stikcy.toml\"]\n",
-         "cannot read 'stikcy.toml': No such file or directory");
+         "cannot read 'stikcy.toml': No such file or directory - did you mean 'sticky.toml'?");
   const std::string count = "[[axis]]\npath = \"module.count\"\nvalues = [4, 4]\n";
   expect(count, "study.toml: settings 'count=4' and 'count=4' are one and the same scenario");
   expect("[[axis]]\npath = \"module.count\"\nvalues = [3]\n" + count,

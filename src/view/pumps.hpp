@@ -22,12 +22,15 @@ class Pumps {
   /// "80 %", the power that makes a flow; empty where the pumps are never set, or it is not known.
   std::string power_of(int field) const;
 
- private:
   struct Since {
-    double time = 0;  // s
-    int field = 0;
+    double time = 0;  ///< s
+    int field = 0;    ///< number of the flow in force from then on
   };
-  std::vector<Since> changes_;       // by time
+  /// All changes by time; the first one holds from the start.
+  const std::vector<Since>& changes() const { return changes_; }
+
+ private:
+  std::vector<Since> changes_;
   std::vector<std::string> powers_;  // by number of the flow
 };
 

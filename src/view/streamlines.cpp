@@ -1,4 +1,4 @@
-#include "streamlines.hpp"
+#include "view/streamlines.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "pumps.hpp"
+#include "view/pumps.hpp"
 
 #include <algorithm>
 #include <array>
 #include <sstream>
 
 #include "model/commands.hpp"
-#include "streamlines.hpp"
 #include "text/number.hpp"
+#include "view/streamlines.hpp"
 
 namespace lilytank {
 namespace {

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Schemas against Taplo: every shipped file conforms, and each misspelt one is refused by both Taplo and the
+# program. Skipped (77) where npm is not installed or cannot install Taplo.
+#   run.sh LILYTANK SOURCE
+set -euo pipefail
+lilytank=$(realpath "$1")
+cd "$2"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if ! command -v npm > /dev/null; then
+  echo "skipped: npm is not installed, and Taplo comes with it"
+  exit 77
+fi
+if ! timeout 120 npm install --silent --prefix "$work/npm" @taplo/cli@0.7.0 > "$work/log" 2>&1; then
+  echo "skipped: npm cannot install @taplo/cli"
+  cat "$work/log"
+  exit 77
+fi
+kinds=(scenario experiment study optimize)
+for kind in "${kinds[@]}"; do "$lilytank" schema "$kind" > "$work/$kind.json"; done
+
+# taplo <kind> <file...>
+taplo() {
+  "$work/npm/node_modules/.bin/taplo" check --schema "file://$work/$1.json" "${@:2}" > "$work/log" 2>&1
+}
+
+# kind_of <file>: what a file is, by its tables; none for point bodies, which have no schema.
+kind_of() {
+  if grep -q '^\[study\]' "$1"; then echo study
+  elif grep -q '^\[optimize\]' "$1"; then echo optimize
+  elif grep -q '^body = "point"' "$1"; then echo none
+  elif grep -q '^\[\[recording\]\]' "$1"; then echo experiment
+  else echo scenario; fi
+}
+
+faults=0
+fault() {
+  echo "$1"
+  faults=$((faults + 1))
+}
+
+mapfile -t files < <(find scenarios docs -name '*.toml' | sort)
+count=0
+for kind in "${kinds[@]}"; do
+  of_kind=()
+  for file in "${files[@]}"; do
+    if [[ $(kind_of "$file") == "$kind" ]]; then of_kind+=("$file"); fi
+  done
+  count=$((count + ${#of_kind[@]}))
+  taplo "$kind" "${of_kind[@]}" || fault "$(cat "$work/log")"
+done
+
+# refused <kind> <command> <text>: a misspelt file.
+misspelt=0
+refused() {
+  misspelt=$((misspelt + 1))
+  printf '%b' "$3" > "$work/file.toml"
+  ! taplo "$1" "$work/file.toml" || fault "Taplo accepts: $3"
+  local code=0
+  # shellcheck disable=SC2086  # a command of several words
+  (cd "$work" && "$lilytank" $2 file.toml > log 2>&1) || code=$?
+  ((code == 2)) || fault "the program's exit code is $code for: $3"
+}
+touch "$work/tracks.csv"
+tank="$PWD/scenarios/chain5.toml"
+refused scenario info '[run]\ndurations = "1 h"\n'
+refused scenario info '[tank]\nradius = "30 cmm"\n'
+refused scenario info '[flow]\ngusts = "per_pont"\n'
+refused scenario info '[module]\ncount = 1.5\n'
+refused scenario info '[forces.face_drag]\nK_F = 11\n'
+refused scenario info '[forces.dampng]\nD_linear = 0.1\n'
+refused scenario info '[[command]]\nat = "1 h"\ndo = "pawse"\n'
+refused experiment 'recording info' '[[recording]]\nfile = "tracks.csv"\nbody = "lilly"\n'
+refused study 'study --dry-run' "[study]\\nscenario = \"$tank\"\\nreplicate = 3\\n"
+refused optimize 'optimize --dry-run' "[optimize]\\nscenario = \"$tank\"\\nmethod = \"cmaes\"\\n"
+
+((faults == 0)) && echo "schema: $count shipped files conform, $misspelt misspelt ones are refused by both"
+exit $((faults > 0))
