@@ -121,7 +121,10 @@ struct CalibrationOptions : JobControl {
   std::shared_ptr<const DirectoryLock>* lock = nullptr;
   /// Simulations at a time; 0: one per core. The result does not depend on it.
   int threads = 0;
-  /// Receives what will be done, before anything is simulated but for one experiment.
+  /// Receives what the recordings cover, before anything is simulated.
+  std::function<void(const Coverage& coverage)> covered;
+  /// If set, one extraction and one experiment are simulated to time them, and this receives the
+  /// plan.
   std::function<void(const CalibrationPlan& plan)> planned;
 };
 

@@ -82,6 +82,7 @@ CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptio
   if (options.lock != nullptr) *options.lock = lock;
   Stages stages(setup);
   CalibrationResult out = begun(setup);
+  if (options.covered) options.covered(out.coverage);
   if (options.planned) options.planned(plan_of(setup, stages));
   const FlowMaps maps = stages.flow_maps();
   out.flow_csv = setup.corrected_csv(*maps.best());

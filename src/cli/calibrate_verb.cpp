@@ -223,10 +223,10 @@ int calibrate_verb(const Arguments& arguments) {
               << c.out << "\n";
     return Exit::done;
   }
-  c.planned = [&](const CalibrationPlan& plan) {
-    print_shortfalls(plan.coverage);
-    if (!job.quiet) std::cerr << plan_line(plan) << "\n";
-  };
+  c.covered = print_shortfalls;
+  if (!job.quiet) {
+    c.planned = [](const CalibrationPlan& plan) { std::cerr << plan_line(plan) << "\n"; };
+  }
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   c.lock = &lock;
   const CalibrationResult found = calibrate(experiment, c);

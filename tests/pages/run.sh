@@ -5,20 +5,14 @@
 #   run.sh LILYTANK SOURCES        ends with 77 (skipped) where Chromium is not installed
 set -euo pipefail
 lilytank=$(realpath "$1") sources=$(realpath "$2")
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-if [[ -z $chromium ]]; then
-  echo "Chromium is not installed: pages not opened"
-  exit 77
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/chromium.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 faults=0
 
 # title_of <page>: its title, which scripts have set.
 title_of() {
-  "$chromium" --headless --no-sandbox --disable-gpu --disable-quic --no-first-run \
-    --disable-background-networking --disable-component-update --disable-sync \
-    --user-data-dir="$work/profile" --virtual-time-budget=5000 --dump-dom "file://$1" 2> /dev/null |
+  dump "$1" 5000 |
     grep -o '<title>[^<]*</title>' | sed 's/<[^>]*>//g'
 }
 
