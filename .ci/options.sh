@@ -13,7 +13,7 @@ lilytank=$(realpath "$1")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 faults=0
 verbs=(run study 'study merge' 'study slurm' 'recording info' 'recording check' 'recording convert' analyze flow
-  calibrate diagnose prove optimize synthesize check render view)
+  calibrate diagnose prove optimize synthesize check render view export)
 
 # table <verb>: its options as a Markdown table.
 table() {

@@ -33,6 +33,7 @@ const std::vector<Verb>& verbs() {
       {"forces", "document the force terms", forces_verb},
       {"render", "draw a run: film, stills or one frame", render_verb},
       {"view", "play runs in a browser: one interactive HTML file", view_verb},
+      {"export", "write results as NetCDF, or their provenance as an RO-Crate", export_verb},
       {"schema", "JSON Schemas of scenario, experiment, study and optimize files, for editors",
        schema_verb},
       {"completion", "completion of verbs, options and scenario keys for bash, zsh and fish",

@@ -26,12 +26,13 @@ complete -F _lilytank lilytank
 constexpr const char* kZsh = R"sh(#compdef lilytank
 _lilytank() {
   local -a candidates
-  candidates=(${(f)" $(lilytank completion candidates-- "${words[@]:1:$((CURRENT - 1))}" 2 >
-                       / dev / null) "})
-    if [[${candidates[1] - } == *= ]];
-then compadd - S '' - a candidates;
-else compadd - a candidates;
-fi(($compstate[nmatches])) || _files
+  candidates=("${(@f)$(lilytank completion candidates -- "${(@)words[2,CURRENT]}" 2> /dev/null)}")
+  if [[ ${candidates[1]-} == *= ]]; then
+    compadd -S '' -a candidates
+  else
+    compadd -a candidates
+  fi
+  (( compstate[nmatches] )) || _files
 }
 compdef _lilytank lilytank
 )sh";

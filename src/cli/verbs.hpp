@@ -47,5 +47,6 @@ int schema_verb(const Arguments& arguments);
 int completion_verb(const Arguments& arguments);
 int man_verb(const Arguments& arguments);
 int view_verb(const Arguments& arguments);
+int export_verb(const Arguments& arguments);
 
 }  // namespace lilytank::cli

@@ -52,6 +52,16 @@ TEST_F(ShellsTest, CompletionKnowsVerbsOptionsAndKeys) {
   }
 }
 
+TEST_F(ShellsTest, ShellsReadTheirScripts) {
+  for (const std::string shell : {"bash", "zsh", "fish"}) {
+    const std::string there = "command -v " + shell + " > /dev/null 2>&1";
+    if (std::system(there.c_str()) != 0) continue;
+    lilytank_.here.write(shell, lilytank_("completion " + shell).out);
+    EXPECT_EQ(std::system((shell + " -n '" + lilytank_.here.path(shell) + "'").c_str()), 0)
+        << shell;
+  }
+}
+
 TEST_F(ShellsTest, AManualPageShowsEveryOption) {
   const std::string page = lilytank_("man diagnose").out;
   EXPECT_TRUE(page.starts_with(".TH lilytank\\-diagnose 1 "));
