@@ -34,14 +34,29 @@ enum class RunUntil : std::uint8_t {
   all_copies,  ///< all that the modules can form have been completed
 };
 
+/// A bound on what stands: "singles <= 2".
+struct EndMetric {
+  enum class Of : std::uint8_t { nothing, copies, most_copies, illegal, largest, size };
+  Of of = Of::nothing;   ///< nothing: no bound
+  int size = 0;          ///< of Of::size: number of assemblies of so many modules
+  bool at_least = true;  ///< false: at most
+  double bound = 0;
+  /// Whether a value is beyond the bound, or at it.
+  bool holds(double value) const { return at_least ? value >= bound : value <= bound; }
+};
+
 /// When a run ends before its duration: as soon as one of these conditions holds. Copies are of the
 /// last target, where base station commands replace it.
 struct EndParameters {
   RunUntil until = RunUntil::end;
-  int copies = 0;         ///< number of completed copies that ends a run; 0: off
-  double quiet_time = 0;  ///< time without an event that ends a run, s; 0: off
+  int copies = 0;           ///< number of completed copies that ends a run; 0: off
+  double quiet_time = 0;    ///< time without an event that ends a run, s; 0: off
+  std::string metric_text;  ///< the bound below as the user wrote it; empty: off
+  EndMetric metric;
   /// Whether there is a condition at all.
-  bool early() const { return until != RunUntil::end || copies > 0 || quiet_time > 0; }
+  bool early() const {
+    return until != RunUntil::end || copies > 0 || quiet_time > 0 || !metric_text.empty();
+  }
 };
 
 /// A scenario with its model, ready to run.

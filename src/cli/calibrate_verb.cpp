@@ -41,7 +41,7 @@ void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
   options.add({"hold-out", "keep the last N recordings for testing (0)", "N"}, &c.hold_out, 0,
               1000);
   options.add({"search", "cma-es, paper-lilies, paper-balls: how the region is found", "WORD"});
-  options.add({"budget", "evaluations of the search (1500; of a swarm as many as the paper)", "N"},
+  options.add({"evaluations", "of the search (1500; of a swarm as many as the paper)", "N"},
               &c.search_budget, 20, 100000000);
   options.add({"replicates", "experiments simulated for the intervals (200)", "N"}, &c.replicates,
               20, 100000);
@@ -118,7 +118,7 @@ void complete(const VerbOptions& options, CalibrateJob& job) {
     options.refuse("--search " + c.search_name + " is not known" +
                    did_you_mean(c.search_name, searches));
   }
-  if (c.search_name != "cma-es" && options.has("budget")) {
+  if (c.search_name != "cma-es" && options.has("evaluations")) {
     const SwarmOptions swarm = swarm_preset(c.search_name);
     c.search_iterations = static_cast<int>(
         std::max<std::int64_t>(1, c.search_budget / (swarm.particles * swarm.evaluations)));

@@ -31,14 +31,14 @@ void occupy_closed_streams() {
 }
 
 /// Does what the command line says; every failure is one line.
-int run_command(const Arguments& words) {
+int run_command(const Arguments& words, PrintableStream& err) {
   try {
     return deliver(act(words));
   } catch (const Stopped& stopped) {
     std::cerr << stopped.what() << "\n";
     return Exit::stopped;
   } catch (...) {
-    std::cerr << error_line(words, std::current_exception()) << "\n";
+    err.print_refusal(error_line(words, std::current_exception()));
   }
   return Exit::bad_input;
 }
@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   lilytank::cli::occupy_closed_streams();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a write beyond the limit then fails, and the message names the file
-  const PrintableStream out(std::cout, false), err(std::cerr, ::isatty(STDERR_FILENO) != 0);
-  return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc});
+  const PrintableStream out(std::cout, false);
+  PrintableStream err(std::cerr, ::isatty(STDERR_FILENO) != 0);
+  return lilytank::cli::run_command({argv + std::min(1, argc), argv + argc}, err);
 }

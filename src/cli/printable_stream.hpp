@@ -2,6 +2,7 @@
 #pragma once
 #include <ostream>
 #include <streambuf>
+#include <string>
 #include <string_view>
 
 namespace lilytank::cli {
@@ -10,12 +11,15 @@ namespace lilytank::cli {
 /// tabs. Data that a verb prints are text: nothing else of them changes.
 class PrintableStream final : public std::streambuf {
  public:
-  /// `carriage_return`: whether "\r" passes, as lines of progress on a terminal need it.
-  PrintableStream(std::ostream& stream, bool carriage_return)
-      : stream_(&stream), next_(stream.rdbuf(this)), carriage_return_(carriage_return) {}
+  /// `terminal`: "\r" passes, as lines of progress need it, and what a user must not miss has a
+  /// colour, unless NO_COLOR is set or the terminal is dumb [no-color.org].
+  PrintableStream(std::ostream& stream, bool terminal);
   ~PrintableStream() override { stream_->rdbuf(next_); }
   PrintableStream(const PrintableStream&) = delete;
   PrintableStream& operator=(const PrintableStream&) = delete;
+
+  /// Prints a line in red.
+  void print_refusal(const std::string& line);
 
  protected:
   int_type overflow(int_type c) override;
@@ -24,9 +28,11 @@ class PrintableStream final : public std::streambuf {
 
  private:
   bool passes(char c) const;
+  bool put(std::string_view text);
   std::ostream* stream_;
   std::streambuf* next_;
-  bool carriage_return_;
+  bool terminal_, colours_;
+  bool line_begins_ = true;
 };
 
 }  // namespace lilytank::cli

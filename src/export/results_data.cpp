@@ -23,7 +23,8 @@ struct Column {
 
 std::string unit_of(const std::string& column) {
   static const std::map<std::string, std::string> units{
-      {"time", "s"}, {"duration", "s"}, {"x", "m"}, {"y", "m"}, {"theta", "rad"}};
+      {"time", "s"},     {"duration", "s"}, {"latched", "s"}, {"joined", "s"},
+      {"released", "s"}, {"x", "m"},        {"y", "m"},       {"theta", "rad"}};
   const auto found = units.find(column);
   return found == units.end() ? "" : found->second;
 }

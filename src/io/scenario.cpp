@@ -6,6 +6,7 @@
 #include <map>
 
 #include "io/atomic_file.hpp"
+#include "io/end_metric.hpp"
 #include "io/poses_csv.hpp"
 #include "io/scenario_commands.hpp"
 #include "io/scenario_keys.hpp"
@@ -271,7 +272,14 @@ class Loader {
 
   // Copies that end the run must be possible with one of its rulesets.
   void check_end() {
-    const EndParameters& end = draft_.scenario.end;
+    EndParameters& end = draft_.scenario.end;
+    if (!end.metric_text.empty()) {
+      try {
+        end.metric = end_metric(end.metric_text, draft_.scenario.model.module.count);
+      } catch (const InputError& e) {
+        throw InputError(place("run.until_metric"), "run.until_metric " + std::string(e.what()));
+      }
+    }
     if (end.until == RunUntil::end && end.copies == 0) return;
     const Model& m = draft_.scenario.model;
     int most = 0;

@@ -54,6 +54,17 @@ void run_keys(ScenarioDraft& d, Keys& keys) {
                   false,
                   {},
                   "0"});
+  keys.push_back(
+      {"run.until_metric",
+       &s.end.metric_text,
+       "",
+       0,
+       0,
+       "the run ends once this holds: copies, most_copies, singles, size_2, size_3, ..., "
+       "largest or illegal, then >= or <=, then a number; \"\": off",
+       false,
+       {},
+       "\"\""});
   keys.push_back({"run.dt", &s.model.dt, "s", kTick / 256, kTick,
                   "time step: 25 ms divided by a whole number"});
   keys.push_back({"run.seed", &s.seed, "1", 0, kLargestSeed, "where all random numbers come from"});

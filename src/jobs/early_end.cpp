@@ -58,6 +58,30 @@ int copies_at_end(const EndParameters& end, const AssemblyRecord& record) {
   return end.until == RunUntil::all_copies ? record.possible_copies() : 0;
 }
 
+double value_of(const EndMetric& metric, const AssemblyRecord& record) {
+  const std::vector<int>& sizes = record.by_size();
+  switch (metric.of) {
+    case EndMetric::Of::copies:
+      return record.copies();
+    case EndMetric::Of::most_copies:
+      return record.most_copies();
+    case EndMetric::Of::illegal:
+      return static_cast<double>(record.illegal());
+    case EndMetric::Of::size:
+      return sizes[static_cast<std::size_t>(metric.size)];
+    default:
+      break;
+  }
+  for (std::size_t n = sizes.size(); n-- > 1;) {
+    if (sizes[n] > 0) return static_cast<double>(n);
+  }
+  return 0;
+}
+
+bool reached(const EndMetric& metric, const AssemblyRecord& record) {
+  return metric.of != EndMetric::Of::nothing && metric.holds(value_of(metric, record));
+}
+
 bool completed(int copies, const World& world, const AssemblyRecord& record) {
   if (copies == 0 || static_cast<int>(record.completion_times().size()) < copies) return false;
   return !awaits_another_target(world);
@@ -91,7 +115,8 @@ std::int64_t planned_steps(const Scenario& scenario) {
 bool over(const Scenario& scenario, const World& world, const AssemblyRecord& record,
           std::int64_t last_event) {
   const EndParameters& end = scenario.end;
-  if (!world.events().empty()) return completed(copies_at_end(end, record), world, record);
+  if (!world.events().empty())
+    return completed(copies_at_end(end, record), world, record) || reached(end.metric, record);
   if (!(end.quiet_time > 0)) return false;
   const std::int64_t quiet = std::max<std::int64_t>(1, steps_in(end.quiet_time, scenario));
   return world.state().step - last_event >= quiet;
@@ -101,7 +126,7 @@ void refuse_early_end(const Scenario& scenario, const std::string& instead) {
   if (!scenario.end.early()) return;
   for (const ScenarioEntry& entry : scenario.entries) {
     const bool condition = entry.path == "run.until" || entry.path == "run.until_copies" ||
-                           entry.path == "run.quiet_time";
+                           entry.path == "run.quiet_time" || entry.path == "run.until_metric";
     if (!condition || entry.is_default) continue;
     throw InputError(entry.where, entry.path + " ends single runs only; " + instead);
   }
@@ -114,6 +139,7 @@ std::string end_text(const Scenario& scenario, const World& world, const Assembl
     return std::to_string(copies) + " of " + std::to_string(record.possible_copies()) +
            " copies completed" + at;
   }
+  if (reached(scenario.end.metric, record)) return scenario.end.metric_text + at;
   if (world.state().step < planned_steps(scenario)) {
     return "no event for " + shortest(scenario.end.quiet_time) + " s" + at;
   }

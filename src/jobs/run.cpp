@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "io/atomic_file.hpp"
+#include "jobs/bonds.hpp"
 #include "jobs/early_end.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
@@ -124,6 +126,11 @@ class Job {
     if (!directory_) return;
     directory_->put(run_file::rules, rules_table(scenario_->model, record_));
     directory_->put(run_file::species, species_table(record_));
+    const std::string events = directory_->path(run_file::events);
+    directory_->put(
+        run_file::bonds,
+        bonds_table(bonds_of(read_events(read_whole(events), events, scenario_->model.module.count),
+                             scenario_->model)));
     directory_->put(run_file::summary_json, summary_json(*scenario_, world_, record_, outcome_));
     directory_->put(run_file::summary_text, summary_text(*scenario_, world_, record_, outcome_));
   }

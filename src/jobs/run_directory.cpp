@@ -16,10 +16,16 @@ bool holds(const std::string& file, const std::string& content) {
   return exists(file) && read_whole(file) == content;
 }
 
-constexpr const char* kResults[] = {
-    run_file::trajectory_binary, run_file::trajectory_csv, run_file::events,
-    run_file::metrics,           run_file::rules,          run_file::species,
-    run_file::summary_text,      run_file::summary_json,   run_file::checkpoint};
+constexpr const char* kResults[] = {run_file::trajectory_binary,
+                                    run_file::trajectory_csv,
+                                    run_file::events,
+                                    run_file::metrics,
+                                    run_file::rules,
+                                    run_file::species,
+                                    run_file::bonds,
+                                    run_file::summary_text,
+                                    run_file::summary_json,
+                                    run_file::checkpoint};
 
 /// Names in a run's directory that load_scenario gives to attachments.
 std::vector<std::string> attached_names(const std::string& dir) {

@@ -20,6 +20,7 @@ inline constexpr const char* events = "events.csv";
 inline constexpr const char* metrics = "metrics.csv";
 inline constexpr const char* rules = "rules.csv";
 inline constexpr const char* species = "species.csv";
+inline constexpr const char* bonds = "bonds.csv";
 inline constexpr const char* summary_text = "summary.txt";
 inline constexpr const char* summary_json = "summary.json";
 inline constexpr const char* checkpoint = "checkpoint.bin";

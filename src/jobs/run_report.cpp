@@ -3,6 +3,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
+#include "jobs/bonds.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
 #include "text/number.hpp"
@@ -78,13 +79,18 @@ ReportDocument run_report(const StoredRun& run, const std::string& dir) {
   report.title = "Run of " + (run.scenario.title.empty() ? "a scenario" : run.scenario.title);
   report.subtitle = "identity of the scenario " + std::string(summary["scenario"]);
   report.card = card_of(summary, run.scenario.model);
-  ReportSection species, rules;
+  const std::string events = path(run_file::events);
+  ReportSection species, rules,
+      bonds = bonds_section(
+          bonds_of(read_events(read_whole(events), events, run.scenario.model.module.count),
+                   run.scenario.model),
+          summary["time_s"]);
   species.title = "Assemblies";
   species.table = table_of(path(run_file::species),
                            {"shape", "modules", "legal", "target", "present at the end"});
   rules.title = "Rules", rules.detail = true;
   rules.table = table_of(path(run_file::rules), {"ruleset", "rule", "kind", "p", "times applied"});
-  for (ReportSection* section : {&species, &rules}) {
+  for (ReportSection* section : {&species, &bonds, &rules}) {
     if (!section->table.rows.empty()) report.sections.push_back(std::move(*section));
   }
   return report;

@@ -9,7 +9,7 @@ namespace lilytank {
 namespace {
 
 const std::string kTank = LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml";
-const std::vector<std::string> kQuick{"calibrate",     kTank, "--budget",      "40",
+const std::vector<std::string> kQuick{"calibrate",     kTank, "--evaluations", "40",
                                       "--simulations", "40",  "--replicates",  "20",
                                       "--flow-draws",  "3",   "--comparisons", "3"};
 
@@ -155,7 +155,7 @@ TEST(calibrateVerb, recoverTellsWhetherIntervalsHoldTheTruth) {
   const Program lilytank;
   lilytank.here.write("s.toml", "title = \"s\"\n[module]\ncount = 6\ndraught = 0.025\n");
   const Answer a = lilytank(
-      "calibrate s.toml --recover 1 --recordings 1 --duration '20 s' --budget 40 "
+      "calibrate s.toml --recover 1 --recordings 1 --duration '20 s' --evaluations 40 "
       "--simulations 40 --replicates 20 --objective summary --out c --quiet");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("flow.K_v"), std::string::npos) << a.out;

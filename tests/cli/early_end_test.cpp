@@ -23,9 +23,13 @@ class EarlyEndTest : public testing::Test {
   }
   std::string read(const std::string& name) const { return lilytank_.here.read(name); }
 
+  static std::string unquoted(const std::string& word) {
+    return word.starts_with('\'') ? word.substr(1, word.size() - 2) : word;
+  }
   /// Interrupts a run, resumes it, and compares its files with those of a whole one.
   void expect_same_when_resumed(const std::string& whole, const std::string& set) const {
-    Process process(lilytank_.here.path(""), {"run", "pairs.toml", "--out", "parts", "--set", set});
+    Process process(lilytank_.here.path(""),
+                    {"run", "pairs.toml", "--out", "parts", "--set", unquoted(set)});
     const std::string poses = lilytank_.here.path("parts/trajectory.bin");
     process.await([&] {
       std::error_code gone;
@@ -69,6 +73,30 @@ TEST_F(EarlyEndTest, AllPossibleCopiesEndTheRun) {
   ASSERT_EQ(all.code, 0) << all.err;
   EXPECT_NE(all.out.find("ended           2 of 2 copies completed at "), std::string::npos)
       << all.out;
+}
+
+TEST_F(EarlyEndTest, AMetricEndsTheRun) {
+  const Answer few = run("few", "--set 'run.until_metric=singles <= 3'");
+  ASSERT_EQ(few.code, 0) << few.err;
+  EXPECT_NE(few.out.find("ended           singles <= 3 at "), std::string::npos) << few.out;
+  const std::string metrics = read("few/metrics.csv");
+  const std::string last = metrics.substr(metrics.rfind('\n', metrics.size() - 2) + 1);
+  int column = 0;
+  std::string singles;
+  for (const char c : last) {
+    if (c == ',')
+      ++column;
+    else if (column == 3)
+      singles += c;
+  }
+  EXPECT_LE(std::stoi(singles), 3) << last;
+  expect_same_when_resumed("few", "'run.until_metric=singles <= 3'");
+  for (const char* wrong :
+       {"singles", "singles < 3", "singles <= x", "size_16 >= 1", "single <= 2"}) {
+    const Answer refused = run("x", std::string("--set 'run.until_metric=") + wrong + "'");
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_NE(refused.err.find("run.until_metric '"), std::string::npos) << refused.err;
+  }
 }
 
 TEST_F(EarlyEndTest, TimeWithoutEventsEndsTheRun) {

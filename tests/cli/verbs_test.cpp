@@ -47,10 +47,10 @@ TEST_F(VerbsTest, RunWritesItsFiles) {
   const Answer run = lilytank_("run pair.toml");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(lilytank_.names("out"),
-            (Names{"tiny-seed1/checkpoint.bin", "tiny-seed1/events.csv", "tiny-seed1/metrics.csv",
-                   "tiny-seed1/resolved.toml", "tiny-seed1/rules.csv", "tiny-seed1/ruleset.rules",
-                   "tiny-seed1/species.csv", "tiny-seed1/summary.json", "tiny-seed1/summary.txt",
-                   "tiny-seed1/trajectory.bin"}));
+            (Names{"tiny-seed1/bonds.csv", "tiny-seed1/checkpoint.bin", "tiny-seed1/events.csv",
+                   "tiny-seed1/metrics.csv", "tiny-seed1/resolved.toml", "tiny-seed1/rules.csv",
+                   "tiny-seed1/ruleset.rules", "tiny-seed1/species.csv", "tiny-seed1/summary.json",
+                   "tiny-seed1/summary.txt", "tiny-seed1/trajectory.bin"}));
   EXPECT_EQ(run.out, lilytank_.here.read("out/tiny-seed1/summary.txt"));
   EXPECT_EQ(fingerprint_of(run.out).size(), 16u);
   EXPECT_EQ(run.out.find_first_not_of("0123456789abcdef\n", run.out.size() - 17),

@@ -9,7 +9,7 @@ import numpy as np
 import lilytank
 from support import CHAIN, SCENARIOS, TANK, TestCase, needs, program
 
-QUICK = {"flow": "scenario", "budget": 40, "simulations": 40, "replicates": 20, "comparisons": 3}
+QUICK = {"flow": "scenario", "evaluations": 40, "simulations": 40, "replicates": 20, "comparisons": 3}
 STUDY = f"""
 [study]
 name = "small"

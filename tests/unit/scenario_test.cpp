@@ -200,7 +200,8 @@ TEST_F(ScenarioTest, ResolvedTextGivesTheSameScenarioAgain) {
   EXPECT_EQ(second.model.commands.size(), 2u);
   EXPECT_EQ(second.model.rulesets.at(0).rules.at(1).p, 0.1);
   EXPECT_TRUE(is_on(second, "body_force"));
-  const std::vector<std::string> left_out = {"run.until", "run.until_copies", "run.quiet_time"};
+  const std::vector<std::string> left_out = {"run.until", "run.until_copies", "run.quiet_time",
+                                             "run.until_metric"};
   for (const ScenarioEntry& e : second.entries) {
     const bool off = std::count(left_out.begin(), left_out.end(), e.path) == 1;
     EXPECT_EQ(e.is_default, off) << e.path;
