@@ -16,6 +16,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostLines = 1'000'000'000;
+
+TomlKeys experiment_keys() {
+  using namespace toml_key;
+  return {text("name", "name of the experiment, used for the output folder"),
+          word("body", {"point"}, "what moves"),
+          whole("dimensions", 1, 2, "coordinates of a body"),
+          text("unit", "of positions: m or rad"),
+          quantity("noise", "standard error of a position; without it, it is estimated"),
+          word("coefficients", {"shared", "each body"}, "whether bodies share the coefficients"),
+          quantity("turning", "rate at which the frame turns, 1/s, counter-clockwise"),
+          text("latitude", "driver with the latitude in degrees")};
+}
+
+TomlKeys baseline_keys(const std::vector<std::string>& laws) {
+  TomlKeys out;
+  for (const std::string& law : laws)
+    out.push_back(toml_key::quantity(law, "coefficient of the law, or \"fit\""));
+  out.push_back(toml_key::quantity("contact", "restitution of contacts, 0 to 1"));
+  return out;
+}
+
+TomlKeys recording_keys_of_points() {
+  using namespace toml_key;
+  return {needed(text("file", "table of positions")),
+          needed(text("time", "column of times")),
+          quantity("time_unit", "s per unit of times"),
+          whole("header_line", 0, kMostLines, "line of the names; 0: there are none"),
+          whole("first_row", 1, kMostLines, "line of the first row"),
+          flag("decimal_comma", "0,5 is a half"),
+          text("body", "column of bodies' names"),
+          text("run", "column of runs' names"),
+          needed(texts("x", "column of positions, or one a body")),
+          texts("y", "the same of the second coordinate"),
+          figures("mass", "kg: of all bodies, of each, or by name"),
+          figures("radius", "m: likewise"),
+          texts("drivers", "columns that may drive a force"),
+          quantity("scale", "m (or rad) for 1 in the columns of positions"),
+          whole("every", 1, 1000000, "one row in so many is used"),
+          flag("together", "bodies act on each other"),
+          flag("held_out", "for testing only")};
+}
+
 class Reader {
  public:
   Reader(const std::string& file, const std::vector<std::string>& laws)
@@ -34,6 +77,12 @@ class Reader {
   }
 
  private:
+  static std::vector<std::string> names_of(const TomlKeys& keys) {
+    std::vector<std::string> out;
+    for (const TomlKey& key : keys) out.push_back(key.name);
+    return out;
+  }
+
   // A number of at least `low`, given plainly or with a unit.
   double number(const TomlFields& f, const std::string& name, const std::string& unit,
                 double low) const {
@@ -46,9 +95,7 @@ class Reader {
   }
 
   void experiment(const toml::table& from) {
-    const TomlFields f(
-        from, "experiment", file_,
-        {"name", "body", "dimensions", "unit", "noise", "coefficients", "turning", "latitude"});
+    const TomlFields f(from, "experiment", file_, names_of(experiment_keys()));
     BodyExperiment& e = out_.experiment;
     e.name = f.has("name") ? f.text("name") : fs::path(file_).stem().string();
     const std::string unsafe = "/\\\n";
@@ -87,8 +134,7 @@ class Reader {
   }
 
   void baseline(const toml::table& from) {
-    std::vector<std::string> words = laws_;
-    words.push_back("contact");
+    const std::vector<std::string> words = names_of(baseline_keys(laws_));
     const TomlFields f(from, "baseline", file_, words);
     for (const std::string& word : words) {
       if (!f.has(word)) continue;
@@ -146,10 +192,7 @@ class Reader {
   }
 
   void recording(const toml::table& from) {
-    const TomlFields f(
-        from, "recording", file_,
-        {"file", "time", "time_unit", "header_line", "first_row", "decimal_comma", "body", "run",
-         "x", "y", "mass", "radius", "drivers", "scale", "every", "together", "held_out"});
+    const TomlFields f(from, "recording", file_, names_of(recording_keys_of_points()));
     f.need("file", "the table of the positions");
     f.need("time", "the name of the column of times, in seconds");
     f.need("x", "the name of the column of positions, or one a body");
@@ -157,7 +200,6 @@ class Reader {
     t.file = (fs::path(file_).parent_path() / f.text("file")).lexically_normal().string();
     t.place = f.place("file");
     t.time = {f.text("time"), f.place("time")};
-    constexpr int kMostLines = 1'000'000'000;
     const auto whole = [&](const char* key, int low, int high, auto& to) {
       if (f.has(key)) to = static_cast<int>(f.whole(key, low, high));
     };
@@ -196,6 +238,13 @@ class Reader {
 };
 
 }  // namespace
+
+TomlKeys body_file_keys(const std::vector<std::string>& laws) {
+  using namespace toml_key;
+  return {needed(table("experiment", experiment_keys(), "bodies and what is known of them")),
+          table("baseline", baseline_keys(laws), "laws that are known, with their coefficients"),
+          needed(tables("recording", recording_keys_of_points(), "tables of positions"))};
+}
 
 BodyFile read_body_file(const std::string& file, const std::vector<std::string>& laws) {
   return Reader(file, laws).read();

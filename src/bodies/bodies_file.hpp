@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/toml_key.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/table_layout.hpp"
 
@@ -48,6 +49,11 @@ struct BodyFile {
 constexpr std::size_t most_together(int dimensions) {
   return dimensions == 1 ? 8 : 4;
 }
+
+/// The keys of such a file.
+TomlKeys body_file_keys(const std::vector<std::string>& laws);
+/// The laws that [baseline] may have besides contact.
+std::vector<std::string> baseline_laws();
 
 /// Throws InputError. `laws` are the words that [baseline] may have besides contact.
 BodyFile read_body_file(const std::string& file, const std::vector<std::string>& laws);

@@ -305,12 +305,16 @@ void find_latitude(const NamedAt& latitude, BodyExperiment& e) {
 
 }  // namespace
 
-BodyExperiment load_body_experiment(const std::string& file) {
-  std::vector<std::string> laws;
+std::vector<std::string> baseline_laws() {
+  std::vector<std::string> out;
   for (const bodies::Law& law : bodies::law_library()) {
-    if (!law.curve) laws.emplace_back(law.name);
+    if (!law.curve) out.emplace_back(law.name);
   }
-  const BodyFile read = read_body_file(file, laws);
+  return out;
+}
+
+BodyExperiment load_body_experiment(const std::string& file) {
+  const BodyFile read = read_body_file(file, baseline_laws());
   BodyExperiment e = read.experiment;
   for (const BodyTable& t : read.tables) {
     std::vector<std::string> drivers;

@@ -1,6 +1,7 @@
 // lilytank schema: JSON Schemas of its TOML files, for editors.
 #include <iostream>
 
+#include "bodies/bodies_file.hpp"
 #include "cli/options.hpp"
 #include "io/json_schema.hpp"
 #include "io/scenario_keys.hpp"
@@ -13,9 +14,10 @@
 namespace lilytank::cli {
 namespace {
 
-const std::vector<std::string> kKinds{"scenario", "experiment", "study", "optimize"};
+const std::vector<std::string> kKinds{"scenario", "experiment", "bodies", "study", "optimize"};
 
 TomlKeys keys_of(const std::string& kind) {
+  if (kind == "bodies") return body_file_keys(baseline_laws());
   if (kind == "study") return study_file_keys();
   if (kind == "optimize") return optimize_file_keys();
   TomlKeys keys = scenario_file_keys();
@@ -28,7 +30,7 @@ TomlKeys keys_of(const std::string& kind) {
 }  // namespace
 
 int schema_verb(const Arguments& arguments) {
-  VerbOptions options("schema", "scenario|experiment|study|optimize",
+  VerbOptions options("schema", "scenario|experiment|bodies|study|optimize",
                       "Prints the JSON Schema of a kind of file: editors then complete keys, show "
                       "their meanings, and mark what the program would refuse.");
   if (!options.parse(arguments, "of which kind? there are " + joined(kKinds, ", "))) {

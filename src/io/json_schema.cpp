@@ -67,6 +67,14 @@ Json schema_of(const TomlKey& key) {
       return {{"type", "array"}, {"minItems", 1}};
     case TomlKey::Kind::numbers:
       return {{"type", "array"}, {"items", number}};
+    case TomlKey::Kind::figures: {
+      const Json one = either(number, quantity_text(""));
+      return {{"anyOf",
+               {number,
+                quantity_text(""),
+                {{"type", "array"}, {"items", one}},
+                {{"type", "object"}, {"additionalProperties", one}}}}};
+    }
     case TomlKey::Kind::table:
       return object_of(key.keys);
     case TomlKey::Kind::tables:

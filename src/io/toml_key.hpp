@@ -23,6 +23,7 @@ struct TomlKey {
     table,     ///< with `keys`
     tables,    ///< a list of them, each with `keys`
     by_name,   ///< a table of tables with any names, each with `keys`
+    figures,   ///< numbers or texts with units: one, a list, or a table of them
   };
   std::string name;
   Kind kind = Kind::text;
@@ -72,6 +73,9 @@ inline TomlKey list(std::string name, std::string meaning) {
 }
 inline TomlKey numbers(std::string name, std::string meaning) {
   return {std::move(name), TomlKey::Kind::numbers, std::move(meaning)};
+}
+inline TomlKey figures(std::string name, std::string meaning) {
+  return {std::move(name), TomlKey::Kind::figures, std::move(meaning)};
 }
 inline TomlKey table(std::string name, TomlKeys keys, std::string meaning) {
   TomlKey out{std::move(name), TomlKey::Kind::table, std::move(meaning)};

@@ -27,8 +27,8 @@ TEST_F(ShellsTest, ASchemaHoldsTheBoundsOfTheProgram) {
   EXPECT_EQ(study["properties"]["study"]["required"], Json::array({"scenario"}));
 }
 
-TEST_F(ShellsTest, SchemasAreOfFourKindsOfFiles) {
-  for (const char* kind : {"scenario", "experiment", "study", "optimize"}) {
+TEST_F(ShellsTest, SchemasAreOfFiveKindsOfFiles) {
+  for (const char* kind : {"scenario", "experiment", "bodies", "study", "optimize"}) {
     EXPECT_EQ(lilytank_(std::string("schema ") + kind).code, 0) << kind;
   }
   const Answer other = lilytank_("schema studdy");

@@ -17,7 +17,7 @@ if ! timeout 120 npm install --silent --prefix "$work/npm" @taplo/cli@0.7.0 > "$
   cat "$work/log"
   exit 77
 fi
-kinds=(scenario experiment study optimize)
+kinds=(scenario experiment bodies study optimize)
 for kind in "${kinds[@]}"; do "$lilytank" schema "$kind" > "$work/$kind.json"; done
 
 # taplo <kind> <file...>
@@ -25,11 +25,11 @@ taplo() {
   "$work/npm/node_modules/.bin/taplo" check --schema "file://$work/$1.json" "${@:2}" > "$work/log" 2>&1
 }
 
-# kind_of <file>: what a file is, by its tables; none for point bodies, which have no schema.
+# kind_of <file>: what a file is, by its tables.
 kind_of() {
   if grep -q '^\[study\]' "$1"; then echo study
   elif grep -q '^\[optimize\]' "$1"; then echo optimize
-  elif grep -q '^body = "point"' "$1"; then echo none
+  elif grep -q '^body = "point"' "$1"; then echo bodies
   elif grep -q '^\[\[recording\]\]' "$1"; then echo experiment
   else echo scenario; fi
 }
@@ -72,6 +72,8 @@ refused scenario info '[forces.face_drag]\nK_F = 11\n'
 refused scenario info '[forces.dampng]\nD_linear = 0.1\n'
 refused scenario info '[[command]]\nat = "1 h"\ndo = "pawse"\n'
 refused experiment 'recording info' '[[recording]]\nfile = "tracks.csv"\nbody = "lilly"\n'
+refused bodies diagnose '[experiment]\nbody = "point"\ndimension = 1\n[[recording]]\nfile = "tracks.csv"\ntime = "t"\nx = "x"\n'
+refused bodies diagnose '[experiment]\nbody = "point"\n[baseline]\ngravitty = 9.8\n[[recording]]\nfile = "tracks.csv"\ntime = "t"\nx = "x"\n'
 refused study 'study --dry-run' "[study]\\nscenario = \"$tank\"\\nreplicate = 3\\n"
 refused optimize 'optimize --dry-run' "[optimize]\\nscenario = \"$tank\"\\nmethod = \"cmaes\"\\n"
 
