@@ -8,8 +8,6 @@
 namespace lilytank {
 namespace {
 
-const std::string kTank = std::string(LILYTANK_SOURCE_DIR) + "/scenarios/experiments/tank.toml";
-
 TEST(diagnoseVerb, refusesWithOneLine) {
   const Program lilytank;
   lilytank.here.write("latched.toml",

@@ -10,8 +10,6 @@
 namespace lilytank {
 namespace {
 
-const std::string kTank = "'" LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml'";
-
 TEST(flowVerb, leavesGridsThatARunReads) {
   const Program lilytank;
   Answer a = lilytank("flow " + kTank + " --out f");
