@@ -310,7 +310,7 @@ std::vector<std::string> result_names(const Analysis& analysis) {
 
 }  // namespace
 
-int analyze_verb(const Arguments& arguments) {
+int analyze_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("analyze", "RUN|EXPERIMENT.toml|RECORDING...",
                       "Analyses tracks: displacements, velocities, maps, neighbours. Compares two "
                       "sources. Writes text, tables and plots.");
@@ -337,7 +337,7 @@ int analyze_verb(const Arguments& arguments) {
   write_analysis(analysis, report, dir);
   if constexpr (kDraws) draw_analysis(analysis, report, dir);
   if constexpr (!kDraws) say_undrawn("plots");
-  return print_results(report, dir);
+  return print_results(report, dir, host);
 }
 
 }  // namespace lilytank::cli

@@ -53,7 +53,7 @@ void add_sources(const Experiment& experiment, std::vector<std::string>& inputs)
 
 }  // namespace
 
-int diagnose_verb(const Arguments& arguments) {
+int diagnose_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
                       "Says where an experiment's recordings and the model differ, which effect is "
                       "missing, how large it is, and how much of the difference it removes.");
@@ -64,7 +64,7 @@ int diagnose_verb(const Arguments& arguments) {
     return Exit::done;
   }
   if (!options.has("tank")) options.refuse_given({"tank-results"}, "goes with --tank");
-  Progress progress(job.quiet);
+  Progress progress(job.quiet, host);
   progress.watch(d);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   d.lock = &lock;
@@ -100,7 +100,7 @@ int diagnose_verb(const Arguments& arguments) {
   write_diagnosis(found, report, d.out);
   if constexpr (kDraws) draw_diagnosis(found, report, d.out);
   if constexpr (!kDraws) say_undrawn("report.html");
-  return print_results(report, d.out);
+  return print_results(report, d.out, host);
 }
 
 }  // namespace lilytank::cli

@@ -70,9 +70,9 @@ void estimate(const std::string& word, const std::vector<Recording>& recordings,
 }
 
 // Of the smooth estimate, which is the last one.
-void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings,
-                  FlowReport& report) {
-  Progress progress(job.quiet);
+void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings, FlowReport& report,
+                  const Host& host) {
+  Progress progress(job.quiet, host);
   JobControl control;
   progress.watch(control);
   report.bias = measure_flow_bias(recordings, report.estimates.back(), report.ball, report.options,
@@ -88,7 +88,7 @@ std::vector<std::string> input_files(const VerbOptions& options, const Experimen
 
 }  // namespace
 
-int flow_verb(const Arguments& arguments) {
+int flow_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options(
       "flow", "EXPERIMENT.toml...",
       "Estimates the water's velocity from the tracks of an experiment's balls: mean and "
@@ -127,10 +127,10 @@ int flow_verb(const Arguments& arguments) {
   write();
   if (job.bias) {
     // Takes minutes: the estimates are stored before.
-    measure_bias(job, experiment.recordings, report);
+    measure_bias(job, experiment.recordings, report, host);
     write();
   }
-  return print_results(document, dir);
+  return print_results(document, dir, host);
 }
 
 }  // namespace lilytank::cli

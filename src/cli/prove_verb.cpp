@@ -13,16 +13,17 @@
 namespace lilytank::cli {
 namespace {
 
-int report_proofs(std::span<const Proof> proofs, const std::string& dir) {
+int report_proofs(std::span<const Proof> proofs, const std::string& dir, const Host& host) {
   const ReportDocument report = proof_report(proofs);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
   if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir);
   if constexpr (!kDraws) say_undrawn("report.html");
-  return print_results(report, dir);
+  return print_results(report, dir, host);
 }
 
 // `out`: "" to print only.
-int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
+int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force,
+                   const Host& host) {
   std::vector<Proof> proofs;
   std::string hashes;
   for (const std::string& dir : dirs) {
@@ -39,7 +40,7 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out);
+  return report_proofs(proofs, out, host);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -84,7 +85,7 @@ void keep(const Proof& so_far, const std::filesystem::path& dir) {
 
 }  // namespace
 
-int prove_verb(const Arguments& arguments) {
+int prove_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options(
       "prove", "[PROOF...]",
       "Benchmarks the diagnosis: simulates experiments with known effects, with none, and with "
@@ -100,14 +101,14 @@ int prove_verb(const Arguments& arguments) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
                           "modelled", "budget", "seed", "threads"},
                          "is for a new proof");
-    return print_together(options.positional(), options.text("out"), job.diagnosis.force);
+    return print_together(options.positional(), options.text("out"), job.diagnosis.force, host);
   }
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
   }
   job.diagnosis.out = options.out("out/proof");
   const std::filesystem::path dir(job.diagnosis.out);
-  Progress progress(quiet);
+  Progress progress(quiet, host);
   progress.watch(job.diagnosis);
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
@@ -119,7 +120,7 @@ int prove_verb(const Arguments& arguments) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out);
+  return report_proofs({&proof, 1}, job.diagnosis.out, host);
 }
 
 }  // namespace lilytank::cli

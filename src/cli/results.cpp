@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/host.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "lilytank/error.hpp"
@@ -89,13 +88,13 @@ void say_undrawn(const std::string& what) {
             << ": this program was built without the renderer (Cairo was not found)\n";
 }
 
-std::string printed(const ReportDocument& report) {
-  if (host != nullptr) host->report(report);
+std::string printed(const ReportDocument& report, const Host& host) {
+  if (host.report) host.report(report);
   return report_text(report);
 }
 
-int print_results(const ReportDocument& report, const std::string& dir) {
-  std::cout << printed(report) << std::flush;
+int print_results(const ReportDocument& report, const std::string& dir, const Host& host) {
+  std::cout << printed(report, host) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }

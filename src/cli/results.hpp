@@ -36,8 +36,8 @@ ReportProvenance provenance(const std::string& verb, const Arguments& arguments,
 std::string identity_of(const ReportProvenance& provenance);
 
 /// The report as text to print; the host receives it as a document.
-std::string printed(const ReportDocument& report);
+std::string printed(const ReportDocument& report, const Host& host);
 /// Prints the report, and the directory of the results; returns the exit code.
-int print_results(const ReportDocument& report, const std::string& dir);
+int print_results(const ReportDocument& report, const std::string& dir, const Host& host);
 
 }  // namespace lilytank::cli

@@ -74,7 +74,7 @@ std::string counts_text(const StoredStudy& study) {
          " runs, " + std::to_string(failed) + " diverged";
 }
 
-std::string report(const StoredStudy& study, const std::string& dir) {
+std::string report(const StoredStudy& study, const std::string& dir, const Host& host) {
   const StudySummary summary = summarise(study.table);
   ReportDocument document = study_report(summary);
   const StudyPlan& plan = study.plan;
@@ -89,7 +89,7 @@ std::string report(const StoredStudy& study, const std::string& dir) {
   write_study_summary(summary, document, dir);
   if constexpr (kDraws) draw_study(summary, document, dir);
   if constexpr (!kDraws) say_undrawn("plots");
-  return printed(document);
+  return printed(document, host);
 }
 
 int study_merge(const Arguments& arguments) {
@@ -101,13 +101,13 @@ int study_merge(const Arguments& arguments) {
   return completeness(found->study, (fs::path(found->dir) / "table.csv").string());
 }
 
-int study_report(const Arguments& arguments) {
+int study_report(const Arguments& arguments, const Host& host) {
   VerbOptions options("study report", "DIR",
                       "Writes a study's statistics and plots beside its runs, and prints the "
                       "statistics.");
   const auto found = found_study(options, arguments, true);
   if (!found) return Exit::done;
-  std::cout << report(found->study, found->dir) << std::flush;
+  std::cout << report(found->study, found->dir, host) << std::flush;
   return completeness(found->study, "results in " + found->dir);
 }
 
