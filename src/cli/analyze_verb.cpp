@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -269,6 +270,7 @@ void add_analyze_options(VerbOptions& options, AnalyzeJob& job) {
   options.add({"size", "side or diameter of their bodies", "LENGTH"}, &s.size, 1e-4, 10, "m");
   options.add({"resamples", "of each band (1000)", "N"}, &a.bootstrap.resamples, 20, 1000000);
   options.add({"seed", "of the bands (1)", "N"}, &a.bootstrap.seed, 0, INT64_MAX);
+  options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace files of other results in the directory"}, &job.force);
 }
 
@@ -296,6 +298,17 @@ std::string default_directory(const std::vector<AnalysisSource>& sources) {
   std::string name;
   for (const char c : sources[0].name) name += c == '/' || c == ' ' ? '_' : c;
   return "out/" + name + "-analysis";
+}
+
+int dry_run(const std::vector<AnalysisSource>& sources, const std::string& dir) {
+  std::cout << "would analyze " << counted(std::ssize(sources), "source") << "; in " << dir << "\n";
+  for (const AnalysisSource& source : sources) {
+    double seconds = 0;
+    for (const Recording& r : source.recordings) seconds += r.frames / r.rate;
+    std::cout << "  " << source.name << ": " << counted(std::ssize(source.recordings), "recording")
+              << ", " << significant(seconds, 4) << " s\n";
+  }
+  return Exit::done;
 }
 
 /// Names of all files that an analysis may leave.
@@ -329,6 +342,7 @@ int analyze_verb(const Arguments& arguments, const Host& host) {
   const ReportProvenance origin =
       provenance("analyze", arguments, job.analysis.bootstrap.seed, files);
   check_directory(dir, job.force, {"analysis", identity_of(origin), {}});
+  if (options.has("dry-run")) return dry_run(sources, dir);
   const Analysis analysis = analyse(sources, job.analysis);
   const auto lock =
       claim_directory(dir, job.force, {"analysis", identity_of(origin), result_names(analysis)});

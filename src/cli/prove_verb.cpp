@@ -9,6 +9,8 @@
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -64,7 +66,19 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
   options.add({"out", "directory of the results (out/proof)", "DIR"});
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &d.threads, 0, 4096);
+  options.add({"dry-run", "check everything, write nothing"});
   options.add({"force", "replace another proof's files"}, &d.force);
+}
+
+int dry_run(const ProofOptions& job) {
+  const DiagnosisOptions& d = job.diagnosis;
+  check_directory_of("proof", d.out, d.force);
+  std::cout << "would simulate and diagnose " << counted(job.worlds, "experiment")
+            << (job.only.empty() ? "" : " (of these, " + job.only + " only)")
+            << " of 3 recordings of " << significant(job.minutes, 3)
+            << " min; the tank's null experiments take about " << significant(d.minutes, 3)
+            << " min on two cores; in " << d.out << "\n";
+  return Exit::done;
 }
 
 // A directory may have had a proof of other experiments of the same tank, with a key of its own.
@@ -99,7 +113,7 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
-                          "modelled", "budget", "seed", "threads"},
+                          "modelled", "budget", "seed", "threads", "dry-run"},
                          "is for a new proof");
     return print_together(options.positional(), options.text("out"), job.diagnosis.force, host);
   }
@@ -107,6 +121,7 @@ int prove_verb(const Arguments& arguments, const Host& host) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
   }
   job.diagnosis.out = options.out("out/proof");
+  if (options.has("dry-run")) return dry_run(job);
   const std::filesystem::path dir(job.diagnosis.out);
   Progress progress(quiet, host);
   progress.watch(job.diagnosis);

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/error.hpp"
 #include "recording/formats.hpp"
 #include "study/study_directory.hpp"
@@ -52,6 +53,11 @@ void check_directory_can_be(const std::string& dir) {
   while (above.has_relative_path() && !fs::exists(above, ignored)) above = above.parent_path();
   if (fs::is_directory(above, ignored)) return;
   throw InputError(system_problem("cannot make", dir, ENOTDIR));
+}
+
+void check_directory_of(const std::string& kind, const std::string& dir, bool force) {
+  check_directory_can_be(dir);
+  if (!force) refuse_foreign(dir, {}, kind);
 }
 
 void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force) {

@@ -5,6 +5,7 @@
 
 #include "cli/results.hpp"
 #include "cli/study_verb.hpp"
+#include "io/json.hpp"
 #include "lilytank/study_summary.hpp"
 #include "study/study_directory.hpp"
 #include "text/words.hpp"
@@ -58,6 +59,20 @@ int completeness(const StoredStudy& study, const std::string& done) {
     return Exit::stopped;
   }
   return failed > 0 ? Exit::diverged : Exit::done;
+}
+
+/// `decided`: whether a stopping rule asks for no more runs of the setting.
+Json status_json(const StoredStudy& study) {
+  Json settings = Json::array();
+  for (std::size_t s = 0; s < study.counts.size(); ++s) {
+    const StoredStudy::Count& count = study.counts[s];
+    settings.push_back({{"label", study.plan.settings[s].label},
+                        {"done", count.done},
+                        {"wanted", count.wanted},
+                        {"decided", count.decided},
+                        {"diverged", count.failed}});
+  }
+  return {{"name", study.plan.name}, {"complete", study.complete}, {"settings", settings}};
 }
 
 }  // namespace
@@ -114,9 +129,14 @@ int study_report(const Arguments& arguments, const Host& host) {
 int study_status(const Arguments& arguments) {
   VerbOptions options("study status", "DIR",
                       "Counts simulations that are done, missing and diverged.");
+  options.add({"json", "print JSON"});
   const auto found = found_study(options, arguments, false);
   if (!found) return Exit::done;
   const StoredStudy& study = found->study;
+  if (options.has("json")) {
+    std::cout << json_text(status_json(study)) << std::flush;
+    return Exit::done;
+  }
   std::size_t width = 8;
   for (const Setting& setting : study.plan.settings) width = std::max(width, setting.label.size());
   std::cout << padded("setting", width) << "  done  missing  diverged\n";

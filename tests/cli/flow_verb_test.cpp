@@ -126,5 +126,15 @@ TEST(flowVerb, refusesWithOneLine) {
   }
 }
 
+TEST(flowVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
+  const Program lilytank;
+  const Answer a = lilytank("flow " + kTank + " --cells 20 --bias --dry-run --out f");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out,
+            "would estimate the flow of tank from 1 recording of balls (20 s) on 20 x 20 cells, "
+            "estimator both, with errors on synthetic recordings; in f\n");
+  EXPECT_TRUE(lilytank.names().empty());
+}
+
 }  // namespace
 }  // namespace lilytank
