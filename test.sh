@@ -16,19 +16,16 @@ case ${1:-} in
 esac
 
 ((EUID == 0)) || slurm_packages=()
-need_packages "${build_packages[@]}" "${film_packages[@]}" "${test_packages[@]}" \
-              "${slurm_packages[@]}" "${bench_packages[@]}"
-
-python=(-DLILYTANK_PYTHON=OFF)
-if need_packages "${python_packages[@]}"; then
-  python=(-DLILYTANK_PYTHON=ON "-DPython_EXECUTABLE=$(PATH=/usr/bin:$PATH command -v python3)")
-else
-  echo "The Python package is not tested."
-fi
-need_packages "${table_packages[@]}" || echo "Conversions to pandas and xarray are not tested."
+need_packages "${build_packages[@]}" libgtest-dev
+{  # beside the first build, which does without them
+  need_packages "${film_packages[@]}" "${test_packages[@]}" "${slurm_packages[@]}" "${bench_packages[@]}"
+  need_packages "${python_packages[@]}" "${table_packages[@]}" || true  # the next steps say what that means
+} &
+other_packages_ready=$!
 
 run_tests() {  # <tree> [ctest option...]
-  ctest --test-dir "$1" --parallel "$(nproc)" --output-on-failure --no-tests=error \
+  # One more than cores: some tests mostly wait.
+  ctest --test-dir "$1" --parallel "$(($(nproc) + 1))" --output-on-failure --no-tests=error \
         --no-label-summary "${@:2}"
 }
 
@@ -37,6 +34,15 @@ configure build-debug -DCMAKE_BUILD_TYPE=Debug -DLILYTANK_SIMD=OFF -DLILYTANK_RE
                       -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON
 cmake --build build-debug --target core_tests determinism_tests ${all:+unit_tests analytic_tests}
 run_tests build-debug --exclude-regex '_NOT_BUILT' --label-exclude '^(tree|slurm|program)$'
+
+wait "$other_packages_ready"
+python=(-DLILYTANK_PYTHON=OFF)
+if need_packages "${python_packages[@]}"; then
+  python=(-DLILYTANK_PYTHON=ON "-DPython_EXECUTABLE=$(PATH=/usr/bin:$PATH command -v python3)")
+else
+  echo "The Python package is not tested."
+fi
+need_packages "${table_packages[@]}" || echo "Conversions to pandas and xarray are not tested."
 
 configure build -DCMAKE_BUILD_TYPE=Release -DLILYTANK_RENDER=ON -DLILYTANK_BENCH=ON \
                 -DLILYTANK_TESTS=ON -DLILYTANK_WERROR=ON "${python[@]}"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -269,6 +270,7 @@ void add_analyze_options(VerbOptions& options, AnalyzeJob& job) {
   options.add({"size", "side or diameter of their bodies", "LENGTH"}, &s.size, 1e-4, 10, "m");
   options.add({"resamples", "of each band (1000)", "N"}, &a.bootstrap.resamples, 20, 1000000);
   options.add({"seed", "of the bands (1)", "N"}, &a.bootstrap.seed, 0, INT64_MAX);
+  options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace files of other results in the directory"}, &job.force);
 }
 
@@ -298,6 +300,17 @@ std::string default_directory(const std::vector<AnalysisSource>& sources) {
   return "out/" + name + "-analysis";
 }
 
+int dry_run(const std::vector<AnalysisSource>& sources, const std::string& dir) {
+  std::cout << "would analyze " << counted(std::ssize(sources), "source") << "; in " << dir << "\n";
+  for (const AnalysisSource& source : sources) {
+    double seconds = 0;
+    for (const Recording& r : source.recordings) seconds += r.frames / r.rate;
+    std::cout << "  " << source.name << ": " << counted(std::ssize(source.recordings), "recording")
+              << ", " << significant(seconds, 4) << " s\n";
+  }
+  return Exit::done;
+}
+
 /// Names of all files that an analysis may leave.
 std::vector<std::string> result_names(const Analysis& analysis) {
   std::vector<std::string> names{"report.html"}, figures{"msd_all_log"};
@@ -310,7 +323,7 @@ std::vector<std::string> result_names(const Analysis& analysis) {
 
 }  // namespace
 
-int analyze_verb(const Arguments& arguments) {
+int analyze_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("analyze", "RUN|EXPERIMENT.toml|RECORDING...",
                       "Analyses tracks: displacements, velocities, maps, neighbours. Compares two "
                       "sources. Writes text, tables and plots.");
@@ -329,6 +342,7 @@ int analyze_verb(const Arguments& arguments) {
   const ReportProvenance origin =
       provenance("analyze", arguments, job.analysis.bootstrap.seed, files);
   check_directory(dir, job.force, {"analysis", identity_of(origin), {}});
+  if (options.has("dry-run")) return dry_run(sources, dir);
   const Analysis analysis = analyse(sources, job.analysis);
   const auto lock =
       claim_directory(dir, job.force, {"analysis", identity_of(origin), result_names(analysis)});
@@ -337,7 +351,7 @@ int analyze_verb(const Arguments& arguments) {
   write_analysis(analysis, report, dir);
   if constexpr (kDraws) draw_analysis(analysis, report, dir);
   if constexpr (!kDraws) say_undrawn("plots");
-  return print_results(report, dir);
+  return print_results(report, dir, host);
 }
 
 }  // namespace lilytank::cli

@@ -190,7 +190,7 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
 
 }  // namespace
 
-int calibrate_verb(const Arguments& arguments) {
+int calibrate_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("calibrate", "EXPERIMENT.toml...",
                       "Estimates the model's parameters from an experiment's recordings, with "
                       "intervals, parameters that the data do not constrain, and the fit of the "
@@ -206,7 +206,7 @@ int calibrate_verb(const Arguments& arguments) {
   }
   refuse_point_bodies(options.positional());
   complete(options, job);
-  Progress progress(job.quiet);
+  Progress progress(job.quiet, host);
   progress.watch(c);
   if (options.has("recover")) return recover_verb(options, arguments, job, progress);
   std::vector<std::string> files = options.positional();
@@ -237,7 +237,7 @@ int calibrate_verb(const Arguments& arguments) {
   write_calibration(found, report, c.out);
   if constexpr (kDraws) draw_calibration(found, report, c.out);
   if constexpr (!kDraws) say_undrawn("plots");
-  return print_results(report, c.out);
+  return print_results(report, c.out, host);
 }
 
 }  // namespace lilytank::cli

@@ -112,13 +112,14 @@ std::string identity_of(const CheckInput& input) {
   return hex(hash.value());
 }
 
-Counted measure(const CheckJob& of, const CheckInput& input, const std::string& dir) {
+Counted measure(const CheckJob& of, const CheckInput& input, const std::string& dir,
+                const Host& host) {
   const Scenario& scenario = *input.scenario;
   MeasureOptions job = of.measured;
   job.duration = scenario.duration;
   job.out = dir;
   job.identity = identity_of(scenario, input.rules);
-  Progress progress(of.quiet);
+  Progress progress(of.quiet, host);
   progress.watch(job);
   const std::vector<MeasuredWorld> worlds = measure_worlds(scenario.model, job);
   progress.clear();
@@ -322,7 +323,7 @@ CheckInput check_input(const CheckJob& job) {
   return input;
 }
 
-KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input) {
+KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input, const Host& host) {
   const VerbOptions& options = job.options;
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
@@ -339,7 +340,7 @@ KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input) {
          with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
                       {"yield"})});
     const Counted counted =
-        input.scenario ? measure(job, input, dir) : Counted{*input.rates, {}, 0, 0};
+        input.scenario ? measure(job, input, dir, host) : Counted{*input.rates, {}, 0, 0};
     report.dir = dir;
     report.diverged = counted.diverged, report.text = diverged_text(counted);
     if (report.diverged > 0 && counted.completion.empty()) return report;

@@ -50,6 +50,6 @@ struct KineticsReport {
   std::shared_ptr<const DirectoryLock> lock;  ///< of `dir`, until the last file is written
 };
 /// Does what the options require. Throws InputError, Stopped.
-KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input);
+KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input, const Host& host);
 
 }  // namespace lilytank::cli

@@ -67,7 +67,7 @@ void write_report(const ReportDocument& report, const std::string& dir) {
 
 }  // namespace
 
-int check_verb(const Arguments& arguments) {
+int check_verb(const Arguments& arguments, const Host& host) {
   CheckJob job{VerbOptions(
       "check", "RULESET",
       "Proves which assemblies a ruleset can build, where it gets stuck and whether its "
@@ -83,7 +83,7 @@ int check_verb(const Arguments& arguments) {
   job.check.lattice.seed = job.measured.seed;
   RulesetCheck check;
   {
-    Progress progress(job.quiet);
+    Progress progress(job.quiet, host);
     progress.watch(job.check);
     check = check_ruleset(input.rules, job.check);
     progress.clear();
@@ -91,9 +91,9 @@ int check_verb(const Arguments& arguments) {
   ReportDocument report = check_report(input.rules, check);
   report.provenance = provenance("check", arguments, job.measured.seed, input_files(job));
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));
-  const KineticsReport kinetics = run_kinetics(job, input);
+  const KineticsReport kinetics = run_kinetics(job, input, host);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);
-  const std::string text = printed(report);
+  const std::string text = printed(report, host);
   std::cout << (job.json ? report_json(report) : text) << std::flush;
   if (!kinetics.dir.empty() && job.options.has("measure")) write_report(report, kinetics.dir);
   if (kinetics.diverged > 0) return Exit::diverged;

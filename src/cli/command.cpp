@@ -120,7 +120,7 @@ bool names_its_subject(const std::string& message) {
 
 }  // namespace
 
-int act(const Arguments& words) {
+int act(const Arguments& words, const Host& host) {
   if (words.empty()) throw InputError("which verb? 'lilytank help' lists what there is");
   const Arguments rest(words.begin() + 1, words.end());
   if (words[0] == "--version" || words[0] == "-V" || words[0] == "version") {
@@ -128,8 +128,9 @@ int act(const Arguments& words) {
     return Exit::done;
   }
   const bool help = asks_for_help(words[0]);
-  if (help && !rest.empty() && !asks_for_help(rest[0])) return find_verb(rest[0]).act({"--help"});
-  if (!help) return find_verb(words[0]).act(rest);
+  if (help && !rest.empty() && !asks_for_help(rest[0]))
+    return find_verb(rest[0]).act({"--help"}, host);
+  if (!help) return find_verb(words[0]).act(rest, host);
   print_help();
   return Exit::done;
 }

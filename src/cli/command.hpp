@@ -7,8 +7,9 @@
 
 namespace lilytank::cli {
 
-/// Does what the words, a verb and its arguments, say; the exit code. Throws InputError, Stopped.
-int act(const Arguments& words);
+/// Does for the host what the words, a verb and its arguments, say; the exit code. Throws
+/// InputError, Stopped.
+int act(const Arguments& words, const Host& host);
 
 /// A refusal of the command `words`. One that names neither a file nor an option gets the last file
 /// of the command line.

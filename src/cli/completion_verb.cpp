@@ -79,7 +79,7 @@ std::vector<std::string> candidates(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int completion_verb(const Arguments& arguments) {
+int completion_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("completion", "bash|zsh|fish",
                       "Prints the script that teaches a shell to complete verbs, options and, "
                       "after --set, the keys of scenarios.");

@@ -1,10 +1,15 @@
 // lilytank diagnose: what physics a model leaves out.
+#include <algorithm>
+#include <iostream>
+
 #include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "lilytank/bodies.hpp"
 #include "lilytank/diagnosis.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -37,6 +42,7 @@ void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
   options.add(
       {"uncertified", "diagnose insufficient recordings, too: error rates are then unknown"},
       &d.uncertified);
+  options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace another diagnosis's files"}, &d.force);
   options.add({"quiet", "no progress"}, &job.quiet);
 }
@@ -51,9 +57,28 @@ void add_sources(const Experiment& experiment, std::vector<std::string>& inputs)
   for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
 }
 
+int dry_run(const std::string& what, const DiagnosisOptions& job) {
+  check_directory_of("diagnosis", job.out, job.force);
+  std::cout << "would diagnose " << what << ": about " << significant(job.minutes, 3)
+            << " min on two cores; in " << job.out << "\n";
+  return Exit::done;
+}
+
+int dry_run(const Experiment& experiment, const DiagnosisOptions& job) {
+  std::int64_t recordings = 0, held_out = 0;
+  for (const Recording& r : experiment.recordings) {
+    if (r.body != BodyKind::lily) continue;
+    recordings += 1, held_out += r.held_out ? 1 : 0;
+  }
+  if (held_out == 0) held_out = std::min<std::int64_t>(job.hold_out, recordings);
+  return dry_run(experiment.name + ": " + counted(recordings, "recording") + " of Lilies, " +
+                     std::to_string(held_out) + " held out",
+                 job);
+}
+
 }  // namespace
 
-int diagnose_verb(const Arguments& arguments) {
+int diagnose_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("diagnose", "EXPERIMENT.toml...",
                       "Says where an experiment's recordings and the model differ, which effect is "
                       "missing, how large it is, and how much of the difference it removes.");
@@ -64,7 +89,7 @@ int diagnose_verb(const Arguments& arguments) {
     return Exit::done;
   }
   if (!options.has("tank")) options.refuse_given({"tank-results"}, "goes with --tank");
-  Progress progress(job.quiet);
+  Progress progress(job.quiet, host);
   progress.watch(d);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   d.lock = &lock;
@@ -76,6 +101,10 @@ int diagnose_verb(const Arguments& arguments) {
     const BodyExperiment experiment = load_body_experiment(inputs[0]);
     d.out = options.out("out/diagnose-" + experiment.name);
     inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
+    if (options.has("dry-run")) {
+      const auto runs = std::ssize(experiment.runs);
+      return dry_run(experiment.name + ": " + counted(runs, "run") + " of point bodies", d);
+    }
     found = diagnose_bodies(experiment, d);
   } else {
     refuse_point_bodies(inputs);
@@ -85,6 +114,7 @@ int diagnose_verb(const Arguments& arguments) {
     const Experiment experiment = load_experiment(inputs, sets);
     d.out = options.out("out/diagnose-" + experiment.name);
     add_sources(experiment, inputs);
+    if (options.has("dry-run")) return dry_run(experiment, d);
     if (options.has("tank")) {
       const DiagnosedTank tank = diagnosed_tank(job, sets);
       inputs.push_back(job.tank);
@@ -100,7 +130,7 @@ int diagnose_verb(const Arguments& arguments) {
   write_diagnosis(found, report, d.out);
   if constexpr (kDraws) draw_diagnosis(found, report, d.out);
   if constexpr (!kDraws) say_undrawn("report.html");
-  return print_results(report, d.out);
+  return print_results(report, d.out, host);
 }
 
 }  // namespace lilytank::cli

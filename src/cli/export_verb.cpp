@@ -8,7 +8,7 @@
 
 namespace lilytank::cli {
 
-int export_verb(const Arguments& arguments) {
+int export_verb(const Arguments& arguments, const Host&) {
   VerbOptions options(
       "export", "DIR",
       "Writes the results in a directory (of a run, study, analysis, ...) for other "

@@ -1,4 +1,6 @@
 // lilytank flow: the water's velocity from the tracks of balls.
+#include <iostream>
+
 #include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
@@ -6,6 +8,8 @@
 #include "jobs/job_directory.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/flow_report.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -42,6 +46,7 @@ void add_flow_options(VerbOptions& options, FlowJob& job) {
   options.add({"level", "significance of the tests of normality (0.05)", "P"}, &f.significance,
               1e-6, 0.5);
   options.add({"seed", "of --bias (1)", "N"}, &job.seed, 0, INT64_MAX);
+  options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace other results in the directory"}, &job.force);
   options.add({"quiet", "no progress"}, &job.quiet);
 }
@@ -70,14 +75,30 @@ void estimate(const std::string& word, const std::vector<Recording>& recordings,
 }
 
 // Of the smooth estimate, which is the last one.
-void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings,
-                  FlowReport& report) {
-  Progress progress(job.quiet);
+void measure_bias(const FlowJob& job, const std::vector<Recording>& recordings, FlowReport& report,
+                  const Host& host) {
+  Progress progress(job.quiet, host);
   JobControl control;
   progress.watch(control);
   report.bias = measure_flow_bias(recordings, report.estimates.back(), report.ball, report.options,
                                   job.seed, control);
   progress.clear();
+}
+
+int dry_run(const FlowJob& job, const Experiment& experiment, const std::string& dir) {
+  int recordings = 0;
+  double seconds = 0;
+  for (const Recording& r : experiment.recordings) {
+    if (r.body != BodyKind::ball) continue;
+    recordings += 1, seconds += r.frames / r.rate;
+  }
+  if (recordings == 0) throw InputError(experiment.name + " has no recording of body = \"ball\"");
+  std::cout << "would estimate the flow of " << experiment.name << " from "
+            << counted(recordings, "recording") << " of balls (" << significant(seconds, 4)
+            << " s) on " << job.flow.cells << " x " << job.flow.cells << " cells, estimator "
+            << job.estimator << (job.bias ? ", with errors on synthetic recordings" : "") << "; in "
+            << dir << "\n";
+  return Exit::done;
 }
 
 std::vector<std::string> input_files(const VerbOptions& options, const Experiment& experiment) {
@@ -88,7 +109,7 @@ std::vector<std::string> input_files(const VerbOptions& options, const Experimen
 
 }  // namespace
 
-int flow_verb(const Arguments& arguments) {
+int flow_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options(
       "flow", "EXPERIMENT.toml...",
       "Estimates the water's velocity from the tracks of an experiment's balls: mean and "
@@ -112,6 +133,7 @@ int flow_verb(const Arguments& arguments) {
       provenance("flow", arguments, job.seed, input_files(options, experiment));
   const DirectoryJob owner{"flow", identity_of(origin), flow_files()};
   check_directory(dir, job.force, owner);
+  if (options.has("dry-run")) return dry_run(job, experiment, dir);
   estimate(job.estimator, experiment.recordings, report);
   report.coverage =
       coverage_of(&report.estimates.back(), experiment.recordings, experiment.recordings);
@@ -127,10 +149,10 @@ int flow_verb(const Arguments& arguments) {
   write();
   if (job.bias) {
     // Takes minutes: the estimates are stored before.
-    measure_bias(job, experiment.recordings, report);
+    measure_bias(job, experiment.recordings, report, host);
     write();
   }
-  return print_results(document, dir);
+  return print_results(document, dir, host);
 }
 
 }  // namespace lilytank::cli

@@ -21,7 +21,7 @@ void print_term(const ForceTerm& term) {
 
 }  // namespace
 
-int forces_verb(const Arguments& arguments) {
+int forces_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("forces", "[NAME]",
                       "Documents the force terms: equation, parameters, bounds.");
   if (!options.parse(arguments)) return Exit::done;

@@ -1,4 +1,5 @@
-// A program that calls the verbs in its own process, as the Python module does.
+// Who runs a verb: the command-line program, or one that calls verbs in its own process, as the
+// Python module does.
 #pragma once
 #include <atomic>
 #include <functional>
@@ -8,16 +9,12 @@
 
 namespace lilytank::cli {
 
-/// Stops the jobs of verbs, and receives their progress and reports. Signals and the terminal are
-/// the program's own.
+/// Stops the jobs of verbs, and receives their progress and reports. As it is, the command-line
+/// program: signals stop jobs, and their progress goes to stderr.
 struct Host {
-  const std::atomic<bool>* stop = nullptr;
-  std::function<void(double done, const std::string& note)> progress;
+  const std::atomic<bool>* stop = nullptr;                             ///< instead of signals
+  std::function<void(double done, const std::string& note)> progress;  ///< instead of stderr
   std::function<void(const ReportDocument& report)> report;
 };
-
-/// Null in the command-line program. Of the process, as its streams and signals are: one verb at a
-/// time acts in it.
-inline const Host* host = nullptr;
 
 }  // namespace lilytank::cli

@@ -91,7 +91,7 @@ void print_derived(const Scenario& scenario) {
 
 }  // namespace
 
-int info_verb(const Arguments& arguments) {
+int info_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("info", "SCENARIO...",
                       "Explains a scenario: every value, where it was set, and what follows.");
   std::vector<std::string> sets;

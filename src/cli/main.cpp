@@ -33,7 +33,7 @@ void occupy_closed_streams() {
 /// Does what the command line says; every failure is one line.
 int run_command(const Arguments& words, PrintableStream& err) {
   try {
-    return deliver(act(words));
+    return deliver(act(words, {}));
   } catch (const Stopped& stopped) {
     std::cerr << stopped.what() << "\n";
     return Exit::stopped;

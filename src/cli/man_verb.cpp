@@ -62,7 +62,7 @@ void print_verb(const Verb& verb) {
 
 }  // namespace
 
-int man_verb(const Arguments& arguments) {
+int man_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("man", "[VERB]",
                       "Prints a manual page: of the program, or of a verb. Show it by: lilytank "
                       "man run | man -l -");

@@ -53,9 +53,9 @@ void write_report(const OptimizationPlan& plan, const OptimizationResult& result
   }
 }
 
-OptimizationResult run_with_progress(const Optimization& what, OptimizationOptions job,
-                                     bool quiet) {
-  Progress progress(quiet);
+OptimizationResult run_with_progress(const Optimization& what, OptimizationOptions job, bool quiet,
+                                     const Host& host) {
+  Progress progress(quiet, host);
   if (!quiet) std::cerr << plan_line(what.plan(), job.out) << "\n";
   progress.watch(job);
   return run_optimization(what, job);
@@ -63,12 +63,12 @@ OptimizationResult run_with_progress(const Optimization& what, OptimizationOptio
 
 /// The study that compares the optimum; its exit code.
 int compare(const Optimization& what, const OptimizationResult& result,
-            const OptimizationOptions& options, bool quiet) {
+            const OptimizationOptions& options, bool quiet, const Host& host) {
   const Study study(result.compare, what.plan().sets);
   StudyOptions job;
   job.out = (fs::path(options.out) / "compare").string();
   job.threads = options.threads, job.force = options.force;
-  Progress progress(quiet);
+  Progress progress(quiet, host);
   progress.watch(job);
   job.progress = [&](double share, const std::string& note) {
     progress.show(share, "comparing: " + note);
@@ -77,13 +77,13 @@ int compare(const Optimization& what, const OptimizationResult& result,
   progress.clear();
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
-  std::cout << report(stored, job.out) << std::flush;
+  std::cout << report(stored, job.out, host) << std::flush;
   return done.failed > 0 ? Exit::diverged : Exit::done;
 }
 
 }  // namespace
 
-int optimize_verb(const Arguments& arguments) {
+int optimize_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("optimize", "STUDY.toml",
                       "Searches rule probabilities, a switch of them, pump power or rulesets for "
                       "what builds a target best.");
@@ -111,7 +111,7 @@ int optimize_verb(const Arguments& arguments) {
   if (options.has("dry-run")) return dry_run(what.plan(), job.out);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
-  const OptimizationResult result = run_with_progress(what, job, quiet);
+  const OptimizationResult result = run_with_progress(what, job, quiet, host);
   if (result.optimum.empty()) {
     std::cerr << "no optimum: at every point that was evaluated a simulation diverged; every "
                  "value is in "
@@ -120,10 +120,10 @@ int optimize_verb(const Arguments& arguments) {
   }
   ReportDocument document = optimization_report(what.plan(), result);
   document.provenance = provenance("optimize", arguments, what.plan().seed, what.source().inputs());
-  std::cout << printed(document) << std::flush;
+  std::cout << printed(document, host) << std::flush;
   write_report(what.plan(), result, document, job.out);
   if (result.compare.empty() || options.has("no-compare")) return Exit::done;
-  return compare(what, result, job, quiet);
+  return compare(what, result, job, quiet, host);
 }
 
 }  // namespace lilytank::cli

@@ -33,7 +33,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 VerbDescription describe(const Verb& verb, const std::string& own) {
   try {
-    verb.act(own.empty() ? Arguments{kDescribe} : Arguments{own, kDescribe});
+    verb.act(own.empty() ? Arguments{kDescribe} : Arguments{own, kDescribe}, {});
   } catch (const VerbDescription& description) {
     return description;
   } catch (const InputError&) {

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <system_error>
 
-#include "cli/host.hpp"
 #include "text/printable.hpp"
 
 namespace lilytank::cli {
@@ -25,6 +24,21 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void request_stop(int) {
   stop_requested.store(true, std::memory_order_relaxed);
+}
+
+/// Becomes true once a signal requests a stop. The first call installs the handlers; a second
+/// signal then ends the process at once, as usual.
+const std::atomic<bool>& stop_signal() {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  // A terminal that goes away, unless nohup said that it does not matter.
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  return stop_requested;
 }
 
 double seconds(std::chrono::steady_clock::duration d) {
@@ -45,8 +59,9 @@ std::string duration_text(double s) {
   return text;
 }
 
-Progress::Progress(bool quiet)
-    : quiet_(quiet || host != nullptr),
+Progress::Progress(bool quiet, const Host& host)
+    : host_(host),
+      quiet_(quiet || host.progress),
       terminal_(::isatty(STDERR_FILENO) != 0),
       start_(Clock::now()) {
   next_line_ = terminal_ ? start_ : start_ + kFirstLine;
@@ -69,12 +84,12 @@ Progress::~Progress() {
 }
 
 void Progress::watch(JobControl& job) {
-  job.stop = &stop_signal();
+  job.stop = host_.stop != nullptr ? host_.stop : &stop_signal();
   job.progress = [this](double done, const std::string& note) { show(done, note); };
 }
 
 void Progress::show(double done, const std::string& note) {
-  if (host != nullptr) host->progress(done, note);
+  if (host_.progress) host_.progress(done, note);
   if (quiet_) return;
   const std::lock_guard hold(lock_);
   const auto now = Clock::now();
@@ -123,20 +138,6 @@ void Progress::clear() {
   const std::lock_guard hold(lock_);
   if (shown_ > 0) std::cerr << '\r' << std::string(shown_, ' ') << '\r' << std::flush;
   shown_ = 0;
-}
-
-const std::atomic<bool>& stop_signal() {
-  if (host != nullptr) return *host->stop;
-  struct sigaction action {};
-  action.sa_handler = request_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  // A terminal that goes away, unless nohup said that it does not matter.
-  struct sigaction hangup {};
-  sigaction(SIGHUP, nullptr, &hangup);
-  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
-  return stop_requested;
 }
 
 }  // namespace lilytank::cli

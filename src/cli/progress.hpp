@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "cli/host.hpp"
 #include "lilytank/job_control.hpp"
 
 namespace lilytank::cli {
@@ -17,12 +18,14 @@ std::string duration_text(double seconds);
 
 class Progress {
  public:
-  explicit Progress(bool quiet);
+  /// The host must outlive it.
+  Progress(bool quiet, const Host& host);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the job's progress, and stops the job on a signal. The job must not outlive this object.
+  /// Shows the job's progress, and stops the job on a signal or where the host says so. The job
+  /// must not outlive this object.
   void watch(JobControl& job);
   /// `done` is the fraction done, 0 .. 1; `note` is shown beside it, as "4200 times real time".
   void show(double done, const std::string& note);
@@ -35,6 +38,7 @@ class Progress {
   void print_while_silent();
   std::string time_left(Clock::time_point now) const;
 
+  const Host& host_;
   bool quiet_, terminal_;
   std::mutex lock_;  ///< of all below
   bool ended_ = false;
@@ -45,9 +49,5 @@ class Progress {
   Clock::time_point start_, first_, next_line_;
   std::thread clock_;
 };
-
-/// Becomes true once a signal requests a stop. The first call installs the handlers; a second
-/// signal then ends the process at once, as usual.
-const std::atomic<bool>& stop_signal();
 
 }  // namespace lilytank::cli

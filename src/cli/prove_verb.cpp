@@ -9,20 +9,23 @@
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
 
-int report_proofs(std::span<const Proof> proofs, const std::string& dir) {
+int report_proofs(std::span<const Proof> proofs, const std::string& dir, const Host& host) {
   const ReportDocument report = proof_report(proofs);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
   if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir);
   if constexpr (!kDraws) say_undrawn("report.html");
-  return print_results(report, dir);
+  return print_results(report, dir, host);
 }
 
 // `out`: "" to print only.
-int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
+int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force,
+                   const Host& host) {
   std::vector<Proof> proofs;
   std::string hashes;
   for (const std::string& dir : dirs) {
@@ -39,7 +42,7 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out);
+  return report_proofs(proofs, out, host);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -63,7 +66,19 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
   options.add({"out", "directory of the results (out/proof)", "DIR"});
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &d.threads, 0, 4096);
+  options.add({"dry-run", "check everything, write nothing"});
   options.add({"force", "replace another proof's files"}, &d.force);
+}
+
+int dry_run(const ProofOptions& job) {
+  const DiagnosisOptions& d = job.diagnosis;
+  check_directory_of("proof", d.out, d.force);
+  std::cout << "would simulate and diagnose " << counted(job.worlds, "experiment")
+            << (job.only.empty() ? "" : " (of these, " + job.only + " only)")
+            << " of 3 recordings of " << significant(job.minutes, 3)
+            << " min; the tank's null experiments take about " << significant(d.minutes, 3)
+            << " min on two cores; in " << d.out << "\n";
+  return Exit::done;
 }
 
 // A directory may have had a proof of other experiments of the same tank, with a key of its own.
@@ -84,7 +99,7 @@ void keep(const Proof& so_far, const std::filesystem::path& dir) {
 
 }  // namespace
 
-int prove_verb(const Arguments& arguments) {
+int prove_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options(
       "prove", "[PROOF...]",
       "Benchmarks the diagnosis: simulates experiments with known effects, with none, and with "
@@ -98,16 +113,17 @@ int prove_verb(const Arguments& arguments) {
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
-                          "modelled", "budget", "seed", "threads"},
+                          "modelled", "budget", "seed", "threads", "dry-run"},
                          "is for a new proof");
-    return print_together(options.positional(), options.text("out"), job.diagnosis.force);
+    return print_together(options.positional(), options.text("out"), job.diagnosis.force, host);
   }
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
   }
   job.diagnosis.out = options.out("out/proof");
+  if (options.has("dry-run")) return dry_run(job);
   const std::filesystem::path dir(job.diagnosis.out);
-  Progress progress(quiet);
+  Progress progress(quiet, host);
   progress.watch(job.diagnosis);
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
@@ -119,7 +135,7 @@ int prove_verb(const Arguments& arguments) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out);
+  return report_proofs({&proof, 1}, job.diagnosis.out, host);
 }
 
 }  // namespace lilytank::cli

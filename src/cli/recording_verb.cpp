@@ -104,7 +104,7 @@ std::vector<std::string> files_read(const std::vector<NamedRecording>& recording
   return out;
 }
 
-int recording_verb(const Arguments& arguments) {
+int recording_verb(const Arguments& arguments, const Host&) {
   const std::string word = arguments.empty() ? "" : arguments[0];
   const Arguments rest(arguments.begin() + (arguments.empty() ? 0 : 1), arguments.end());
   if (word == "info") return recording_info(rest);

@@ -5,6 +5,7 @@
 
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
+#include "io/json.hpp"
 #include "statistics/median.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
@@ -126,6 +127,32 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   }
 }
 
+Json info_json(const NamedRecording& named, const CheckedRecording& checked) {
+  const Recording& r = checked.recording;
+  Json findings = Json::object();
+  for (const Finding& f : checked.findings) {
+    Json& count = findings[check_word(f.check)];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
+  Json out{{"name", named.name},        {"format", format_word(checked.format)},
+           {"files", checked.files},    {"rows", checked.rows},
+           {"body", body_word(r.body)}, {"latches", r.latches},
+           {"held_out", r.held_out},    {"refused", checked.refused()},
+           {"findings", findings}};
+  if (checked.refused()) return out;
+  const Numbers n = numbers_of(r);
+  out.update({{"frames", r.frames},
+              {"rate", r.rate},
+              {"start", r.start},
+              {"bodies", n.bodies},
+              {"tracks", r.tracks.size()},
+              {"headings", r.has_heading()},
+              {"sightings", n.seen},
+              {"farthest", n.farthest},
+              {"median_step", n.typical_step}});
+  return out;
+}
+
 std::string csv_row(const Finding& f) {
   std::string what = f.what;
   std::replace(what.begin(), what.end(), ',', ';');
@@ -181,8 +208,16 @@ int recording_info(const Arguments& arguments) {
   VerbOptions options("recording info", "FILE...",
                       "Describes recordings: bodies, frames, gaps and faults.");
   add_reading_options(options);
+  options.add({"json", "print JSON; lengths in m, times in s"});
   if (!options.parse(arguments)) return Exit::done;
-  return for_each(named_recordings(options, options.positional()), print_info);
+  const std::vector<NamedRecording> all = named_recordings(options, options.positional());
+  if (!options.has("json")) return for_each(all, print_info);
+  Json out = Json::array();
+  const int code = for_each(all, [&](const NamedRecording& named, const CheckedRecording& checked) {
+    out.push_back(info_json(named, checked));
+  });
+  std::cout << json_text(out) << std::flush;
+  return code;
 }
 
 int recording_check(const Arguments& arguments) {

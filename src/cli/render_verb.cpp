@@ -47,11 +47,11 @@ void warn_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
 /// Draws the requested pictures and films. A picture that would be refused is found before a film
 /// is drawn, and written after it.
 void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film, double at,
-              bool quiet) {
+              bool quiet, const Host& host) {
   const StoredRun run = load_run(dir);
   if (!options.has("at")) at = run.trajectory.time.back();
   warn_if_seldom(options, run, film, at);
-  Progress progress(quiet);
+  Progress progress(quiet, host);
   progress.watch(film);
   NamedContents pictures;
   std::vector<std::string> made;
@@ -110,7 +110,7 @@ void add_render_options(VerbOptions& options, FilmOptions& film, std::string& fl
 
 }  // namespace
 
-int render_verb(const Arguments& arguments) {
+int render_verb(const Arguments& arguments, [[maybe_unused]] const Host& host) {
   VerbOptions options("render", "RUN", "Draws a run's directory: a film, stills or one frame.");
   FilmOptions film;
   film.force = false;
@@ -128,7 +128,7 @@ int render_verb(const Arguments& arguments) {
     options.refuse("--at goes with --png or --svg");
   }
   take_style(options, flow, film);
-  draw_all(options, run, film, at, quiet);
+  draw_all(options, run, film, at, quiet, host);
   return Exit::done;
 #else
   options.refuse("this program was built without the renderer (Cairo was not found)");

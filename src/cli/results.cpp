@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/host.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
+#include "jobs/job_directory.hpp"
 #include "lilytank/error.hpp"
 #include "recording/formats.hpp"
 #include "study/study_directory.hpp"
@@ -55,6 +55,11 @@ void check_directory_can_be(const std::string& dir) {
   throw InputError(system_problem("cannot make", dir, ENOTDIR));
 }
 
+void check_directory_of(const std::string& kind, const std::string& dir, bool force) {
+  check_directory_can_be(dir);
+  if (!force) refuse_foreign(dir, {}, kind);
+}
+
 void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force) {
   check_directory_can_be(dir);
   check_study_directory(dir, plan, force);
@@ -89,13 +94,13 @@ void say_undrawn(const std::string& what) {
             << ": this program was built without the renderer (Cairo was not found)\n";
 }
 
-std::string printed(const ReportDocument& report) {
-  if (host != nullptr) host->report(report);
+std::string printed(const ReportDocument& report, const Host& host) {
+  if (host.report) host.report(report);
   return report_text(report);
 }
 
-int print_results(const ReportDocument& report, const std::string& dir) {
-  std::cout << printed(report) << std::flush;
+int print_results(const ReportDocument& report, const std::string& dir, const Host& host) {
+  std::cout << printed(report, host) << std::flush;
   std::cerr << "results in " << dir << "\n";
   return Exit::done;
 }

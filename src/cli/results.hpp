@@ -23,6 +23,9 @@ void say_undrawn(const std::string& what);
 /// Throws InputError if a directory can neither be there nor be made, as it or one above it is a
 /// file. For --dry-run, writes nothing.
 void check_directory_can_be(const std::string& dir);
+/// Throws InputError also, unless `force`, if the directory belongs to a job of another kind than
+/// `kind` ("diagnosis"). For --dry-run of jobs that find out late which earlier one is theirs.
+void check_directory_of(const std::string& kind, const std::string& dir, bool force);
 /// Throws InputError where run_study would refuse the directory, in the same words.
 void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force);
 
@@ -36,8 +39,8 @@ ReportProvenance provenance(const std::string& verb, const Arguments& arguments,
 std::string identity_of(const ReportProvenance& provenance);
 
 /// The report as text to print; the host receives it as a document.
-std::string printed(const ReportDocument& report);
+std::string printed(const ReportDocument& report, const Host& host);
 /// Prints the report, and the directory of the results; returns the exit code.
-int print_results(const ReportDocument& report, const std::string& dir);
+int print_results(const ReportDocument& report, const std::string& dir, const Host& host);
 
 }  // namespace lilytank::cli

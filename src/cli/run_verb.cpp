@@ -46,13 +46,13 @@ void check_pictures(const std::string& out) {
 }
 
 /// Draws video.mp4, then the pictures and the page of the report.
-void draw(const RunOptions& job, const ReportProvenance& origin, bool quiet) {
+void draw(const RunOptions& job, const ReportProvenance& origin, bool quiet, const Host& host) {
   if constexpr (kDraws) {
     const StoredRun stored = load_run(job.out);
     FilmOptions film;
     film.length = 35, film.style.size = 720;  // 10 MB at most; `lilytank render` draws larger ones
     std::cerr << too_seldom_to_draw(stored, film_times(stored, film));
-    Progress progress(quiet);
+    Progress progress(quiet, host);
     film.force = job.force;
     progress.watch(film);
     draw_film(stored, film, (fs::path(job.out) / "video.mp4").string());
@@ -87,12 +87,12 @@ void say_time(const RunResult& result, const std::string& out) {
 
 /// What to print, and the exit code. `film`: where the numbers come from, if the run is drawn.
 int finish(const Scenario& scenario, const RunResult& result, const RunOptions& job,
-           const std::optional<ReportProvenance>& film, bool quiet) {
+           const std::optional<ReportProvenance>& film, bool quiet, const Host& host) {
   if (!quiet) say_time(result, job.out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
   } else if (film) {
-    draw(job, *film, quiet);
+    draw(job, *film, quiet, host);
   }
   std::cout << read_whole((fs::path(job.out) / run_file::summary_text).string()) << std::flush;
   return result.status == RunStatus::diverged ? Exit::diverged : Exit::done;
@@ -100,7 +100,7 @@ int finish(const Scenario& scenario, const RunResult& result, const RunOptions& 
 
 }  // namespace
 
-int run_verb(const Arguments& arguments) {
+int run_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("run", "SCENARIO...",
                       "Simulates one tank; later scenarios overlay earlier ones.");
   RunOptions job;
@@ -127,13 +127,13 @@ int run_verb(const Arguments& arguments) {
   if (options.has("dry-run")) return dry_run(scenario, job.out, job.force);
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.lock = &lock;
-  Progress progress(quiet);
+  Progress progress(quiet, host);
   progress.watch(job);
   const RunResult result = run(scenario, job);
   progress.clear();
   std::optional<ReportProvenance> film;
   if (video) film = provenance("run", arguments, scenario.seed, options.positional());
-  return finish(scenario, result, job, film, quiet);
+  return finish(scenario, result, job, film, quiet, host);
 }
 
 }  // namespace lilytank::cli

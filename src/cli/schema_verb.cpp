@@ -29,7 +29,7 @@ TomlKeys keys_of(const std::string& kind) {
 
 }  // namespace
 
-int schema_verb(const Arguments& arguments) {
+int schema_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("schema", "scenario|experiment|bodies|study|optimize",
                       "Prints the JSON Schema of a kind of file: editors then complete keys, show "
                       "their meanings, and mark what the program would refuse.");

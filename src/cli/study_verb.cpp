@@ -51,8 +51,8 @@ int dry_run(const StudyPlan& plan, const StudyOptions& job) {
   return Exit::done;
 }
 
-StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) {
-  Progress progress(quiet);
+StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet, const Host& host) {
+  Progress progress(quiet, host);
   job.begin = [&](int runs) {
     if (quiet) return;
     std::cerr << plan_line(study.plan(), job) << "; " << counted(runs, "run") << " to do\n";
@@ -62,7 +62,8 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet) 
 }
 
 /// What to print, and the exit code.
-int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job) {
+int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job,
+           const Host& host) {
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)
               << (result.waiting ? " has done what it can: " : " is done: ")
@@ -78,12 +79,12 @@ int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions&
   }
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
-  std::cout << report(stored, job.out) << std::flush;
+  std::cout << report(stored, job.out, host) << std::flush;
   std::cerr << "study " << plan.name << " is complete; results in " << job.out << "\n";
   return result.failed > 0 ? Exit::diverged : Exit::done;
 }
 
-int run_one(const Arguments& arguments) {
+int run_one(const Arguments& arguments, const Host& host) {
   VerbOptions options("study", "STUDY.toml",
                       "Runs a study, or what is missing of it: every setting of its axes, many "
                       "replicates each.\nFurther words: lilytank study merge, status, report or "
@@ -110,7 +111,7 @@ int run_one(const Arguments& arguments) {
   job.shard = shard_of(options);
   spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
-  return finish(study.plan(), run_with_progress(study, job, quiet), job);
+  return finish(study.plan(), run_with_progress(study, job, quiet, host), job, host);
 }
 
 /// This program's file, so that the script finds it on other machines with the same file system.
@@ -157,14 +158,14 @@ void spare_read(const VerbOptions& options, const std::vector<std::string>& file
   for (const std::string& file : files) options.spare_inputs("out", file, inputs);
 }
 
-int study_verb(const Arguments& arguments) {
+int study_verb(const Arguments& arguments, const Host& host) {
   const std::string word = arguments.empty() ? "" : arguments[0];
   const Arguments rest(arguments.begin() + (arguments.empty() ? 0 : 1), arguments.end());
   if (word == "merge") return study_merge(rest);
   if (word == "status") return study_status(rest);
-  if (word == "report") return study_report(rest);
+  if (word == "report") return study_report(rest, host);
   if (word == "slurm") return study_slurm(rest);
-  return run_one(arguments);
+  return run_one(arguments, host);
 }
 
 }  // namespace lilytank::cli

@@ -5,6 +5,7 @@
 
 #include "cli/results.hpp"
 #include "cli/study_verb.hpp"
+#include "io/json.hpp"
 #include "lilytank/study_summary.hpp"
 #include "study/study_directory.hpp"
 #include "text/words.hpp"
@@ -60,6 +61,20 @@ int completeness(const StoredStudy& study, const std::string& done) {
   return failed > 0 ? Exit::diverged : Exit::done;
 }
 
+/// `decided`: whether a stopping rule asks for no more runs of the setting.
+Json status_json(const StoredStudy& study) {
+  Json settings = Json::array();
+  for (std::size_t s = 0; s < study.counts.size(); ++s) {
+    const StoredStudy::Count& count = study.counts[s];
+    settings.push_back({{"label", study.plan.settings[s].label},
+                        {"done", count.done},
+                        {"wanted", count.wanted},
+                        {"decided", count.decided},
+                        {"diverged", count.failed}});
+  }
+  return {{"name", study.plan.name}, {"complete", study.complete}, {"settings", settings}};
+}
+
 }  // namespace
 
 std::string counts_text(const StoredStudy& study) {
@@ -74,7 +89,7 @@ std::string counts_text(const StoredStudy& study) {
          " runs, " + std::to_string(failed) + " diverged";
 }
 
-std::string report(const StoredStudy& study, const std::string& dir) {
+std::string report(const StoredStudy& study, const std::string& dir, const Host& host) {
   const StudySummary summary = summarise(study.table);
   ReportDocument document = study_report(summary);
   const StudyPlan& plan = study.plan;
@@ -89,7 +104,7 @@ std::string report(const StoredStudy& study, const std::string& dir) {
   write_study_summary(summary, document, dir);
   if constexpr (kDraws) draw_study(summary, document, dir);
   if constexpr (!kDraws) say_undrawn("plots");
-  return printed(document);
+  return printed(document, host);
 }
 
 int study_merge(const Arguments& arguments) {
@@ -101,22 +116,27 @@ int study_merge(const Arguments& arguments) {
   return completeness(found->study, (fs::path(found->dir) / "table.csv").string());
 }
 
-int study_report(const Arguments& arguments) {
+int study_report(const Arguments& arguments, const Host& host) {
   VerbOptions options("study report", "DIR",
                       "Writes a study's statistics and plots beside its runs, and prints the "
                       "statistics.");
   const auto found = found_study(options, arguments, true);
   if (!found) return Exit::done;
-  std::cout << report(found->study, found->dir) << std::flush;
+  std::cout << report(found->study, found->dir, host) << std::flush;
   return completeness(found->study, "results in " + found->dir);
 }
 
 int study_status(const Arguments& arguments) {
   VerbOptions options("study status", "DIR",
                       "Counts simulations that are done, missing and diverged.");
+  options.add({"json", "print JSON"});
   const auto found = found_study(options, arguments, false);
   if (!found) return Exit::done;
   const StoredStudy& study = found->study;
+  if (options.has("json")) {
+    std::cout << json_text(status_json(study)) << std::flush;
+    return Exit::done;
+  }
   std::size_t width = 8;
   for (const Setting& setting : study.plan.settings) width = std::max(width, setting.label.size());
   std::cout << padded("setting", width) << "  done  missing  diverged\n";

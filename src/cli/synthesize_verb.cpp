@@ -140,7 +140,7 @@ void check_outputs(const VerbOptions& options) {
 
 }  // namespace
 
-int synthesize_verb(const Arguments& arguments) {
+int synthesize_verb(const Arguments& arguments, const Host&) {
   VerbOptions options("synthesize", "TARGET.txt",
                       "Makes a ruleset that builds a target: a drawing of '#' for modules, with "
                       "bonds '-' and '|' between spaced ones where they matter.");

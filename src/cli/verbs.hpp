@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/host.hpp"
+
 namespace lilytank::cli {
 
 using Arguments = std::vector<std::string>;
@@ -19,9 +21,9 @@ enum Exit : int {
 struct Verb {
   std::string name;
   std::string summary;
-  /// Does it; the arguments are those after the verb. "--help" among them prints the verb's help.
-  /// Throws InputError.
-  int (*act)(const Arguments& arguments);
+  /// Does it for the host; the arguments are those after the verb. "--help" among them prints the
+  /// verb's help. Throws InputError.
+  int (*act)(const Arguments& arguments, const Host& host);
 };
 
 /// All, in the order of the help.
@@ -29,24 +31,24 @@ const std::vector<Verb>& verbs();
 /// Of `lilytank recording`.
 inline const std::vector<std::string> kRecordingVerbs{"info", "check", "convert"};
 
-int run_verb(const Arguments& arguments);
-int flow_verb(const Arguments& arguments);
-int info_verb(const Arguments& arguments);
-int forces_verb(const Arguments& arguments);
-int calibrate_verb(const Arguments& arguments);
-int diagnose_verb(const Arguments& arguments);
-int prove_verb(const Arguments& arguments);
-int render_verb(const Arguments& arguments);
-int study_verb(const Arguments& arguments);
-int optimize_verb(const Arguments& arguments);
-int analyze_verb(const Arguments& arguments);
-int recording_verb(const Arguments& arguments);
-int synthesize_verb(const Arguments& arguments);
-int check_verb(const Arguments& arguments);
-int schema_verb(const Arguments& arguments);
-int completion_verb(const Arguments& arguments);
-int man_verb(const Arguments& arguments);
-int view_verb(const Arguments& arguments);
-int export_verb(const Arguments& arguments);
+int run_verb(const Arguments& arguments, const Host& host);
+int flow_verb(const Arguments& arguments, const Host& host);
+int info_verb(const Arguments& arguments, const Host& host);
+int forces_verb(const Arguments& arguments, const Host& host);
+int calibrate_verb(const Arguments& arguments, const Host& host);
+int diagnose_verb(const Arguments& arguments, const Host& host);
+int prove_verb(const Arguments& arguments, const Host& host);
+int render_verb(const Arguments& arguments, const Host& host);
+int study_verb(const Arguments& arguments, const Host& host);
+int optimize_verb(const Arguments& arguments, const Host& host);
+int analyze_verb(const Arguments& arguments, const Host& host);
+int recording_verb(const Arguments& arguments, const Host& host);
+int synthesize_verb(const Arguments& arguments, const Host& host);
+int check_verb(const Arguments& arguments, const Host& host);
+int schema_verb(const Arguments& arguments, const Host& host);
+int completion_verb(const Arguments& arguments, const Host& host);
+int man_verb(const Arguments& arguments, const Host& host);
+int view_verb(const Arguments& arguments, const Host& host);
+int export_verb(const Arguments& arguments, const Host& host);
 
 }  // namespace lilytank::cli

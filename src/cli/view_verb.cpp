@@ -89,7 +89,7 @@ void open_page(const std::string& file) {
 
 }  // namespace
 
-int view_verb(const Arguments& arguments) {
+int view_verb(const Arguments& arguments, const Host& host) {
   VerbOptions options("view", "RUN... | STUDY STUDY.toml | DIAGNOSIS EXPERIMENT.toml",
                       "Makes one HTML file that plays up to four runs side by side, runs of a "
                       "study, or a diagnosed recording beside simulations.");
@@ -111,7 +111,7 @@ int view_verb(const Arguments& arguments) {
   const std::string& dir = options.positional().front();
   const std::string file = options.out((fs::path(dir) / run_file::view).string());
   options.spare_inputs("out", file, options.positional());
-  Progress progress(job.quiet);
+  Progress progress(job.quiet, host);
   progress.watch(job.page);
   ViewPage page = page_of(options, job);
   const ReportProvenance origin = provenance("view", arguments, 0, {});

@@ -23,12 +23,23 @@ double profile(double r, double peak, int power) {
   return power == 2 ? q * q : q * q * q;
 }
 
-Vec2 jets(const AnalyticTank& tank, double x, double y, double scale) {
-  Vec2 sum(0, 0);
+struct Inlet {
+  Rot out, way;  // from the centre to the inlet; of its stream
+};
+
+std::vector<Inlet> inlets_of(const AnalyticTank& tank) {
+  std::vector<Inlet> inlets;
   for (int k = 0; k < tank.inlets; ++k) {
-    const Rot out = rotation(2 * kPi * k / tank.inlets);
+    const double angle = 2 * kPi * k / tank.inlets;
     // Inwards, turned towards the swirl (counter-clockwise as seen from above).
-    const Rot way = rotation(2 * kPi * k / tank.inlets + kPi - tank.inlet_angle);
+    inlets.push_back({rotation(angle), rotation(angle + kPi - tank.inlet_angle)});
+  }
+  return inlets;
+}
+
+Vec2 jets(const std::vector<Inlet>& inlets, double x, double y, double scale) {
+  Vec2 sum(0, 0);
+  for (const auto& [out, way] : inlets) {
     const double dx = x / scale - kReference * out.c, dy = y / scale - kReference * out.s;
     const double along = dx * way.c + dy * way.s, aside = dy * way.c - dx * way.s;
     if (along < 0) continue;
@@ -50,6 +61,7 @@ FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation) {
   // Stronger streams turn the water faster and push it further towards the centre: the inflow
   // grows faster than the swirl, which is what lowers the plateau of the MSD in Fig. 4.
   const double inflow = kInflow * strength;
+  const std::vector<Inlet> inlets = inlets_of(tank);
   std::vector<FlowSample> samples;
   const double h = 2 * tank.radius / tank.cells;
   for (int iy = 0; iy < tank.cells; ++iy) {
@@ -59,7 +71,7 @@ FlowField analytic_tank(const AnalyticTank& tank, Interpolation interpolation) {
       const double c = r > 0 ? x / r : 0, s = r > 0 ? y / r : 0;
       const double around = strength * kSwirl * profile(r / scale, 0.13, 2);
       const double inward = inflow * strength * kSwirl * profile(r / scale, 0.13, 3);
-      const Vec2 jet = strength * jets(tank, x, y, scale);
+      const Vec2 jet = strength * jets(inlets, x, y, scale);
       const double sigma = strength * (kGustCentre + kGustPeak * profile(r / scale, 0.18, 2));
       samples.push_back(
           {-around * s - inward * c + jet.x(), around * c - inward * s + jet.y(), sigma, sigma});

@@ -49,14 +49,10 @@ Outcome do_verb(const cli::Arguments& words, const JobControl& control) {
   const cli::Host host{control.stop,
                        [&](double done, const std::string& note) { control.report(done, note); },
                        [&](const ReportDocument& report) { outcome.reports.push_back(report); }};
-  const struct Guest {
-    explicit Guest(const cli::Host& of) { cli::host = &of; }
-    ~Guest() { cli::host = nullptr; }
-  } guest(host);
   const Captured out(std::cout), err(std::cerr);
   const cli::PrintableStream printable_out(std::cout, false), printable_err(std::cerr, false);
   const std::vector<std::string> rest(words.begin() + 1, words.end());
-  outcome.code = with_command(words[0], rest, [&] { return cli::act(words); });
+  outcome.code = with_command(words[0], rest, [&] { return cli::act(words, host); });
   outcome.out = out.text(), outcome.err = err.text();
   if (outcome.code == cli::Exit::bad_input) throw InputError(outcome.err);
   return outcome;

@@ -5,9 +5,9 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::quiet_model;
-using lilytank::testing::Rig;
-using lilytank::testing::rules_of;
+using lilytank::test::quiet_model;
+using lilytank::test::Rig;
+using lilytank::test::rules_of;
 
 namespace {
 

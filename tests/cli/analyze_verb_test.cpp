@@ -126,5 +126,14 @@ TEST_F(AnalyzeVerb, RefusesWhatItCannotRead) {
   }
 }
 
+TEST_F(AnalyzeVerb, DryRunReadsEverythingAndWritesNothing) {
+  const auto before = lilytank_.names();
+  const Answer a = lilytank_("analyze " + kTank + " --body lily --dry-run --out a");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_TRUE(a.out.starts_with("would analyze 1 source; in a\n")) << a.out;
+  EXPECT_NE(a.out.find("2 recordings, 30"), std::string::npos) << a.out;
+  EXPECT_EQ(lilytank_.names(), before);
+}
+
 }  // namespace
 }  // namespace lilytank

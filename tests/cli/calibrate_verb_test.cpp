@@ -8,20 +8,37 @@
 namespace lilytank {
 namespace {
 
-const std::string kTank = LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml";
-const std::vector<std::string> kQuick{"calibrate",     kTank, "--evaluations", "40",
-                                      "--simulations", "40",  "--replicates",  "20",
-                                      "--flow-draws",  "3",   "--comparisons", "3"};
-
 std::string words(const std::vector<std::string>& of) {
   std::string out;
   for (const std::string& word : of) out += "'" + word + "' ";
   return out;
 }
 
-TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
+// The shipped experiment, with 8 s and 4 s of its Lilies.
+class calibrateVerb : public testing::Test {
+ protected:
+  calibrateVerb() {
+    const std::string cut = "cd '" LILYTANK_SOURCE_DIR
+                            "/scenarios/experiments' && cut() { zcat $1 | head -n $2 > '" +
+                            short_.path() +
+                            "'/${1%.gz}; }; cut balls_1.csv.gz 99999; cut lily_1.csv.gz 3601; "
+                            "cut lily_2.csv.gz 1801; sed s/csv.gz/csv/ tank.toml > '" +
+                            short_.path("tank.toml") + "'";
+    EXPECT_EQ(std::system(cut.c_str()), 0);
+  }
+
+  const TemporaryDirectory short_;
+  std::vector<std::string> few_{"calibrate",     short_.path("tank.toml"),
+                                "--evaluations", "40",
+                                "--simulations", "40",
+                                "--replicates",  "20",
+                                "--comparisons", "3",
+                                "--flow-draws",  "2"};
   const Program lilytank;
-  Answer a = lilytank(words(kQuick) + "--out c");
+};
+
+TEST_F(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
+  Answer a = lilytank(words(few_) + "--out c");
   ASSERT_EQ(a.code, 0) << a.err;
   for (const char* text : {"Calibration of tank", "flow.K_v", "forces.damping.D_angular",
                            "training", "held out", "noise floor", "Misfit"}) {
@@ -46,37 +63,34 @@ TEST(calibrateVerb, leavesAReportAndAnOverlayThatRunTakes) {
                "--set run.duration='1 s' --out r --quiet");
   EXPECT_EQ(a.code, 0) << a.err;
   // Again: nothing is left to do, and the answer is the same.
-  a = lilytank(words(kQuick) + "--out c");
+  a = lilytank(words(few_) + "--out c");
   EXPECT_EQ(lilytank.here.read("c/calibration.txt"), a.out);
 }
 
-TEST(calibrateVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
-  const Program lilytank;
-  const Answer a = lilytank(words(kQuick) + "--dry-run --out c");
+TEST_F(calibrateVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
+  const Answer a = lilytank(words(few_) + "--dry-run --out c");
   EXPECT_EQ(a.code, 0) << a.err;
   EXPECT_TRUE(
-      a.out.starts_with("would calibrate tank: 1 recording of up to 15 bodies; 3 extractions"))
+      a.out.starts_with("would calibrate tank: 1 recording of up to 15 bodies; 2 extractions"))
       << a.out;
   EXPECT_NE(a.out.find("of processor time; in c\n"), std::string::npos) << a.out;
   EXPECT_TRUE(lilytank.names().empty());
   lilytank.here.write("c/calibration.txt", "mine");
-  EXPECT_EQ(lilytank(words(kQuick) + "--dry-run --out c").code, 2);
+  EXPECT_EQ(lilytank(words(few_) + "--dry-run --out c").code, 2);
 }
 
 // calibrated.toml of another experiment has that one's modules, which are not those of this one.
-TEST(calibrateVerb, startsFromTheParametersOfAFileAlone) {
-  const Program lilytank;
+TEST_F(calibrateVerb, startsFromTheParametersOfAFileAlone) {
   lilytank.here.write("other.toml", "module.draught = 0.03\nflow.K_v = 1.25\n");
-  const Answer a = lilytank(words(kQuick) + "--start other.toml --out c");
+  const Answer a = lilytank(words(few_) + "--flow scenario --start other.toml --out c");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(lilytank.here.read("c/calibrated.toml").find("module.draught = 0.025\n"),
             std::string::npos);
   EXPECT_NE(lilytank.here.read("c/intervals.csv").find(",1.25,"), std::string::npos);
 }
 
-TEST(calibrateVerb, killedAtAnyMomentTheSameCommandEndsInTheSameFiles) {
-  const Program lilytank;
-  auto quick = kQuick;
+TEST_F(calibrateVerb, killedAtAnyMomentTheSameCommandEndsInTheSameFiles) {
+  auto quick = few_;
   quick.insert(quick.end(), {"--hold-out", "0", "--quiet"});
   ASSERT_EQ(lilytank(words(quick) + "--out whole").code, 0);
   quick.insert(quick.end(), {"--out", "parts"});
@@ -102,19 +116,17 @@ TEST(calibrateVerb, killedAtAnyMomentTheSameCommandEndsInTheSameFiles) {
   }
 }
 
-TEST(calibrateVerb, asWellOfBallsAndByThePapersObjective) {
-  const Program lilytank;
-  Answer a = lilytank(words(kQuick) + "--balls --out b --quiet");
+TEST_F(calibrateVerb, asWellOfBallsAndByThePapersObjective) {
+  Answer a = lilytank(words(few_) + "--balls --out b --quiet");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("forces.ball_drag.C"), std::string::npos) << a.out;
   EXPECT_EQ(a.out.find("D_angular"), std::string::npos) << a.out;
-  a = lilytank(words(kQuick) + "--objective msd --flow scenario --out m --quiet");
+  a = lilytank(words(few_) + "--objective msd --flow scenario --out m --quiet");
   ASSERT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("objective msd, flow scenario"), std::string::npos) << a.out;
 }
 
-TEST(calibrateVerb, refusesWithOneLine) {
-  const Program lilytank;
+TEST_F(calibrateVerb, refusesWithOneLine) {
   lilytank.here.write("balls.toml", "[[recording]]\nfile = \"l.csv\"\nbody = \"ball\"\n");
   lilytank.here.write("l.csv", "frame,time,id,x,y\n0,0,0,0,0\n1,0.1,0,0,0\n");
   const struct {
@@ -139,9 +151,8 @@ TEST(calibrateVerb, refusesWithOneLine) {
   }
 }
 
-TEST(calibrateVerb, aDirectoryOfAnotherCalibrationIsKept) {
-  const Program lilytank;
-  const std::string quick = words(kQuick) + "--flow scenario --out c --quiet";
+TEST_F(calibrateVerb, aDirectoryOfAnotherCalibrationIsKept) {
+  const std::string quick = words(few_) + "--flow scenario --out c --quiet";
   ASSERT_EQ(lilytank(quick).code, 0);
   const auto before = lilytank.files("c");
   const Answer a = lilytank(quick + " --seed 2");
@@ -151,8 +162,7 @@ TEST(calibrateVerb, aDirectoryOfAnotherCalibrationIsKept) {
   EXPECT_EQ(lilytank(quick + " --seed 2 --force").code, 0);
 }
 
-TEST(calibrateVerb, recoverTellsWhetherIntervalsHoldTheTruth) {
-  const Program lilytank;
+TEST_F(calibrateVerb, recoverTellsWhetherIntervalsHoldTheTruth) {
   lilytank.here.write("s.toml", "title = \"s\"\n[module]\ncount = 6\ndraught = 0.025\n");
   const Answer a = lilytank(
       "calibrate s.toml --recover 1 --recordings 1 --duration '20 s' --evaluations 40 "

@@ -8,8 +8,6 @@
 namespace lilytank {
 namespace {
 
-const std::string kTank = std::string(LILYTANK_SOURCE_DIR) + "/scenarios/experiments/tank.toml";
-
 TEST(diagnoseVerb, refusesWithOneLine) {
   const Program lilytank;
   lilytank.here.write("latched.toml",
@@ -91,6 +89,25 @@ TEST(proveVerb, tellsFinishedProofsAsAReport) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
 #endif
+}
+
+TEST(diagnoseVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
+  const Program lilytank;
+  const Answer a = lilytank("diagnose " + kTank + " --budget 5 --dry-run --out d");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out,
+            "would diagnose tank: 2 recordings of Lilies, 1 held out: about 5 min on two cores; in "
+            "d\n");
+  EXPECT_NE(
+      lilytank("diagnose " LILYTANK_SOURCE_DIR "/scenarios/experiments/real/gliders.toml --dry-run")
+          .out.find("of point bodies: about 10 min on two cores; in out/diagnose-"),
+      std::string::npos);
+  EXPECT_EQ(lilytank("prove --worlds 3 --minutes 2 --dry-run --out p").out,
+            "would simulate and diagnose 3 experiments of 3 recordings of 2 min; the tank's null "
+            "experiments take about 10 min on two cores; in p\n");
+  EXPECT_TRUE(lilytank.names().empty());
+  lilytank.here.write("d", "mine");
+  EXPECT_EQ(lilytank("diagnose " + kTank + " --dry-run --out d").code, 2);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace lilytank {
 namespace {
 
-const std::string kTank = "'" LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml'";
-
 TEST(flowVerb, leavesGridsThatARunReads) {
   const Program lilytank;
   Answer a = lilytank("flow " + kTank + " --out f");
@@ -126,6 +124,16 @@ TEST(flowVerb, refusesWithOneLine) {
     EXPECT_EQ(a.code, 2) << c.words;
     EXPECT_NE(a.err.find(c.message), std::string::npos) << c.words << "\n" << a.err;
   }
+}
+
+TEST(flowVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
+  const Program lilytank;
+  const Answer a = lilytank("flow " + kTank + " --cells 20 --bias --dry-run --out f");
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.out,
+            "would estimate the flow of tank from 1 recording of balls (20 s) on 20 x 20 cells, "
+            "estimator both, with errors on synthetic recordings; in f\n");
+  EXPECT_TRUE(lilytank.names().empty());
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 
 namespace lilytank {
 
+inline const std::string kTank = LILYTANK_SOURCE_DIR "/scenarios/experiments/tank.toml";
+
 struct Answer {
   int code = -1;
   std::string out, err;

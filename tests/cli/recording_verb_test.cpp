@@ -30,6 +30,17 @@ TEST_F(RecordingVerb, infoTellsWhatIsThere) {
   }
 }
 
+TEST_F(RecordingVerb, infoIsJsonForPrograms) {
+  const Answer a = lilytank_("recording info small.csv duplicate.csv --json");
+  EXPECT_EQ(a.code, 2);
+  for (const char* text :
+       {"[\n  {\n    \"name\": \"small.csv\",\n    \"format\": \"tidy\",", "\"rows\": 6,",
+        "\"findings\": {},\n    \"frames\": 3,\n    \"rate\": 25.0,", "\"refused\": true,",
+        "\"duplicate\": 1"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+}
+
 TEST_F(RecordingVerb, whatIsNotReadIsAccountedFor) {
   lilytank_.here.write("steps.csv",
                        "frame,particle,x,y,mass\n0,1,0,0,5\n2,1,1,0,5\n2,,40,40,5\n"

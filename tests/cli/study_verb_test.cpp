@@ -102,6 +102,9 @@ TEST_F(StudyVerbTest, EndToEnd) {
   EXPECT_NE(status.out.find("4 settings, 24 of 24 runs, 0 diverged: complete"), std::string::npos)
       << status.out;
   EXPECT_EQ(lilytank_("study status out/tiny").out, status.out);
+  const std::string json = lilytank_("study status out/tiny --json").out;
+  EXPECT_TRUE(json.starts_with("{\n  \"name\": \"tiny\",\n  \"complete\": true,")) << json;
+  EXPECT_NE(json.find("\"done\": 6,\n      \"wanted\": 6,"), std::string::npos) << json;
   EXPECT_EQ(lilytank_("study report out/tiny").out, first.out);
   EXPECT_EQ(lilytank_("study merge out/tiny").code, 0);
   EXPECT_EQ(lilytank_.files("out"), files);

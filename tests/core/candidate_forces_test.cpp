@@ -47,7 +47,7 @@ MovingBodies pair_of(double distance) {
   b.x = {0, distance}, b.y = {0, 0}, b.c = {1, 1}, b.s = {0, 0}, b.omega = {0, 0};
   return b;
 }
-Model uniform(double ux, double uy = 0) {
+Model uniform_flow(double ux, double uy = 0) {
   Model model = standard_model();
   model.field = test::uniform_water({ux, uy, 0, 0});
   model.flow.K_v = 1;
@@ -150,7 +150,7 @@ TEST(CandidateForces, TheGapOfTurnedSquaresIsFromCornerToFace) {
 }
 
 TEST(CandidateForces, StreamsByHand) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   const double side = model.module.side, rho = model.flow.rho, h = model.module.draught;
   EXPECT_NEAR(wrenches(model, lone(0.05), force("viscous_drag", {0.1}), {})[0].fx, 0.015, 1e-9);
   // Counter-clockwise spin in a stream along +x: the lift is to the right of the stream, -y.
@@ -173,7 +173,7 @@ TEST(CandidateForces, StreamsByHand) {
 
 // However many stand before it, a module misses no more than the whole stream.
 TEST(CandidateForces, ARowOfModulesTurnsNoStreamAbout) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   MovingBodies row(6, 0, 1, 0);
   for (int i = 0; i < 6; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -186,7 +186,7 @@ TEST(CandidateForces, ARowOfModulesTurnsNoStreamAbout) {
 
 // A layer and a wake take a share of the water that there is, whatever the pumps do.
 TEST(CandidateForces, WhatSlowsTheWaterSlowsAsMuchAsPumpsMove) {
-  Model model = uniform(0.2);
+  Model model = uniform_flow(0.2);
   MovingBodies b = lone();
   b.y = {model.tank.radius - 0.01};
   for (const ActiveForce& pumps :
@@ -222,7 +222,7 @@ TEST(CandidateForces, EddiesOfEverySeedAreFinite) {
 }
 
 TEST(CandidateForces, WallsByHand) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   MovingBodies b = lone();
   b.x = {0}, b.y = {model.tank.radius - model.module.side / 2 - 0.004};
   const Wrench pull = wrenches(model, b, force("wall_force", {0.001}), {})[0];
@@ -233,7 +233,7 @@ TEST(CandidateForces, WallsByHand) {
 }
 
 TEST(CandidateForces, PumpsByHand) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   const StepContext now{.time = 2.5};
   const auto pulse = force("flow_pulsation", {0.2, 0.9, 0.4});
   EXPECT_NEAR(stirred(model, lone(), pulse, now).gain,
@@ -264,7 +264,7 @@ TEST(CandidateForces, BodiesByHand) {
 }
 
 TEST(CandidateForces, AddedMassDividesForcesAndFollowsTheWater) {
-  Model model = uniform(0.2);
+  Model model = uniform_flow(0.2);
   const double displaced =
       model.flow.rho * model.module.side * model.module.side * model.module.draught;
   const double share = model.module.mass / (model.module.mass + 0.5 * displaced);
@@ -274,7 +274,7 @@ TEST(CandidateForces, AddedMassDividesForcesAndFollowsTheWater) {
 }
 
 TEST(CandidateForces, EddiesHaveTheirDeviationTimeAndLength) {
-  const Model model = uniform(0);
+  const Model model = uniform_flow(0);
   MovingBodies b(3, 0, 1, 0);
   b.x = {0, 0.06, 0}, b.y = {0, 0, 0.06};
   const auto eddies = force("correlated_gusts", {0.05, 0.5, 0.06});
@@ -298,7 +298,7 @@ TEST(CandidateForces, EddiesHaveTheirDeviationTimeAndLength) {
 
 // Half of the curl, by the velocities on four sides: a module's, or very near ones.
 TEST(CandidateForces, WaterThatIsStirredTurnsModulesByItsCurl) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   const double half = model.module.side / 2;
   struct Case {
     ActiveForce term;
@@ -316,7 +316,7 @@ TEST(CandidateForces, WaterThatIsStirredTurnsModulesByItsCurl) {
     EXPECT_GT(std::fabs(curl), 1e-3);
   }
   // A module that turns with the water feels no torque.
-  Model still = uniform(0);
+  Model still = uniform_flow(0);
   still.flow.at = FlowAt::centre;
   MovingBodies turning = lone(0);
   turning.omega = {2};
@@ -329,7 +329,7 @@ TEST(CandidateForces, WaterThatIsStirredTurnsModulesByItsCurl) {
 
 // Eddies in the place of gusts leave the water's variance what it was.
 TEST(CandidateForces, EddiesTakeTheirShareOfTheGusts) {
-  Model model = uniform(0.2);
+  Model model = uniform_flow(0.2);
   model.field = test::uniform_water({0.2, 0, 0.1, 0.1});
   MovingBodies b = lone(0);
   const auto eddies = force("correlated_gusts", {0, 0.5, 0.06, 0.7});
@@ -345,7 +345,7 @@ TEST(CandidateForces, EddiesTakeTheirShareOfTheGusts) {
 }
 
 TEST(CandidateForces, RandomForcesHaveTheirSizes) {
-  const Model model = uniform(0.2);
+  const Model model = uniform_flow(0.2);
   MovingBodies b = lone(0.1);
   b.x = {0.15};
   double noise = 0, knocks = 0;

@@ -4,12 +4,12 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::chain;
-using lilytank::testing::hasty;
-using lilytank::testing::quiet_model;
-using lilytank::testing::Rig;
-using lilytank::testing::rules_of;
-using lilytank::testing::with_p;
+using lilytank::test::chain;
+using lilytank::test::hasty;
+using lilytank::test::quiet_model;
+using lilytank::test::Rig;
+using lilytank::test::rules_of;
+using lilytank::test::with_p;
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::chain;
-using lilytank::testing::quiet_model;
-using lilytank::testing::Rig;
+using lilytank::test::chain;
+using lilytank::test::quiet_model;
+using lilytank::test::Rig;
 
 namespace {
 

@@ -4,14 +4,14 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::chain;
-using lilytank::testing::hasty;
-using lilytank::testing::quiet_model;
-using lilytank::testing::Rig;
-using lilytank::testing::rules_of;
-using lilytank::testing::ruleset_file;
-using lilytank::testing::shipped_rulesets;
-using lilytank::testing::with_p;
+using lilytank::test::chain;
+using lilytank::test::hasty;
+using lilytank::test::quiet_model;
+using lilytank::test::Rig;
+using lilytank::test::rules_of;
+using lilytank::test::ruleset_file;
+using lilytank::test::shipped_rulesets;
+using lilytank::test::with_p;
 
 namespace {
 

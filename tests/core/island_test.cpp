@@ -46,7 +46,7 @@ TEST(Island, APairThatMovesAsOneMayBePushed) {
   const Model model = standard_model();
   for (int i = 0; i < 20000; ++i) {
     Island island(model);
-    const auto u = [&](std::uint32_t which) { return lilytank::testing::uniform_at(77, i, which); };
+    const auto u = [&](std::uint32_t which) { return lilytank::test::uniform_at(77, i, which); };
     const double apart = 35e-3 - kPushTo - 1e-14 * std::pow(1e9, u(0)), omega = 4 * u(1) - 2;
     const Twist drift{u(2) - 0.5, u(3) - 0.5, 0};
     ContactPair pair;

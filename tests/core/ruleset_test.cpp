@@ -8,9 +8,9 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::rules_of;
-using lilytank::testing::ruleset_file;
-using lilytank::testing::shipped_rulesets;
+using lilytank::test::rules_of;
+using lilytank::test::ruleset_file;
+using lilytank::test::shipped_rulesets;
 
 namespace {
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs the commands of the documentation: every line of a fenced block that begins with lilytank, in the order
 # of its page, beside a copy of the scenarios. Runs are cut to five minutes of simulated time and pictures are
-# small. A command that takes longer than a few seconds is interrupted, and must then stop as Ctrl-C stops it
-# (exit code 3). A command that reads the results of an interrupted or skipped one is skipped.
+# small. A command that takes longer than seconds() is interrupted, and must then stop as Ctrl-C stops it (exit
+# code 3). A command that reads the results of an interrupted or skipped one is skipped.
 #   run.sh LILYTANK SOURCES
 set -euo pipefail
 lilytank=$(realpath "$1") sources=$(realpath "$2")
@@ -51,6 +51,11 @@ shortened() {
   printf '%s' "$line"
 }
 
+# seconds <command>: after which it is interrupted. Jobs of minutes or hours are, in any case.
+seconds() {
+  [[ $1 =~ ^lilytank\ (calibrate|diagnose|optimize|prove|study)\  && $1 != *--dry-run* ]] && echo 1 || echo 3
+}
+
 # outputs <command>: what it writes below out/: its --out, --png, --csv, ...; else the directory of its verb.
 outputs() {
   local named
@@ -95,7 +100,8 @@ page() {
       continue 2
     done
     code=0
-    timeout --preserve-status -s INT -k 200 3 bash -c "exec $line" < /dev/null > "$work/output" 2>&1 || code=$?
+    timeout --preserve-status -s INT -k 200 "$(seconds "$line")" bash -c "exec $line" \
+      < /dev/null > "$work/output" 2>&1 || code=$?
     case $code in
       0) done=$((done + 1)) ;;
       3 | 130) cut=$((cut + 1)) owed+=" $(outputs "$line" | tr '\n' ' ')" ;;  # 130: a short command stops at once

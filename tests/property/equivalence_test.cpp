@@ -15,7 +15,7 @@
 namespace lilytank {
 namespace {
 
-constexpr int kWorlds = 1000, kFewWorlds = 200;
+constexpr int kWorlds = 1000, kFewWorlds = 120;
 constexpr double kSeconds = 30;
 
 // Eq. 5 in double precision with two gusts for each drag point: four drawn at a time from one
@@ -156,14 +156,15 @@ TEST(LongEquivalence, FastDragAndMomentMatchedGustsGiveTheReferencesWorlds) {
 
 // The test would see it: twice the gusts' deviation is another world.
 TEST(Equivalence, AnotherGustIsSeen) {
+  constexpr int kEnough = 400;
   Model model = pairing_world();
-  const Outcome fast = outcomes(model, 2, kWorlds);
+  const Outcome fast = outcomes(model, 2, kEnough);
   std::vector<FlowSample> samples = model.field->samples();
   for (FlowSample& f : samples) f.sigma_x *= 1.25, f.sigma_y *= 1.25;
   model.field =
       std::make_shared<const FlowField>(model.field->cells(), model.field->extent(), samples,
                                         model.field->measured(), Interpolation::bilinear);
-  const Outcome stormy = outcomes(model, 4, kWorlds);
+  const Outcome stormy = outcomes(model, 4, kEnough);
   EXPECT_LT(smirnov(fast.speed, stormy.speed), 1e-3);
 }
 

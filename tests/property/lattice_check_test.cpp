@@ -9,7 +9,7 @@
 #include "support/polyominoes.hpp"
 
 using namespace lilytank;
-using lilytank::testing::one_sided_polyominoes;
+using lilytank::test::one_sided_polyominoes;
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::ruleset_file;
-using lilytank::testing::shipped_rulesets;
+using lilytank::test::ruleset_file;
+using lilytank::test::shipped_rulesets;
 
 namespace {
 

@@ -115,19 +115,35 @@ TEST(LongPackedTank, AFullTank) {
 }
 
 // A thinner tank, whose pushed heap comes to lie at all angles.
-TEST(PackedTank, AHeapThatIsPushedAbout) {
+void pushed_heap(int steps) {
   const std::vector<Vec2> points = lattice(0.3, 0.044);
   Bodies b(bare_model(static_cast<int>(points.size())));
   lay(b, points);
-  report(b, endure(b, {0.05, 2, 0.03}, 5000 / kLess));
+  report(b, endure(b, {0.05, 2, 0.03}, steps));
 }
 
-TEST(PackedTank, BallsAndModulesTogether) {
+TEST(PackedTank, AHeapThatIsPushedAbout) {
+  pushed_heap(1500 / kLess);
+}
+
+TEST(LongPackedTank, AHeapThatIsPushedAbout) {
+  pushed_heap(5000 / kLess);
+}
+
+void balls_and_modules(int steps) {
   const std::vector<Vec2> points = lattice(0.15, 0.036);
   const int n = static_cast<int>(points.size());
   Bodies b(bare_model(n / 2, 0.15, n - n / 2));
   lay(b, points);
-  report(b, endure(b, {0.05, 2, 0.03}, 20000 / kLess));
+  report(b, endure(b, {0.05, 2, 0.03}, steps));
+}
+
+TEST(PackedTank, BallsAndModulesTogether) {
+  balls_and_modules(8000 / kLess);
+}
+
+TEST(LongPackedTank, BallsAndModulesTogether) {
+  balls_and_modules(20000 / kLess);
 }
 
 TEST(PackedTank, ChainsAmongSingleModules) {

@@ -13,13 +13,13 @@
 namespace lilytank {
 namespace {
 
-constexpr int kBodies = 8, kFrames = 1500;
+constexpr int kBodies = 8, kRecorded = 1500;
 constexpr double kRate = 30;
 
 class Scene {
  public:
   explicit Scene(std::uint64_t seed) : seed_(seed) {
-    r_.rate = kRate, r_.frames = kFrames;
+    r_.rate = kRate, r_.frames = kRecorded;
     for (int b = 0; b < kBodies; ++b) wander(b);
   }
 
@@ -35,7 +35,7 @@ class Scene {
     t.id = b;
     const double radius = 0.06 + 0.03 * b;
     double angle = 2 * kPi * any(), push = 0, theta = 6 * any(), spin = 0;
-    for (int f = 0; f < kFrames; ++f) {
+    for (int f = 0; f < kRecorded; ++f) {
       const auto kick = normal_pair({seed_, Stream::camera, f, static_cast<std::uint32_t>(b), 1});
       const auto noise = normal_pair({seed_, Stream::camera, f, static_cast<std::uint32_t>(b), 2});
       const auto turn = normal_pair({seed_, Stream::camera, f, static_cast<std::uint32_t>(b), 3});
@@ -75,7 +75,7 @@ void make_fault(Scene& scene, int frame, Places& expected) {
   } else if (kind == 2) {
     // Turned by 30 to 90 degrees about the centre, so that bodies stay in the tank.
     const double angle = kPi / 6 + scene.any() * kPi / 3;
-    for (int f = frame; f < kFrames; ++f) {
+    for (int f = frame; f < kRecorded; ++f) {
       const double x = t.x[at(f)], y = t.y[at(f)];
       t.x[at(f)] = std::cos(angle) * x - std::sin(angle) * y;
       t.y[at(f)] = std::sin(angle) * x + std::cos(angle) * y;
@@ -86,7 +86,7 @@ void make_fault(Scene& scene, int frame, Places& expected) {
     const double apart =
         std::hypot(t.x[at(frame)] - u.x[at(frame)], t.y[at(frame)] - u.y[at(frame)]);
     if (!(apart > 0.025)) return;
-    for (int f = frame; f < kFrames; ++f) {
+    for (int f = frame; f < kRecorded; ++f) {
       std::swap(t.x[at(f)], u.x[at(f)]);
       std::swap(t.y[at(f)], u.y[at(f)]);
       std::swap(t.theta[at(f)], u.theta[at(f)]);
@@ -94,7 +94,7 @@ void make_fault(Scene& scene, int frame, Places& expected) {
     expected.insert({Check::swap, frame, b});
     expected.insert({Check::swap, frame, c});
   } else {
-    for (int f = frame; f < kFrames; ++f) t.theta[at(f)] += kPi / 2;
+    for (int f = frame; f < kRecorded; ++f) t.theta[at(f)] += kPi / 2;
     expected.insert({Check::heading, frame, b});
   }
 }
@@ -105,7 +105,7 @@ TEST(RecordingFaults, eachIsFoundWhereItIsAndNothingElse) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Scene scene(seed);
     Places expected;
-    for (int frame = 40; frame < kFrames - 60; frame += 31 + scene.below(30)) {
+    for (int frame = 40; frame < kRecorded - 60; frame += 31 + scene.below(30)) {
       make_fault(scene, frame, expected);
     }
     const TemporaryDirectory here;

@@ -21,7 +21,7 @@ struct Statistics {
   double radius_between_runs = 0;
 };
 
-const std::vector<int> kSeconds = {1, 2, 3, 4, 5, 6, 8, 10};
+const std::vector<int> kLags = {1, 2, 3, 4, 5, 6, 8, 10};
 
 std::string measured_field() {
   return std::string(LILYTANK_SOURCE_DIR) + "/../shared/recordings/tank_flow/flow_23.csv";
@@ -51,11 +51,11 @@ Statistics observe(double draught, int runs, int steps_per_tick) {
       s.radius += std::hypot(k.x[0], k.y[0]) / steps, s.rms_spin += k.omega[0] * k.omega[0] / steps;
     }
     std::vector<int> lags;
-    for (const int second : kSeconds) lags.push_back(second * 40);
+    for (const int second : kLags) lags.push_back(second * 40);
     s.msd = mean_squared_displacement(as_recording(track, BodyKind::lily), lags, Origins::all).msd;
   });
   Statistics mean;
-  mean.msd.assign(kSeconds.size(), 0);
+  mean.msd.assign(kLags.size(), 0);
   double square = 0;
   for (const Statistics& s : each) {
     mean.speed += s.speed / runs, mean.rms_speed += s.rms_speed / runs;
@@ -89,7 +89,7 @@ TEST(SingleModule, OuterOrbitOfAShallowModule) {
   EXPECT_NEAR(s.rms_spin, 1.61, 0.06 * 1.61);
   const std::vector<double> want = {0.0439, 0.1111, 0.1102, 0.0462, 0.0085, 0.0475, 0.103, 0.0164};
   for (std::size_t i = 0; i < want.size(); ++i)
-    EXPECT_NEAR(s.msd[i], want[i], 0.06 * std::fmax(want[i], 0.2 * 0.1111)) << kSeconds[i] << " s";
+    EXPECT_NEAR(s.msd[i], want[i], 0.06 * std::fmax(want[i], 0.2 * 0.1111)) << kLags[i] << " s";
 }
 
 // The module switches slowly between two orbits, so runs differ: bounds are four standard errors of

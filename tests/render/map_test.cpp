@@ -10,8 +10,7 @@ namespace lilytank {
 namespace {
 
 using sample::Folder;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using sample::kNan;
 
 MapPanel panel_of(int cells, double value) {
   MapPanel p;

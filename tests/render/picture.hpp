@@ -7,11 +7,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace lilytank::sample {
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A folder that is there for the length of a test.
 class Folder {

@@ -10,8 +10,8 @@ namespace lilytank {
 namespace {
 
 using sample::Folder;
+using sample::kNan;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kMost = std::numeric_limits<double>::max();
 

@@ -9,7 +9,7 @@
 #include "lilytank/math.hpp"
 #include "lilytank/ruleset.hpp"
 
-namespace lilytank::testing {
+namespace lilytank::test {
 
 inline std::string ruleset_file(const std::string& name) {
   return std::string(LILYTANK_SOURCE_DIR) + "/scenarios/rulesets/" + name + ".rules";
@@ -163,4 +163,4 @@ class Rig {
   Controller controller_;
 };
 
-}  // namespace lilytank::testing
+}  // namespace lilytank::test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace lilytank::testing {
+namespace lilytank::test {
 
 /// "M(a{s1}, n{n0}, f1[.])" or "M(a~1,n~0,f1)" as the sites it names: states in braces, links in
 /// brackets.
@@ -248,4 +248,4 @@ struct KappaMixture {
   }
 };
 
-}  // namespace lilytank::testing
+}  // namespace lilytank::test

@@ -5,7 +5,7 @@
 
 #include "lilytank/ruleset.hpp"
 
-namespace lilytank::testing {
+namespace lilytank::test {
 
 /// Shapes of n cells as canonical_shape gives them; 1, 1, 2, 7, 18, 60, 196 for n = 1 .. 7.
 inline std::vector<std::vector<Cell>> one_sided_polyominoes(int n) {
@@ -29,4 +29,4 @@ inline std::vector<std::vector<Cell>> one_sided_polyominoes(int n) {
   return {shapes.begin(), shapes.end()};
 }
 
-}  // namespace lilytank::testing
+}  // namespace lilytank::test

@@ -6,7 +6,7 @@
 
 #include "lilytank/random.hpp"
 
-namespace lilytank::testing {
+namespace lilytank::test {
 
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 inline constexpr double kZ = 1.959963984540054;  // 97.5 % of the standard normal
@@ -18,4 +18,4 @@ inline double exponential_at(std::uint64_t set, int i, std::uint32_t what = 0) {
   return -std::log(uniform_at(set, i, what));
 }
 
-}  // namespace lilytank::testing
+}  // namespace lilytank::test

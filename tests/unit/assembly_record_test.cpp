@@ -5,11 +5,11 @@
 #include "support/control_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::quiet_model;
-using lilytank::testing::Rig;
-using lilytank::testing::rules_of;
-using lilytank::testing::ruleset_file;
-using lilytank::testing::with_p;
+using lilytank::test::quiet_model;
+using lilytank::test::Rig;
+using lilytank::test::rules_of;
+using lilytank::test::ruleset_file;
+using lilytank::test::with_p;
 
 namespace {
 
@@ -17,7 +17,7 @@ namespace {
 State built(const std::string& name, int modules, int copies, int missing = 0) {
   const Ruleset rules = with_p(read_ruleset(ruleset_file(name)), RuleKind::unlink, 0);
   const int size = static_cast<int>(rules.target.size());
-  State all = lilytank::testing::apart(quiet_model(modules, {}), 1);
+  State all = lilytank::test::apart(quiet_model(modules, {}), 1);
   for (int copy = 0; copy < copies; ++copy) {
     Model model = quiet_model(size, {rules});
     model.control.clock = Clock::events;
@@ -110,7 +110,7 @@ TEST(AssemblyRecord, AMirroredShapeIsNoCopy) {
 TEST(AssemblyRecord, ALatchIsNoBond) {
   const Ruleset rules = rules_of("target\n##\nend\n(0,0) (0,0) -> (1,1)-(2,1) p=1e-09\n");
   const Model model = model_of(2, {rules});
-  State state = lilytank::testing::apart(model, 1);
+  State state = lilytank::test::apart(model, 1);
   state.x[1] = state.x[0] + model.module.side;
   World world(model, state);
   AssemblyRecord record(model);
@@ -122,7 +122,7 @@ TEST(AssemblyRecord, ALatchIsNoBond) {
 
 TEST(AssemblyRecord, WithoutRulesetsLatchesCount) {
   const Model model = model_of(2, {});
-  State state = lilytank::testing::apart(model, 1);
+  State state = lilytank::test::apart(model, 1);
   state.x[1] = state.x[0] + model.module.side;
   World world(model, state);
   AssemblyRecord record(model);

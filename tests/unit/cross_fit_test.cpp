@@ -17,7 +17,7 @@ constexpr int kNumbers = 40;
 constexpr double kWeak =
     0.16;  // slope of all numbers in the second parameter: 1 deviation tells it
 
-double normal(std::int64_t row, int column, std::uint64_t trial) {
+double draw_of(std::int64_t row, int column, std::uint64_t trial) {
   return normal_pair({trial, Stream::calibrate, row, static_cast<std::uint32_t>(column), 3})[0];
 }
 
@@ -25,22 +25,22 @@ double normal(std::int64_t row, int column, std::uint64_t trial) {
 Design simulated(int count, std::uint64_t trial) {
   Design out{Matrix(count, 2), Matrix(count, kNumbers)};
   for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < 2; ++k) out.points(i, k) = normal(i, k, trial);
+    for (int k = 0; k < 2; ++k) out.points(i, k) = draw_of(i, k, trial);
     for (int k = 0; k < kNumbers; ++k) {
       const double sign = k % 2 == 0 ? 1 : -1;
       out.numbers(i, k) =
-          out.points(i, 0) + kWeak * sign * out.points(i, 1) + normal(i, 2 + k, trial);
+          out.points(i, 0) + kWeak * sign * out.points(i, 1) + draw_of(i, 2 + k, trial);
     }
   }
   return out;
 }
 
 // The first rows, and one more as data.
-struct Trial {
+struct Drawn {
   Design design;
   Vector data, truth;
 };
-Trial trial(int count, std::uint64_t number) {
+Drawn drawn(int count, std::uint64_t number) {
   const Design all = simulated(count + 1, number);
   return {{all.points.topRows(count), all.numbers.topRows(count)},
           all.numbers.row(count).transpose(),
@@ -50,9 +50,9 @@ Trial trial(int count, std::uint64_t number) {
 // Numbers that depend on nothing seem to tell the parameters of those who were asked before; by
 // models that did not know a simulation its estimate has nothing to do with its parameters.
 TEST(CrossFit, numbersOfNothingTellNothing) {
-  Trial t = trial(200, 1);
+  Drawn t = drawn(200, 1);
   for (int i = 0; i < 200; ++i) {
-    for (int k = 0; k < kNumbers; ++k) t.design.numbers(i, k) = normal(i, 100 + k, 1);
+    for (int k = 0; k < kNumbers; ++k) t.design.numbers(i, k) = draw_of(i, 100 + k, 1);
   }
   FitBounds free;
   free.reach = 5;
@@ -74,7 +74,7 @@ TEST(CrossFit, intervalsHoldWhatIsHardlyTold) {
   int held = 0, trusting = 0;
   constexpr int kTrials = 300;
   for (int i = 0; i < kTrials; ++i) {
-    const Trial t = trial(80, static_cast<std::uint64_t>(100 + i));
+    const Drawn t = drawn(80, static_cast<std::uint64_t>(100 + i));
     const CrossFit fit = cross_fit(t.design, t.data, Misfit::covariance, Slopes::found);
     const BiasCorrectedFit honest = bias_corrected(t.design, fit, 0);
     const double half = honest.wide * std::sqrt(honest.covariance(1, 1));
@@ -90,7 +90,7 @@ TEST(CrossFit, intervalsHoldWhatIsHardlyTold) {
 
 // Where everything is told well nothing is added: the error is that of least squares.
 TEST(CrossFit, whatIsToldWellKeepsItsError) {
-  const Trial t = trial(400, 7);
+  const Drawn t = drawn(400, 7);
   const CrossFit fit = cross_fit(t.design, t.data, Misfit::covariance, Slopes::found);
   const BiasCorrectedFit honest = bias_corrected(t.design, fit, 0);
   const double expected = 1 / std::sqrt(kNumbers);

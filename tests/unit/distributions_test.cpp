@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lilytank/math.hpp"
 #include "support/tracks.hpp"
 
 namespace lilytank {
@@ -13,8 +14,6 @@ namespace {
 
 using test::normal;
 using test::recording_of;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Tracks as they are, for what does not depend on smoothing.
 SmoothRecording unsmoothed(const Recording& r) {

@@ -13,7 +13,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-double normal(std::int64_t row, std::uint32_t column, std::uint32_t what) {
+double normal_of(std::int64_t row, std::uint32_t column, std::uint32_t what) {
   return normal_pair({11, Stream::calibrate, row, column, what})[0];
 }
 
@@ -26,8 +26,8 @@ Replicates replicates(int count, double noise) {
   mix << 0.5, 0.1, -0.2, 0.6;
   Replicates out{Matrix(count, 2), Matrix(count, 2)};
   for (int i = 0; i < count; ++i) {
-    const Vector off = (Vector(2) << normal(i, 0, 1), normal(i, 1, 1)).finished();
-    const Vector scatter = (Vector(2) << normal(i, 0, 2), normal(i, 1, 2)).finished();
+    const Vector off = (Vector(2) << normal_of(i, 0, 1), normal_of(i, 1, 1)).finished();
+    const Vector scatter = (Vector(2) << normal_of(i, 0, 2), normal_of(i, 1, 2)).finished();
     out.off.row(i) = off;
     out.answers.row(i) = (Vector(2) << 3, 4).finished() + mix * off + noise * scatter;
   }

@@ -12,8 +12,8 @@
 #include "support/study_rig.hpp"
 
 using namespace lilytank;
-using lilytank::testing::rules_of;
-using lilytank::testing::ruleset_file;
+using lilytank::test::rules_of;
+using lilytank::test::ruleset_file;
 
 namespace {
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Bodies that go round on circles of 10 cm and 20 cm with 2 rad/s, and turn with it.
-Recording circling(double seconds) {
+Recording circles_for(double seconds) {
   Recording r;
   r.rate = 30, r.frames = 1 + static_cast<int>(std::lround(seconds * r.rate));
   for (int b = 0; b < 2; ++b) {
@@ -43,7 +43,7 @@ std::map<std::string, double> named(const std::vector<Recording>& recordings,
 }
 
 TEST(MotionSummary, tellsACircleForWhatItIs) {
-  const auto of = named({circling(120)}, MotionSummary{});
+  const auto of = named({circles_for(120)}, MotionSummary{});
   for (const double lag : {0.4, 2.0, 12.0}) {
     // Mean over both circles of 2 R^2 (1 - cos w t).
     const double msd = (0.01 + 0.04) * (1 - std::cos(2 * lag));
@@ -70,14 +70,15 @@ TEST(MotionSummary, tellsACircleForWhatItIs) {
 }
 
 TEST(MotionSummary, framesThatWereNotSeenDoNotCount) {
-  Recording gaps = circling(60);
+  Recording gaps = circles_for(60);
   for (Track& track : gaps.tracks) {
     for (std::size_t f = 1; f + 1 < track.x.size(); ++f) {
       const auto bits = random_bits({1, Stream::camera, static_cast<std::int64_t>(f), 0, 0});
       if (bits[0] % 4 == 0) track.x[f] = track.y[f] = track.theta[f] = kNone;
     }
   }
-  const auto whole = named({circling(60)}, MotionSummary{}), some = named({gaps}, MotionSummary{});
+  const auto whole = named({circles_for(60)}, MotionSummary{}),
+             some = named({gaps}, MotionSummary{});
   for (const auto& [name, value] : whole) {
     EXPECT_TRUE(std::isfinite(some.at(name))) << name;
     // Of a circle every pair of frames tells the same.
@@ -95,7 +96,7 @@ TEST(MotionSummary, isFiniteWhereThereIsHardlyAnything) {
 }
 
 TEST(Eq9, isZeroForEqualCurvesAndScalesAsThePaperSums) {
-  const auto a = eq9_curve({circling(120)});
+  const auto a = eq9_curve({circles_for(120)});
   ASSERT_EQ(a.size(), 600u);
   EXPECT_EQ(eq9(a, a), 0);
   auto b = a;
@@ -105,7 +106,7 @@ TEST(Eq9, isZeroForEqualCurvesAndScalesAsThePaperSums) {
 }
 
 TEST(Eq9, ofTheFirstOriginIsThatOfAPiece) {
-  const auto piece = eq9_curve({circling(60)}, {.first_origin = true});
+  const auto piece = eq9_curve({circles_for(60)}, {.first_origin = true});
   for (std::size_t k = 0; k < piece.size(); ++k) {
     const double lag = 0.1 * static_cast<double>(k + 1);
     EXPECT_NEAR(piece[k], (0.01 + 0.04) * (1 - std::cos(2 * lag)), 1e-9);
@@ -114,7 +115,7 @@ TEST(Eq9, ofTheFirstOriginIsThatOfAPiece) {
 
 // At 25 frames a second 0.1 s is two and a half of them: no lag is off by more than half a frame.
 TEST(Eq9, roundingsOfLagsDoNotAddUp) {
-  Recording slow = circling(120);
+  Recording slow = circles_for(120);
   slow.rate = 25, slow.frames = 3000;
   for (Track& track : slow.tracks) {
     const std::vector<double> start{track.x.front(), track.y.front()};

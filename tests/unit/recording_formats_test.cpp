@@ -15,8 +15,8 @@ RecordingOptions in_pixels() {
   return options;
 }
 
-CheckedRecording read(const std::string& content, const RecordingOptions& options = {},
-                      const std::string& name = "tracks.csv") {
+CheckedRecording tracks_of(const std::string& content, const RecordingOptions& options = {},
+                           const std::string& name = "tracks.csv") {
   const TemporaryDirectory here;
   return check_recording(here.write(name, content), options);
 }
@@ -88,7 +88,7 @@ TEST(RecordingFormats, compressedFilesAreTheSame) {
 
 TEST(RecordingFormats, theWayTextIsWrittenDoesNotMatter) {
   const std::string plain = "frame,time,id,x,y\n0,0,0,0.1,0\n1,0.04,0,0.11,0\n";
-  const Recording truth = read(plain).recording;
+  const Recording truth = tracks_of(plain).recording;
   for (const std::string other :
        {"\xef\xbb\xbf"
         "frame,time,id,x,y\r\n0,0,0,0.1,0\r\n1,0.04,0,0.11,0",
@@ -98,7 +98,7 @@ TEST(RecordingFormats, theWayTextIsWrittenDoesNotMatter) {
         "\"frame\",\"time\",\"id\",\"x\",\"y\"\n0,0,0,\"0.1\",0\n1,0.04,0,0.11,0\n",
         "frame time id x y\n0 0 0 0.1 0\n1  0.04  0  0.11  0\n"}) {
     SCOPED_TRACE(other);
-    expect_same_tracks(truth, read(other).recording, 0);
+    expect_same_tracks(truth, tracks_of(other).recording, 0);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(RecordingFormats, swistrackParticlesHaveDatesAndNoIdentities) {
       rows += text;
     }
   }
-  const CheckedRecording c = read(head + rows);
+  const CheckedRecording c = tracks_of(head + rows);
   EXPECT_EQ(c.format, RecordingFormat::swistrack_particles);
   EXPECT_EQ(all_texts(c), "");
   ASSERT_EQ(c.recording.tracks.size(), 2u);
@@ -161,16 +161,16 @@ TEST(RecordingFormats, particlesThatCompeteEndTheirTracks) {
   }
   RecordingOptions options;
   options.format = RecordingFormat::table;
-  const CheckedRecording c = read(text, options);
+  const CheckedRecording c = tracks_of(text, options);
   EXPECT_FALSE(of_kind(c, Check::link).empty());
   EXPECT_TRUE(of_kind(c, Check::swap).empty()) << "nobody has another's identity";
   EXPECT_GE(c.recording.tracks.size(), 4u);
   options.rules[Check::link] = Treatment::keep;
-  const CheckedRecording kept = read(text, options);
+  const CheckedRecording kept = tracks_of(text, options);
   EXPECT_FALSE(of_kind(kept, Check::link).empty());
   EXPECT_LT(kept.recording.tracks.size(), c.recording.tracks.size());
   options.rules[Check::link] = Treatment::refuse;
-  EXPECT_TRUE(read(text, options).refused());
+  EXPECT_TRUE(tracks_of(text, options).refused());
 }
 
 TEST(RecordingFormats, trackpyIsInPixelsWithTheYAxisDown) {
@@ -182,7 +182,7 @@ TEST(RecordingFormats, trackpyIsInPixelsWithTheYAxisDown) {
   RecordingOptions options = in_pixels();
   EXPECT_NE(complaint(table, options).find("give rate"), std::string::npos);
   options.rate = 30;
-  const Recording r = read(table, options).recording;
+  const Recording r = tracks_of(table, options).recording;
   ASSERT_EQ(r.tracks.size(), 2u);
   EXPECT_NEAR(r.tracks[0].x[0], 0.15, 1e-12);
   EXPECT_NEAR(r.tracks[0].y[0], 0, 1e-12);
@@ -194,11 +194,12 @@ TEST(RecordingFormats, trackpyIsInPixelsWithTheYAxisDown) {
 TEST(RecordingFormats, idtrackerWritesWideAndTidyTables) {
   RecordingOptions options = in_pixels();
   const Recording wide =
-      read("time,x1,y1,x2,y2\n0.0,420,240,320,340\n0.04,421,240,nan,nan\n0.08,422,240,320,342\n",
-           options)
+      tracks_of(
+          "time,x1,y1,x2,y2\n0.0,420,240,320,340\n0.04,421,240,nan,nan\n0.08,422,240,320,342\n",
+          options)
           .recording;
   const Recording tidy =
-      read(
+      tracks_of(
           "frame,time,individual,x,y,probability\n0,0.0,1,420,240,1.0\n0,0.0,2,320,340,0.98\n"
           "1,0.04,1,421,240,1.0\n2,0.08,1,422,240,1.0\n2,0.08,2,320,342,0.9\n",
           options)
@@ -236,7 +237,7 @@ TEST(RecordingFormats, fasttrackAnglesAreSeenCounterClockwise) {
   options.calibration.has_origin = true;
   options.calibration.origin_x = 480, options.calibration.origin_y = 320;
   options.calibration.pixel = 0.001;
-  const Recording r = read(table, options, "tracking.txt").recording;
+  const Recording r = tracks_of(table, options, "tracking.txt").recording;
   const double along_x = 514.327 - 499.96, along_y = -(333.12 - 327.727);
   const double body = std::atan2(along_y, along_x);
   EXPECT_NEAR(std::remainder(r.tracks[0].theta[0] - body, 2 * kPi), 0, 0.03);
@@ -250,7 +251,7 @@ TEST(RecordingFormats, anyTableByItsColumns) {
   options.time_unit = 0.001;
   options.calibration.pixel = 0.001;
   options.calibration.angles = AngleUnit::degrees;
-  const CheckedRecording c = read(
+  const CheckedRecording c = tracks_of(
       "t_ms;bee;px;py;deg\n0;queen;100;50;350\n0;drone;-100;50;0\n"
       "40;queen;101;50;359\n40;drone;-100;51;3\n"
       "80;queen;102;50;8\n80;drone;-100;52;6\n",
@@ -268,13 +269,13 @@ TEST(RecordingFormats, tablesWithoutNamesHaveNumberedColumns) {
   options.format = RecordingFormat::table;
   options.columns = {"1", "", "", "3", "4", ""};
   options.rate = 10;
-  const Recording r = read("0 7 0.10 0.2\n1 7 0.11 0.2\n2 7 0.12 0.2\n", options).recording;
+  const Recording r = tracks_of("0 7 0.10 0.2\n1 7 0.11 0.2\n2 7 0.12 0.2\n", options).recording;
   ASSERT_EQ(r.tracks.size(), 1u);  // no ids, one sighting a frame: one body
   EXPECT_DOUBLE_EQ(r.tracks[0].x[2], 0.12);
 }
 
 TEST(RecordingFormats, ourOwnTrajectoryTableIsARecording) {
-  const CheckedRecording c = read(
+  const CheckedRecording c = tracks_of(
       "frame,time,id,x,y,theta,label,last,latched,bonded,complete\n"
       "0,0,0,0.1,0.1,3.1,0,-1,0,0,0\n1,0.2,0,0.11,0.1,-3.1,0,-1,0,0,0\n2,0.4,0,0.12,0.1,-3,0,-1,0,"
       "0,0\n");
@@ -285,7 +286,7 @@ TEST(RecordingFormats, ourOwnTrajectoryTableIsARecording) {
 TEST(RecordingFormats, ballsHaveNoHeading) {
   RecordingOptions options;
   options.body = BodyKind::ball;
-  EXPECT_FALSE(read("frame,time,id,x,y,theta\n0,0,0,0.1,0,1\n1,0.04,0,0.1,0,9\n", options)
+  EXPECT_FALSE(tracks_of("frame,time,id,x,y,theta\n0,0,0,0.1,0,1\n1,0.04,0,0.1,0,9\n", options)
                    .recording.has_heading());
 }
 

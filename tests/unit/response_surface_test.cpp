@@ -13,7 +13,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-double normal(std::int64_t row, std::uint32_t column, std::uint32_t what) {
+double noise_of(std::int64_t row, std::uint32_t column, std::uint32_t what) {
   return normal_pair({7, Stream::calibrate, row, column, what})[0];
 }
 
@@ -29,10 +29,10 @@ Vector truth(const Vector& p) {
 Design design(int count, double noise) {
   Design out{Matrix(count, 2), Matrix(count, 6)};
   for (int i = 0; i < count; ++i) {
-    out.points.row(i) << 0.5 + 0.3 * normal(i, 0, 100), -0.2 + 0.2 * normal(i, 1, 100);
+    out.points.row(i) << 0.5 + 0.3 * noise_of(i, 0, 100), -0.2 + 0.2 * noise_of(i, 1, 100);
     out.numbers.row(i) = truth(out.points.row(i));
     for (int k = 0; k < 6; ++k) {
-      if (k != 4) out.numbers(i, k) += noise * normal(i, static_cast<std::uint32_t>(k), 101);
+      if (k != 4) out.numbers(i, k) += noise * noise_of(i, static_cast<std::uint32_t>(k), 101);
     }
   }
   return out;
@@ -65,7 +65,7 @@ TEST(ResponseSurface, intervalsFromTheCovarianceAreThoseThatScatterShows) {
   for (int i = 0; i < n; ++i) {
     Vector data = truth(at);
     for (int k = 0; k < 6; ++k) {
-      if (k != 4) data(k) += noise * normal(i, static_cast<std::uint32_t>(k), 102);
+      if (k != 4) data(k) += noise * noise_of(i, static_cast<std::uint32_t>(k), 102);
     }
     const LocalFit fit = model.fit(data);
     found.row(i) = fit.point;
@@ -140,12 +140,12 @@ TEST(ResponseSurface, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   const auto numbers = [&](int row, double at) {
     Vector out(kNumbers);
     for (int k = 0; k < kNumbers; ++k) {
-      out(k) = normal(row, static_cast<std::uint32_t>(k), 201) + (k < 2 ? 0.7 * at : 0);
+      out(k) = noise_of(row, static_cast<std::uint32_t>(k), 201) + (k < 2 ? 0.7 * at : 0);
     }
     return out;
   };
   for (int i = 0; i < kSimulations; ++i) {
-    d.points(i, 0) = normal(i, 0, 200);
+    d.points(i, 0) = noise_of(i, 0, 200);
     d.numbers.row(i) = numbers(i, d.points(i, 0));
   }
   const auto slope_of_answers = [&](Slopes slopes) {

@@ -15,14 +15,14 @@
 #include "support/temporary_directory.hpp"
 
 using namespace lilytank;
-using lilytank::testing::kappa_value;
-using lilytank::testing::KappaMixture;
-using lilytank::testing::KappaModel;
-using lilytank::testing::KappaRule;
-using lilytank::testing::read_bngl;
-using lilytank::testing::read_kappa;
-using lilytank::testing::rules_of;
-using lilytank::testing::ruleset_file;
+using lilytank::test::kappa_value;
+using lilytank::test::KappaMixture;
+using lilytank::test::KappaModel;
+using lilytank::test::KappaRule;
+using lilytank::test::read_bngl;
+using lilytank::test::read_kappa;
+using lilytank::test::rules_of;
+using lilytank::test::ruleset_file;
 
 namespace {
 

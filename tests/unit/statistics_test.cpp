@@ -12,7 +12,7 @@
 namespace lilytank {
 namespace {
 
-using namespace lilytank::testing;
+using namespace lilytank::test;
 
 double binomial(int n, int k, double p) {
   return std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +

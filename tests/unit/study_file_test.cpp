@@ -13,7 +13,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-const std::string kHead = "[study]\nscenario = \"pair.toml\"\nreplicates = 3\n";
+const std::string kStudyHead = "[study]\nscenario = \"pair.toml\"\nreplicates = 3\n";
 
 class StudyFileTest : public testing::Test, public test::StudyRig {
  protected:
@@ -23,7 +23,7 @@ class StudyFileTest : public testing::Test, public test::StudyRig {
     return out;
   }
   void expect(const std::string& rest, const std::string& message) const {
-    EXPECT_EQ(refusal(kHead + rest), message) << rest;
+    EXPECT_EQ(refusal(kStudyHead + rest), message) << rest;
   }
 };
 
@@ -43,7 +43,7 @@ TEST_F(StudyFileTest, WithoutAxesThereIsOneSetting) {
 
 TEST_F(StudyFileTest, SettingsAreTheProductOfTheAxes) {
   const Study study =
-      this->study(kHead +
+      this->study(kStudyHead +
                   "[[axis]]\npath = \"module.count\"\nvalues = [4, 6]\n"
                   "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n"
                   "[[axis]]\npath = \"tank.radius\"\nvalues = [\"16 cm\", 0.2, \"25 cm\"]\n");
@@ -66,7 +66,7 @@ TEST_F(StudyFileTest, SettingsAreTheProductOfTheAxes) {
 TEST_F(StudyFileTest, RangesAreLinearOrLogarithmic) {
   const auto texts = [&](const std::string& axis) {
     Texts out;
-    const Study read = study(kHead + "[[axis]]\n" + axis);
+    const Study read = study(kStudyHead + "[[axis]]\n" + axis);
     for (const Setting& s : read.plan().settings) out.push_back(s.texts[0]);
     return out;
   };
@@ -82,7 +82,7 @@ TEST_F(StudyFileTest, RangesAreLinearOrLogarithmic) {
 
 TEST_F(StudyFileTest, ValuesAreInTheUnitsOfTheirKeysAndLabelsAsWritten) {
   const auto only = [&](const std::string& path, const std::string& value) {
-    return study(kHead + "[[axis]]\npath = \"" + path + "\"\nvalues = [\"" + value + "\"]\n")
+    return study(kStudyHead + "[[axis]]\npath = \"" + path + "\"\nvalues = [\"" + value + "\"]\n")
         .plan()
         .settings.at(0);
   };
@@ -103,15 +103,15 @@ TEST_F(StudyFileTest, ValuesAreInTheUnitsOfTheirKeysAndLabelsAsWritten) {
 
 TEST_F(StudyFileTest, LabelsAndNamesAreOnesOwn) {
   const Study study =
-      this->study(kHead +
+      this->study(kStudyHead +
                   "[[axis]]\nname = \"p\"\npath = \"rules.part.p\"\nvalues = [0, 1]\n"
                   "labels = [\"never\", \"at once\"]\n");
   EXPECT_EQ(labels(study), (Texts{"p=never", "p=at once"}));
   EXPECT_EQ(study.plan().axes, Texts{"p"});
-  EXPECT_EQ(labels(this->study(kHead + "[[axis]]\npath = \"rules.part.p\"\nvalues = [0]\n")),
+  EXPECT_EQ(labels(this->study(kStudyHead + "[[axis]]\npath = \"rules.part.p\"\nvalues = [0]\n")),
             Texts{"part.p=0"});
   const std::string overlays =
-      kHead + "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n";
+      kStudyHead + "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n";
   EXPECT_EQ(labels(this->study(overlays)), (Texts{"rules=sticky", "rules=loose"}));
   EXPECT_EQ(labels(this->study(overlays + "labels = [\"by hand\", \"as found\"]\n")),
             (Texts{"by hand", "as found"}));
@@ -119,19 +119,19 @@ TEST_F(StudyFileTest, LabelsAndNamesAreOnesOwn) {
 
 TEST_F(StudyFileTest, SetsLieOnTopOfEverySetting) {
   const Study study = this->study(
-      kHead + "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n",
+      kStudyHead + "[[axis]]\nname = \"rules\"\noverlays = [\"sticky.toml\", \"loose.toml\"]\n",
       {"rules.join.p=0.5", "run.duration=3"});
   for (int s = 0; s < 2; ++s) {
     EXPECT_EQ(study.scenario(s).duration, 3);
     EXPECT_EQ(study.scenario(s).model.rulesets[0].rules[0].p, 0.5);
   }
   const std::string axis = "[[axis]]\npath = \"module.count\"\nvalues = [4, 6]\n";
-  EXPECT_EQ(refusal(kHead + axis, {"module.count=5"}),
+  EXPECT_EQ(refusal(kStudyHead + axis, {"module.count=5"}),
             "--set module.count=5: 'module.count' is an axis of the study, see study.toml:4:1");
-  EXPECT_EQ(refusal(kHead, {"run.seed=5"}),
+  EXPECT_EQ(refusal(kStudyHead, {"run.seed=5"}),
             "--set run.seed=5: replicates have seeds of their own: set study.seed in "
             "'study.toml'");
-  EXPECT_EQ(refusal(kHead, {"module.cuont=5"}),
+  EXPECT_EQ(refusal(kStudyHead, {"module.cuont=5"}),
             "--set module.cuont=5: unknown key 'module.cuont' - did you mean 'count'?");
 }
 
@@ -173,7 +173,7 @@ TEST_F(StudyFileTest, LatinHypercubesFillEveryPartOnce) {
 
 TEST_F(StudyFileTest, IdsAreOfScenarioAndSeedOnly) {
   const std::string axis = "[[axis]]\npath = \"module.count\"\nvalues = ";
-  const StudyPlan a = study(kHead + axis + "[4, 6]\n").plan();
+  const StudyPlan a = study(kStudyHead + axis + "[4, 6]\n").plan();
   const StudyPlan b = study("[study]\nname = \"b\"\nscenario = \"pair.toml\"\nreplicates = 90\n" +
                             axis + "[5, 4]\n")
                           .plan();
@@ -195,12 +195,13 @@ TEST_F(StudyFileTest, IdsAreOfScenarioAndSeedOnly) {
 TEST_F(StudyFileTest, IdentityIsOfTheRunsNotOfTheirNumber) {
   const std::string axis = "[[axis]]\npath = \"module.count\"\nvalues = [4, 6]\n";
   const std::string scenario = "[study]\nscenario = \"pair.toml\"\n";
-  const std::uint64_t first = study(kHead + axis).plan().identity();
+  const std::uint64_t first = study(kStudyHead + axis).plan().identity();
   EXPECT_EQ(study(scenario + "replicates = 50\nname = \"x\"\n" + axis).plan().identity(), first);
   EXPECT_NE(study(scenario + "replicates = 3\nseed = 2\n" + axis).plan().identity(), first);
-  EXPECT_NE(study(kHead + axis, {"run.duration=9"}).plan().identity(), first);
-  EXPECT_NE(study(kHead + "[[axis]]\npath = \"module.count\"\nvalues = [6, 4]\n").plan().identity(),
-            first);
+  EXPECT_NE(study(kStudyHead + axis, {"run.duration=9"}).plan().identity(), first);
+  EXPECT_NE(
+      study(kStudyHead + "[[axis]]\npath = \"module.count\"\nvalues = [6, 4]\n").plan().identity(),
+      first);
 }
 
 TEST_F(StudyFileTest, PlansAreStoredAndReadBack) {
@@ -235,13 +236,13 @@ TEST_F(StudyFileTest, MistakesInTheHead) {
   EXPECT_EQ(
       refusal("[study]\nscenario = \"pair.toml\"\n"),
       "study.toml:1:1: study.replicates is missing: the number of simulations of each setting");
-  EXPECT_EQ(refusal(kHead + "sede = 3\n"),
+  EXPECT_EQ(refusal(kStudyHead + "sede = 3\n"),
             "study.toml:4:1: unknown key 'study.sede' - did you mean 'seed'?");
-  EXPECT_EQ(refusal(kHead + "seed = 1.5\n"),
+  EXPECT_EQ(refusal(kStudyHead + "seed = 1.5\n"),
             "study.toml:4:8: study.seed is a whole number, not a number");
-  EXPECT_EQ(refusal(kHead + "seed = -1\n"),
+  EXPECT_EQ(refusal(kStudyHead + "seed = -1\n"),
             "study.toml:4:8: study.seed = -1 is outside 0 .. 1000000000000000000");
-  EXPECT_EQ(refusal(kHead + "name = \"a/b\"\n"),
+  EXPECT_EQ(refusal(kStudyHead + "name = \"a/b\"\n"),
             "study.toml:4:8: study.name = \"a/b\" is not of letters, digits, '_', '-' and '.': it "
             "names files and columns");
 }
@@ -259,7 +260,7 @@ TEST_F(StudyFileTest, MistakesInTheStoppingRule) {
             "study.toml:3:1: stop.max is missing: the most replicates of a setting");
   EXPECT_EQ(refusal(head + "metric = \"time_1\"\nhalf_width = \"2 m\"\nmax = 20\n"),
             "study.toml:5:14: stop.half_width is a time in s; 'm' is not");
-  EXPECT_EQ(refusal(kHead + "[stop]\nmetric = \"copies\"\nhalf_width = 0.1\nmax = 20\n"),
+  EXPECT_EQ(refusal(kStudyHead + "[stop]\nmetric = \"copies\"\nhalf_width = 0.1\nmax = 20\n"),
             "study.toml:3:14: study.replicates is a fixed number; with [stop] give stop.max "
             "instead");
 }
@@ -339,9 +340,9 @@ TEST_F(StudyFileTest, MistakesInAxes) {
          "study.toml:7:1: there is an axis 'module.count' already");
   expect("[[axis]]\npath = \"module.count\"\nvalues = [3]\nlabels = [\"a\", \"b\"]\n",
          "study.toml:7:10: axis.labels has 2 texts for 1 values");
-  EXPECT_NE(
-      refusal(kHead + "[[axis]]\npath = \"module.count\"\nvalues = [4, 400]\n").find("count=400: "),
-      std::string::npos);
+  EXPECT_NE(refusal(kStudyHead + "[[axis]]\npath = \"module.count\"\nvalues = [4, 400]\n")
+                .find("count=400: "),
+            std::string::npos);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace lilytank {
 namespace {
 
-using namespace lilytank::testing;
+using namespace lilytank::test;
 
 // Exponential times of rate 1, censored by exponential times of rate `censoring`.
 std::vector<Duration> exponentials(std::uint64_t set, int n, double censoring,

@@ -9,8 +9,8 @@
 #include "support/polyominoes.hpp"
 
 using namespace lilytank;
-using lilytank::testing::one_sided_polyominoes;
-using lilytank::testing::ruleset_file;
+using lilytank::test::one_sided_polyominoes;
+using lilytank::test::ruleset_file;
 
 namespace {
 
@@ -55,7 +55,7 @@ TEST(Synthesis, CrossOfFiveIsThePapersTableWithItsGarbledLineCorrected) {
 
 // What the shipped files say, probabilities included.
 TEST(Synthesis, ShippedRulesetsComeOutAgain) {
-  for (const std::string& name : lilytank::testing::shipped_rulesets()) {
+  for (const std::string& name : lilytank::test::shipped_rulesets()) {
     Ruleset file = read_ruleset(ruleset_file(name));
     Target target = target_of(file.target, file.name);
     const Ruleset made = emit(target, make_plan(target, Algorithm::singleton));

@@ -30,7 +30,7 @@ Rows rows_of(std::string_view text, const TableLayout& layout = {}) {
   }
 }
 
-std::string refusal(std::string_view text, const TableLayout& layout = {}) {
+std::string table_refusal(std::string_view text, const TableLayout& layout = {}) {
   const Rows rows = rows_of(text, layout);
   return rows.size() == 1 ? rows[0][0] : "(accepted)";
 }
@@ -67,7 +67,7 @@ TEST(Table, LinesEndInAnyWay) {
     EXPECT_EQ(rows_of("id,x" + end + "7,0.5" + end + "8,1.5" + end), kPlain);
     EXPECT_EQ(rows_of("id,x" + end + end + "7,0.5" + end + "8,1.5"), kPlain);
   }
-  EXPECT_EQ(refusal("id,x\r7,0.5\r\r8\r"), "t.csv:4:1: 1 columns instead of 2");
+  EXPECT_EQ(table_refusal("id,x\r7,0.5\r\r8\r"), "t.csv:4:1: 1 columns instead of 2");
 }
 
 TEST(Table, EncodingsOfOtherPrograms) {
@@ -83,14 +83,14 @@ TEST(Table, EncodingsOfOtherPrograms) {
 }
 
 TEST(Table, FilesThatAreNoTables) {
-  EXPECT_TRUE(refusal("PK\x03\x04xl/workbook")
+  EXPECT_TRUE(table_refusal("PK\x03\x04xl/workbook")
                   .starts_with("t.csv:1:1: this is no text table but a zip archive, as Excel's"));
-  EXPECT_EQ(refusal(std::string_view("\x01\x02\x03\x00\x00\x05\x06\x07", 8)),
+  EXPECT_EQ(table_refusal(std::string_view("\x01\x02\x03\x00\x00\x05\x06\x07", 8)),
             "t.csv:1:1: this is no text table but a binary file: it holds zero bytes");
-  EXPECT_EQ(refusal("id,x\a\n1,2\n"),
+  EXPECT_EQ(table_refusal("id,x\a\n1,2\n"),
             "t.csv:1:1: the name of column 2 holds a control character (byte 7): is this a text "
             "table?");
-  EXPECT_EQ(refusal(std::string(2000, 'a') + ",x\n1,2\n1," + std::string(3, '\0') + "\n"),
+  EXPECT_EQ(table_refusal(std::string(2000, 'a') + ",x\n1,2\n1," + std::string(3, '\0') + "\n"),
             "t.csv:3:3: there is a zero byte in this line: the file is damaged, or no text table");
 }
 
@@ -111,10 +111,10 @@ TEST(Table, EmptyRowsAndExcelsSeparatorLine) {
 TEST(Table, QuotesAsInRfc4180) {
   EXPECT_EQ(rows_of("\"id\",\"x, mm\"\n\"a,\"\"b\"\"\", 3\n\"two\nlines\",4\n"),
             (Rows{{"id", "x, mm"}, {"a,\"b\"", "3"}, {"two\nlines", "4"}}));
-  EXPECT_EQ(refusal("id,x\n\"two\nlines\",4\n1\n"), "t.csv:4:1: 1 columns instead of 2");
-  EXPECT_EQ(refusal("id,x\n\"a,4\n5,6\n"),
+  EXPECT_EQ(table_refusal("id,x\n\"two\nlines\",4\n1\n"), "t.csv:4:1: 1 columns instead of 2");
+  EXPECT_EQ(table_refusal("id,x\n\"a,4\n5,6\n"),
             "t.csv:2:1: a quote (\") that begins a cell here is never closed");
-  EXPECT_EQ(refusal("id,x\n\"a\"b,4\n"),
+  EXPECT_EQ(table_refusal("id,x\n\"a\"b,4\n"),
             "t.csv:2:1: there is text behind the closing quote of \"a\": a quote within a cell is "
             "written twice");
   EXPECT_EQ(rows_of("id,x\n5\" pipe,4\n"), (Rows{{"id", "x"}, {"5\" pipe", "4"}}));
@@ -142,7 +142,7 @@ TEST(Table, DecimalCommas) {
             "t.csv:2:3: x '1.234,5' is not a number: write it without separators of thousands");
   EXPECT_EQ(numbers("id;x;y\n7;1.234;0,5\n", "x").substr(0, 40),
             "t.csv:2:3: x '1.234' is not a number: ot");
-  EXPECT_EQ(refusal("id,x,y\n7,0,5,1,25\n"),
+  EXPECT_EQ(table_refusal("id,x,y\n7,0,5,1,25\n"),
             "t.csv:2:1: 5 columns instead of 3: decimal commas need ';' or tabs between the cells");
 }
 
@@ -173,7 +173,7 @@ TEST(Table, NamesOnLaterLines) {
       (std::vector<std::string>{"frame", "nose_x", "nose_y", "tail_x", "tail_y"}));
   EXPECT_EQ(rows_of("# id,x\n7,0.5\n8,1.5\n"), kPlain);  // NumPy's savetxt
   const std::string titled = "Tank 3\nid,x\nnumber,metres\n7,0.5\n8,1.5\n";
-  EXPECT_EQ(refusal(titled),
+  EXPECT_EQ(table_refusal(titled),
             "t.csv:2:1: 2 columns instead of 1: header_line = N says in which line "
             "the names are, if not in line 1");
   TableLayout layout;
@@ -182,7 +182,7 @@ TEST(Table, NamesOnLaterLines) {
   layout.header_line = 0, layout.first_row.reset();
   EXPECT_EQ(rows_of("a,0.5\n", layout), (Rows{{"1", "2"}, {"a", "0.5"}}));
   layout.header_line = 9;
-  EXPECT_EQ(refusal(titled, layout), "t.csv: header_line = 9, but there are 5 lines");
+  EXPECT_EQ(table_refusal(titled, layout), "t.csv: header_line = 9, but there are 5 lines");
 }
 
 TEST(Table, RepeatedNames) {

@@ -44,7 +44,7 @@ TEST(Target, NumberedBonds) {
 }
 
 TEST(Target, DrawingsReadBack) {
-  for (const auto& shape : lilytank::testing::one_sided_polyominoes(5)) {
+  for (const auto& shape : lilytank::test::one_sided_polyominoes(5)) {
     const Target target = target_of(shape, "shape");
     EXPECT_EQ(parse_target(to_text(target), "t.txt").cells, target.cells);
   }

@@ -44,7 +44,7 @@ FileDigest write(const std::string& file, TrajectoryFormat format, int from, int
   return writer->flush();
 }
 
-std::string refusal(const std::string& file) {
+std::string trajectory_refusal(const std::string& file) {
   try {
     read_trajectory(file);
   } catch (const InputError& e) {
@@ -189,9 +189,9 @@ TEST(Trajectory, RefusesDamagedTables) {
        "t.csv:2:15: last '4' is outside -1 .. 3"},
   };
   for (const auto& [content, message] : all) {
-    EXPECT_EQ(refusal(dir.write("t.csv", content)), message) << content;
+    EXPECT_EQ(trajectory_refusal(dir.write("t.csv", content)), message) << content;
   }
-  EXPECT_EQ(refusal(dir.path("none.csv")), "none.csv': No such file or directory");
+  EXPECT_EQ(trajectory_refusal(dir.path("none.csv")), "none.csv': No such file or directory");
 }
 
 TEST(Trajectory, RefusesDamagedBinaries) {
@@ -201,11 +201,12 @@ TEST(Trajectory, RefusesDamagedBinaries) {
   const auto damaged = [&](std::size_t at, const std::string& with) {
     std::string copy = bytes;
     copy.replace(at, with.size(), with);
-    return refusal(dir.write("t", copy));
+    return trajectory_refusal(dir.write("t", copy));
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::string not_a_number(reinterpret_cast<const char*>(&nan), sizeof nan);
-  EXPECT_EQ(refusal(dir.write("t", bytes.substr(0, 20))), "t: the trajectory's header is cut");
+  EXPECT_EQ(trajectory_refusal(dir.write("t", bytes.substr(0, 20))),
+            "t: the trajectory's header is cut");
   EXPECT_EQ(damaged(8, "\x09"), "t: trajectory version 9 instead of 2");
   EXPECT_EQ(damaged(15, "\x7f"),
             "t: the trajectory's header is damaged: 2130706436 bodies, 3 modules");
@@ -221,7 +222,7 @@ TEST(Trajectory, RefusesDamagedBinaries) {
     copy.replace(begin + at, with.size(), with);
     const std::uint32_t sum = checksum_bits(std::string_view(copy).substr(begin, content));
     copy.replace(begin + content, 4, std::string(reinterpret_cast<const char*>(&sum), 4));
-    return refusal(dir.write("t", copy));
+    return trajectory_refusal(dir.write("t", copy));
   };
   EXPECT_EQ(written(0, 8, not_a_number), "t: frame 0: the pose of body 0 is not finite");
   EXPECT_EQ(written(1, 0, std::string(8, '\0')), "t: frame 1: times do not rise");
