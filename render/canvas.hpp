@@ -9,12 +9,9 @@
 #include <string_view>
 #include <vector>
 
-namespace lilytank {
+#include "colour.hpp"
 
-/// Red, green, blue and opacity, each 0 .. 1.
-struct Colour {
-  double r = 0, g = 0, b = 0, a = 1;
-};
+namespace lilytank {
 
 enum class PictureFormat { png, svg, pdf };
 
