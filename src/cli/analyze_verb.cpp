@@ -83,7 +83,7 @@ Track part_of(const Track& track, int from, int to) {
   while (a <= b && !seen(a)) ++a;
   while (b >= a && !seen(b)) --b;
   Track out;
-  out.id = track.id;
+  out.id = track.id, out.assembly = track.assembly;
   if (a > b) return out;
   out.first = a - from;
   out.x = cut(track.x, a, b), out.y = cut(track.y, a, b), out.theta = cut(track.theta, a, b);
