@@ -236,6 +236,7 @@ struct AnalyzeJob {
   SourceOptions sources;
   AnalysisOptions analysis;
   std::string body;
+  FigureStyle style;
   bool force = false;
 };
 
@@ -269,6 +270,7 @@ void add_analyze_options(VerbOptions& options, AnalyzeJob& job) {
   options.add({"size", "side or diameter of their bodies", "LENGTH"}, &s.size, 1e-4, 10, "m");
   options.add({"resamples", "of each band (1000)", "N"}, &a.bootstrap.resamples, 20, 1000000);
   options.add({"seed", "of the bands (1)", "N"}, &a.bootstrap.seed, 0, INT64_MAX);
+  add_figure_options(options, job.style);
   options.add({"force", "replace files of other results in the directory"}, &job.force);
 }
 
@@ -335,7 +337,7 @@ int analyze_verb(const Arguments& arguments) {
   ReportDocument report = analysis_report(analysis);
   report.provenance = origin;
   write_analysis(analysis, report, dir);
-  if constexpr (kDraws) draw_analysis(analysis, report, dir);
+  if constexpr (kDraws) draw_analysis(analysis, report, dir, job.style);
   if constexpr (!kDraws) say_undrawn("plots");
   return print_results(report, dir);
 }

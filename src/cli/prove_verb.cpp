@@ -13,16 +13,17 @@
 namespace lilytank::cli {
 namespace {
 
-int report_proofs(std::span<const Proof> proofs, const std::string& dir) {
+int report_proofs(std::span<const Proof> proofs, const std::string& dir, const FigureStyle& style) {
   const ReportDocument report = proof_report(proofs);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
-  if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir);
+  if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir, style);
   if constexpr (!kDraws) say_undrawn("report.html");
   return print_results(report, dir);
 }
 
 // `out`: "" to print only.
-int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force) {
+int print_together(const std::vector<std::string>& dirs, const std::string& out,
+                   const FigureStyle& style, bool force) {
   std::vector<Proof> proofs;
   std::string hashes;
   for (const std::string& dir : dirs) {
@@ -39,7 +40,7 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out);
+  return report_proofs(proofs, out, style);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -94,13 +95,15 @@ int prove_verb(const Arguments& arguments) {
   ProofOptions job;
   bool quiet = false;
   add_prove_options(options, job);
+  FigureStyle style;
+  add_figure_options(options, style);
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
                           "modelled", "budget", "seed", "threads"},
                          "is for a new proof");
-    return print_together(options.positional(), options.text("out"), job.diagnosis.force);
+    return print_together(options.positional(), options.text("out"), style, job.diagnosis.force);
   }
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
@@ -119,7 +122,7 @@ int prove_verb(const Arguments& arguments) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out);
+  return report_proofs({&proof, 1}, job.diagnosis.out, style);
 }
 
 }  // namespace lilytank::cli
