@@ -2,10 +2,12 @@
 #include <cmath>
 #include <map>
 
+#include "axes.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/median.hpp"
 #include "statistics/undefined.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -124,7 +126,6 @@ std::vector<Plot> overlays(const Analysis& analysis, const AnalysisCurves& set, 
   const std::vector<std::string> panels = panels_of(analysis);
   for (const std::string& panel : panels) {
     Plot plot = empty_plot(set, x, y);
-    plot.title = set.title;
     if (panels.size() > 1) {
       plot.title = panel;
       plot.width = kPanelWidth, plot.height = kPanelHeight;
@@ -188,12 +189,16 @@ PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set, bool logar
     if (set.name.starts_with("msd")) add_track_numbers(analysis, set, page);
   }
   if (several || !logarithmic) share_x(page.plots);
+  if (set.name == "msd_all" && analysis.compared && analysis.comparison.msd_relative > 0) {
+    page.title = "The MSDs of " + analysis.sources[0].name + " and " + analysis.sources[1].name +
+                 " differ by " + number(100 * analysis.comparison.msd_relative, 0) +
+                 " % on average.";
+  }
   return page;
 }
 
 Figure contact_plot(const Analysis& analysis) {
   Plot plot;
-  plot.title = "duration of contacts";
   plot.x_label = "time (s)", plot.y_label = "share of contacts that last longer";
   plot.width = kWidth, plot.height = kHeight;
   plot.y_low = -0.03, plot.y_high = 1.04;
@@ -229,11 +234,10 @@ Figure transfer_plot(const Analysis& analysis) {
   };
   if (analysis.sources.size() == 1) {
     const TransferFunction& t = analysis.sources[0].transfer;
-    plot.title = "transfer function of the smoother";
     add("position", t, t.position), add("velocity", t, t.velocity);
     add("acceleration", t, t.acceleration);
   } else {
-    plot.title = "transfer function of the smoother: velocity";
+    plot.y_label = "amplitude of velocity kept";
     plot.legend_title = shared_key(analysis);
     for (const SourceSummary& s : analysis.sources) add(s.name, s.transfer, s.transfer.velocity);
   }
@@ -276,6 +280,29 @@ void add_row(Map& map, const VelocityMap& v, const std::string& name, const std:
   map.panels.push_back(std::move(speed));
 }
 
+// "recorded: 45 bodies in 3 recordings; simulated: ..."
+std::string sources_text(const Analysis& analysis) {
+  constexpr std::size_t kMost = 8;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kMost, analysis.sources.size()); ++i) {
+    const SourceSummary& s = analysis.sources[i];
+    out += (i == 0 ? "" : "; ") + s.name + ": " + std::to_string(s.bodies) +
+           (s.bodies == 1 ? " body" : " bodies");
+    if (s.units < s.bodies) out += " (" + std::to_string(s.units) + " with latched ones as one)";
+    out += " in " + counted(s.recordings, "recording");
+  }
+  if (analysis.sources.size() > kMost) {
+    out += "; " + std::to_string(analysis.sources.size() - kMost) + " more sources";
+  }
+  return out;
+}
+
+std::string bands_text(const Analysis& analysis) {
+  const Bootstrap& b = analysis.options.bootstrap;
+  return number(100 * b.level, 0) + " %, " + resampled(analysis) + ", " +
+         std::to_string(b.resamples) + " resamples, seed " + std::to_string(b.seed);
+}
+
 std::string caption_of(const std::string& plot) {
   static const std::map<std::string, std::string> kCaptions = {
       {"msd_first", "Mean squared displacement from the first frame of each track (Eq. 8)."},
@@ -302,8 +329,9 @@ std::string caption_of(const std::string& plot) {
 
 std::vector<Figure> analysis_plots(const Analysis& analysis) {
   std::vector<Figure> figures;
+  const std::string n = sources_text(analysis);
   const auto add = [&](const std::string& name, const PlotPage& page) {
-    figures.push_back({name, caption_of(name), page, {}});
+    figures.push_back({name, caption_of(name), page, {}, {}, n, bands_text(analysis)});
   };
   for (const AnalysisCurves& set : analysis.curves) {
     add(set.name, page_of(analysis, set, false));
@@ -311,8 +339,12 @@ std::vector<Figure> analysis_plots(const Analysis& analysis) {
   }
   if (analysis.options.msd_only) return figures;
   Figure contacts = contact_plot(analysis);
+  contacts.n = n;
+  contacts.band = number(100 * analysis.options.bootstrap.level, 0) +
+                  " %, Kaplan and Meier; contacts count as independent";
   if (!contacts.page.plots[0].curves.empty()) figures.push_back(std::move(contacts));
   figures.push_back(transfer_plot(analysis));
+  figures.back().n = n;
   return figures;
 }
 
@@ -335,14 +367,19 @@ Map velocity_maps(const Analysis& analysis) {
   return map;
 }
 
-void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir) {
+void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir,
+                   const FigureStyle& style) {
   std::vector<Figure> figures = analysis_plots(analysis);
   Map map = velocity_maps(analysis);
   if (!map.panels.empty()) {
-    figures.push_back(
-        {"velocity_map", "Mean velocity along x, along y and as arrows.", {}, std::move(map)});
+    figures.push_back({"velocity_map",
+                       "Mean velocity along x, along y and as arrows.",
+                       {},
+                       std::move(map),
+                       {},
+                       sources_text(analysis)});
   }
-  write_html_report(report, figures, dir);
+  write_html_report(report, figures, dir, style);
 }
 
 }  // namespace lilytank

@@ -105,12 +105,14 @@ void draw_connectors(const Canvas& canvas, const ModulePlace& place, const Modul
     }
   }
   if (look.label.empty()) return;
-  const double size = (look.label.size() < 3 ? 0.42 : 0.34) * place.side;
+  const bool few = look.label.size() < 3;
+  const double size = std::max((few ? 0.42 : 0.34) * place.side, look.least_text);
+  if (size > (few ? 0.62 : 0.42) * place.side) return;
   canvas.moving_text(place.x, place.y, look.label, {size, readable_on(look.fill), true});
 }
 
-BodyPainter::BodyPainter(const Model& model, const View& view, bool labels)
-    : model_(model), view_(view), labels_(labels) {}
+BodyPainter::BodyPainter(const Model& model, const View& view, bool labels, double least_text)
+    : model_(model), view_(view), labels_(labels), least_text_(least_text) {}
 
 ModulePlace BodyPainter::place(const BodyPose& pose) const {
   return {view_.x(pose.x), view_.y(pose.y), pose.theta, view_.scale * model_.module.side};
@@ -127,7 +129,7 @@ ModuleLook BodyPainter::look(const Snapshot& now, int i) const {
     look.faces[static_cast<std::size_t>(face)] = face_look(m, face, model_.control.latches);
   }
   if (labels_) {
-    look.label = std::to_string(m.label);
+    look.label = std::to_string(m.label), look.least_text = least_text_;
     look.last = m.last;
   }
   return look;

@@ -22,8 +22,9 @@ struct ModulePlace {
 /// What a drawn module shows besides its pose.
 struct ModuleLook {
   Colour fill;
-  std::string label;  ///< in the middle, upright; may be empty
-  int last = -1;      ///< the face that was engaged last, -1: none
+  std::string label;      ///< in the middle, upright; may be empty
+  double least_text = 0;  ///< units, of the label; without room for it there is none
+  int last = -1;          ///< the face that was engaged last, -1: none
   std::array<FaceLook, 4> faces{FaceLook::free, FaceLook::free, FaceLook::free, FaceLook::free};
 };
 
@@ -42,8 +43,8 @@ void draw_connectors(const Canvas& canvas, const ModulePlace& place, const Modul
 /// Draws the bodies of a run; keeps scratch memory, so that a film does not allocate.
 class BodyPainter {
  public:
-  /// `model` must outlive the painter. `labels`: see FrameStyle.
-  BodyPainter(const Model& model, const View& view, bool labels);
+  /// `model` must outlive the painter. `labels`: see FrameStyle. `least_text`: of labels, units.
+  BodyPainter(const Model& model, const View& view, bool labels, double least_text = 0);
 
   /// Paths of the last `seconds` before the snapshot, fading with age.
   void trails(const Canvas& canvas, const Trajectory& trajectory, const Snapshot& now,
@@ -67,6 +68,7 @@ class BodyPainter {
   const Model& model_;
   View view_;
   bool labels_;
+  double least_text_;
   std::vector<TrailPoint> trail_;
   Snapshot start_;
 };

@@ -139,28 +139,34 @@ Canvas Canvas::raster(int width, int height) {
   return Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), nullptr);
 }
 
-Canvas Canvas::vector(PictureFormat format, double width, double height) {
+Canvas Canvas::vector(PictureFormat format, double width, double height, double points) {
   auto sink = std::make_unique<Sink>(format);
-  cairo_surface_t* surface =
-      format == PictureFormat::pdf
-          ? cairo_pdf_surface_create_for_stream(append, &sink->bytes, width, height)
-          : cairo_svg_surface_create_for_stream(append, &sink->bytes, width, height);
+  const bool pixels = points <= 0;
+  const double scale = pixels ? 1 : points, w = scale * width, h = scale * height;
+  cairo_surface_t* surface = format == PictureFormat::pdf
+                                 ? cairo_pdf_surface_create_for_stream(append, &sink->bytes, w, h)
+                                 : cairo_svg_surface_create_for_stream(append, &sink->bytes, w, h);
   if (format == PictureFormat::svg) {
-    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    cairo_svg_surface_set_document_unit(surface, pixels ? CAIRO_SVG_UNIT_PX : CAIRO_SVG_UNIT_PT);
+  } else {
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
   }
-  return Canvas(surface, std::move(sink));
+  Canvas canvas(surface, std::move(sink));
+  cairo_scale(canvas.get(), scale, scale);
+  return canvas;
 }
 
-Canvas Canvas::page(PictureFormat format, double width, double height) {
-  constexpr double kPixels = 2;  // of a PNG, per unit
+Canvas Canvas::page(PictureFormat format, double width, double height, bool print) {
   if (format != PictureFormat::png) {
-    Canvas canvas = vector(format, width, height);
+    const bool points = print || format == PictureFormat::pdf;
+    Canvas canvas = vector(format, width, height, points ? kPointsPerUnit : 0);
     canvas.clear();
     return canvas;
   }
-  Canvas canvas = raster(static_cast<int>(std::lround(width * kPixels)),
-                         static_cast<int>(std::lround(height * kPixels)));
-  cairo_scale(canvas.get(), kPixels, kPixels);
+  const double pixels = print ? 600 * kPointsPerUnit / 72 : 2;
+  Canvas canvas = raster(static_cast<int>(std::lround(width * pixels)),
+                         static_cast<int>(std::lround(height * pixels)));
+  cairo_scale(canvas.get(), pixels, pixels);
   canvas.clear();
   return canvas;
 }

@@ -9,14 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include "colour.hpp"
+
 namespace lilytank {
 
-/// Red, green, blue and opacity, each 0 .. 1.
-struct Colour {
-  double r = 0, g = 0, b = 0, a = 1;
-};
-
 enum class PictureFormat { png, svg, pdf };
+
+/// Points per unit on paper: texts of 12 units, the smallest of figures, have 6 pt.
+inline constexpr double kPointsPerUnit = 0.5;
+/// Units per millimetre on paper.
+inline constexpr double kUnitsPerMm = 72 / 25.4 / kPointsPerUnit;
 
 /// The format of a file by its ending (.png, .svg, .pdf; case does not matter). Throws InputError
 /// naming the endings of those `allowed` where it is none of them.
@@ -40,10 +42,12 @@ class Canvas {
  public:
   /// Pixels in memory, 4 bytes each: blue, green, red, unused.
   static Canvas raster(int width, int height);
-  /// A page of `width` x `height` units; `format` is svg or pdf.
-  static Canvas vector(PictureFormat format, double width, double height);
-  /// White paper, raster or vector by `format`; a raster has two pixels a unit.
-  static Canvas page(PictureFormat format, double width, double height);
+  /// A page of `width` x `height` units; `format` is svg or pdf. A unit is as many points, or, of
+  /// an SVG where that is 0, a pixel. A PDF has no date: equal figures have equal bytes.
+  static Canvas vector(PictureFormat format, double width, double height, double points = 0);
+  /// White paper, raster or vector by `format`. A PDF has kPointsPerUnit; so has an SVG if `print`,
+  /// else a pixel a unit; a raster has 600 pixels an inch if `print`, else two a unit.
+  static Canvas page(PictureFormat format, double width, double height, bool print = false);
   /// Paints all of it white.
   void clear() const;
 

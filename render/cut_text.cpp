@@ -39,6 +39,22 @@ std::string begin_within(const std::string& s, double widest, const TextWidth& w
   return cut + "…";
 }
 
+std::vector<std::string> lines_within(const std::string& s, double widest, const TextWidth& width) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < s.size();) {
+    std::size_t end = s.find(' ', at);
+    for (std::size_t next = end; next != std::string::npos;) {
+      next = s.find(' ', next + 1);
+      if (width(s.substr(at, next - at)) > widest) break;
+      end = next;
+    }
+    lines.push_back(begin_within(s.substr(at, end - at), widest, width));
+    if (end == std::string::npos) break;
+    at = end + 1;
+  }
+  return lines;
+}
+
 std::vector<std::string> cut_apart(const std::vector<std::string>& names, double widest,
                                    const TextWidth& width) {
   std::vector<std::string> cut;

@@ -11,6 +11,9 @@ using TextWidth = std::function<double(const std::string&)>;
 /// A text no wider than `widest`: its beginning and "…" if it is longer.
 std::string begin_within(const std::string& s, double widest, const TextWidth& width);
 
+/// The text in lines no wider than `widest`, broken at spaces; words that are wider are cut.
+std::vector<std::string> lines_within(const std::string& s, double widest, const TextWidth& width);
+
 /// The names, each no wider than `widest` by `width`, and no two alike that are not: those that are
 /// too wide lose their ends or, if some would read alike then, their beginnings ("…" stands for
 /// them); where that is no better, all are numbered from 1 and lose their ends.

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axes.hpp"
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/median.hpp"
 #include "statistics/quantiles.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -56,8 +58,6 @@ Plot curve_plot(const FoundCurve& c, const DiagnosisSubject& of, bool small) {
 PlotPage maps_page(const Diagnosis& d) {
   PlotPage page;
   page.columns = 4;
-  page.title = "What the baseline leaves unexplained (line), and 95 % of what chance would (band)";
-  page.title += d.subject->curves_of;
   std::vector<FoundCurve> maps = d.maps;
   std::stable_sort(maps.begin(), maps.end(),
                    [](const FoundCurve& a, const FoundCurve& b) { return a.z > b.z; });
@@ -87,7 +87,10 @@ PlotPage laws_page(const Diagnosis& d) {
 Plot fit_plot(const Diagnosis& d) {
   Plot plot;
   const DiagnosisSubject& of = *d.subject;
-  plot.title = of.fit(d.nothing_held_out).figure;
+  if (const double removed = d.removed(); removed > 0) {
+    plot.title =
+        "The findings remove " + number(100 * removed, 0) + " % of the mismatch beyond chance.";
+  }
   plot.x_label = of.measure_axis;
   constexpr double kRoom = 1.2;  // beside the outermost, chance included
   plot.log_x = true, plot.x_low = 1 / kRoom, plot.x_high = kRoom;
@@ -113,23 +116,30 @@ Plot fit_plot(const Diagnosis& d) {
 
 }  // namespace
 
-void draw_diagnosis(const Diagnosis& d, const ReportDocument& report, const std::string& dir) {
+void draw_diagnosis(const Diagnosis& d, const ReportDocument& report, const std::string& dir,
+                    const FigureStyle& style) {
   std::vector<Figure> figures;
-  const auto add = [&](const std::string& name, const std::string& caption, const PlotPage& page) {
-    if (!page.plots.empty()) figures.push_back({name, caption, page, {}});
+  const std::string n = counted(d.recordings, "recording") + " of " + std::to_string(d.modules) +
+                        " " + std::string(d.subject->bodies);
+  const auto add = [&](const std::string& name, const std::string& caption, const PlotPage& page,
+                       const std::string& band) {
+    if (!page.plots.empty()) figures.push_back({name, caption, page, {}, {}, n, band});
   };
+  const std::string null = "95 % of the null hypothesis";
   add("laws",
       "Where each finding acts: what the baseline leaves unexplained (dots), and how far it would "
       "be off by chance (band).",
-      laws_page(d));
+      laws_page(d), null);
   if (!d.held_out.empty()) {
-    add("fit", std::string(d.subject->fit(d.nothing_held_out).figure_caption), {{fit_plot(d)}});
+    add("fit", std::string(d.subject->fit(d.nothing_held_out).figure_caption), {{fit_plot(d)}}, "");
   }
   add("maps",
-      "Maps of the one-step innovations, strongest first. A curve assumes no formula, so its z is "
-      "usually below that of a law that fits. Values that the data hardly constrain are not drawn.",
-      maps_page(d));
-  write_html_report(report, figures, dir);
+      "Maps of the one-step innovations" + std::string(d.subject->curves_of) +
+          ", strongest first: what the baseline leaves unexplained (line), and 95 % of what chance "
+          "would (band). A curve assumes no formula, so its z is usually below that of a law that "
+          "fits. Values that the data hardly constrain are not drawn.",
+      maps_page(d), null);
+  write_html_report(report, figures, dir, style);
 }
 
 }  // namespace lilytank

@@ -95,7 +95,7 @@ std::string mark_of(const StoredRun& run, const FilmOptions& options, const Sche
   }
   hash.add(std::array{when.from, when.to, when.step, options.fps, style.trail,
                       static_cast<double>(style.size), static_cast<double>(style.flow),
-                      static_cast<double>(style.labels)});
+                      static_cast<double>(style.labels), static_cast<double>(style.panel)});
   return kFilmMark + hex(hash.value());
 }
 

@@ -8,6 +8,7 @@
 #include "statistics/median.hpp"
 #include "statistics/undefined.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -43,7 +44,17 @@ void add_arrows(const FlowEstimate& e, MapPanel& out,
 
 Map flow_map(const FlowReport& report, const FlowEstimate& e) {
   Map map;
-  map.title = "Flow of " + report.name + ", " + e.name + " estimate";
+  std::vector<double> speeds, errors;
+  for (const FlowCell& c : e.cell) {
+    if (!c.measured) continue;
+    speeds.push_back(std::hypot(c.flow.mu_x, c.flow.mu_y));
+    errors.push_back(std::hypot(c.error.mu_x, c.error.mu_y) / std::sqrt(2.0));
+  }
+  if (!speeds.empty()) {
+    map.title = "The mean flow is " + significant(100 * median(speeds), 2) +
+                " cm/s in the median cell, its standard error " +
+                significant(100 * median(errors), 2) + " cm/s.";
+  }
   map.tank_radius = report.ball.tank_radius, map.columns = 2;
   map.hatching = kHatching;
   const auto& cell = e.cell;
@@ -83,7 +94,6 @@ Map normality_map(const FlowReport& report, const FlowEstimate& e) {
   Map map;
   const double level = report.options.significance;
   const std::string percent = significant(100 * level, 3) + " %";
-  map.title = "Is the flow of " + report.name + " normal in each cell?";
   map.tank_radius = report.ball.tank_radius, map.columns = 2;
   for (const bool along_x : {true, false}) {
     std::vector<double> every, thinned;
@@ -100,6 +110,14 @@ Map normality_map(const FlowReport& report, const FlowEstimate& e) {
     map.panels.push_back(rejections(e, "Independent, Lilliefors, FDR " + percent + axis, thinned,
                                     false_discovery(thinned, level)));
   }
+  std::int64_t rejected = 0, tests = 0;
+  for (const std::size_t panel : {1u, 3u}) {
+    for (const double v : map.panels[panel].values) {
+      tests += std::isnan(v) ? 0 : 1, rejected += v > 0.5 ? 1 : 0;
+    }
+  }
+  map.title = "Independent samples reject a normal distribution in " + std::to_string(rejected) +
+              " of " + counted(tests, "test") + ".";
   // Rows are the two tests, columns the axes.
   std::swap(map.panels[1], map.panels[2]);
   return map;
@@ -120,7 +138,6 @@ double scale_of(const std::vector<MapPanel>& panels) {
 
 Map error_map(const FlowReport& report) {
   Map map;
-  map.title = "Errors of the flow of " + report.name;
   map.hatching = kHatching;
   map.tank_radius = report.ball.tank_radius;
   map.columns = static_cast<int>(report.estimates.size());
@@ -150,38 +167,52 @@ Map error_map(const FlowReport& report) {
   return map;
 }
 
+std::string samples_text(const FlowEstimate& e) {
+  return std::to_string(e.samples) + (e.noise ? " momentum balances" : " frames") + " in " +
+         counted(e.measured(), "cell");
+}
+
 }  // namespace
 
 std::vector<Figure> flow_maps(const FlowReport& report) {
   std::vector<Figure> figures;
   for (const FlowEstimate& e : report.estimates) {
     figures.push_back({"flow_" + e.name,
-                       "Flow of the " + e.name +
+                       "Flow of " + report.name + ", " + e.name +
                            " estimate: mean velocity, standard deviation, standard error, samples.",
                        {},
-                       flow_map(report, e)});
+                       flow_map(report, e),
+                       {},
+                       samples_text(e)});
     if (e.thinning > 0) {
       figures.push_back({"normality",
                          "Cells in which a test rejects a normal distribution of the velocity.",
                          {},
-                         normality_map(report, e)});
+                         normality_map(report, e),
+                         {},
+                         samples_text(e)});
     }
   }
   if (report.truth) {
-    figures.push_back(
-        {"errors", "Errors of the estimates against the true flow.", {}, error_map(report)});
+    figures.push_back({"errors",
+                       "Errors of the estimates against the true flow.",
+                       {},
+                       error_map(report),
+                       {},
+                       samples_text(report.estimates.back())});
   }
   return figures;
 }
 
-void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir) {
+void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir,
+               const FigureStyle& style) {
   std::vector<Figure> figures = flow_maps(flow);
   // The picture beside the verdict is of the estimate that it is about, the last one.
   const auto last = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) {
     return f.name == "flow_" + flow.estimates.back().name;
   });
   std::rotate(figures.begin(), last, last + 1);
-  write_html_report(report, figures, dir);
+  write_html_report(report, figures, dir, style);
 }
 
 }  // namespace lilytank

@@ -5,7 +5,11 @@
 #include <cstring>
 
 #include "io/atomic_file.hpp"
+#include "page_fit.hpp"
 #include "palette.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
+#include "view/streamlines.hpp"
 
 namespace lilytank {
 namespace {
@@ -29,19 +33,21 @@ int width_for(int height) {
   return 2 * static_cast<int>(std::lround(height * 8.0 / 9.0));
 }
 
-FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double speed)
+FramePainter::FramePainter(const StoredRun& run, const FrameStyle& style, double speed,
+                           double least_text)
     : run_(run),
       style_(checked(style, run)),
       view_(view_of_tank(run.scenario.model.tank.radius)),
       pumps_(run),
+      least_text_(least_text),
       panel_(run, style, kPanel, speed),
-      bodies_(run.scenario.model, view_, style.labels) {}
+      bodies_(run.scenario.model, view_, style.labels, least_text) {}
 
 void FramePainter::draw_static(const Canvas& canvas, int field) const {
   canvas.clear();
   draw_tank(canvas, view_, run_.scenario.model, style_.flow, field);
-  draw_scale_bar(canvas, view_, run_.scenario.model, 60, 1036);
-  panel_.draw_static(canvas, field, pumps_.power_of(field));
+  draw_scale_bar(canvas, view_, run_.scenario.model, 60, 1036, least_text_);
+  if (style_.panel) panel_.draw_static(canvas, field, pumps_.power_of(field));
 }
 
 void FramePainter::draw_moving(const Canvas& canvas, double time) {
@@ -49,18 +55,20 @@ void FramePainter::draw_moving(const Canvas& canvas, double time) {
   interpolate(run_.trajectory, run_.scenario.model.module.side, time, now_);
   bodies_.trails(canvas, run_.trajectory, now_, style_.trail);
   bodies_.bodies(canvas, now_);
-  panel_.draw_moving(canvas, now_);
+  if (style_.panel) panel_.draw_moving(canvas, now_);
 }
 
 FrameRaster::FrameRaster(const StoredRun& run, const FrameStyle& style, double speed, int height)
-    : width_(width_for(height)),
+    : panel_(style.panel),
+      width_(panel_ ? width_for(height) : height / 2 * 2),
       height_(height),
       painter_(run, style, speed),
       page_(scaled_page()) {}
 
 Canvas FrameRaster::scaled_page() const {
   Canvas page = Canvas::raster(width_, height_);
-  cairo_scale(page.get(), width_ / kPageWidth, height_ / kPageHeight);
+  cairo_scale(page.get(), width_ / (panel_ ? kPageWidth : kTankPage), height_ / kPageHeight);
+  if (!panel_) cairo_translate(page.get(), -kTankPageLeft, 0);
   return page;
 }
 
@@ -83,26 +91,85 @@ Canvas& FrameRaster::draw(double time) {
   return page_;
 }
 
+std::string bodies_text(const StoredRun& run) {
+  const int balls = run.trajectory.bodies - run.trajectory.modules;
+  std::string out;
+  if (run.trajectory.modules > 0) out = counted(run.trajectory.modules, "module");
+  if (balls > 0) out += (out.empty() ? "" : ", ") + counted(balls, "ball");
+  return out;
+}
+
+Figure frame_figure(const StoredRun& run, double time, const FrameStyle& style) {
+  const Pumps pumps(run);
+  Figure figure;
+  std::string& out = figure.caption;
+  out = "The tank seen from above at " + significant(time, 6) + " s.";
+  if (run.trajectory.modules > 0) {
+    out +=
+        " Squares: modules in the colour of their control state (grey: 0), paler outside a "
+        "completed copy, which has an orange outline.";
+    if (style.labels) {
+      out += " Numbers: control state; blue or white bar: connector engaged last.";
+    }
+  }
+  if (style.trail > 0) out += " Trails: the last " + significant(style.trail, 3) + " s.";
+  if (style.flow != FlowStyle::none && peak_of_all(run.scenario.model) > 0) {
+    out += style.flow == FlowStyle::arrows ? " Arrows" : " Lines";
+    out += ": mean flow, stronger where it is faster.";
+  }
+  const std::string power = pumps.power_of(pumps.field_at(time));
+  if (!power.empty()) out += " Pump power: " + power + ".";
+  figure.n = bodies_text(run) + " in 1 run";
+  return figure;
+}
+
+std::string frame_caption(const StoredRun& run, double time, const FrameStyle& style,
+                          const ReportProvenance& provenance) {
+  return caption_text(frame_figure(run, time, style), provenance);
+}
+
+namespace {
+
+// On paper: the tank alone, texts as large as those of other figures.
+std::string paper_picture(const StoredRun& run, double time, FrameStyle style, PictureFormat format,
+                          const FigureStyle& paper) {
+  constexpr double kPaperText = 14;  // units of paper, 7 pt
+  style.panel = false;
+  const double width = paper_width(paper), scale = width / kTankPage;
+  FramePainter painter(run, style, 0, kPaperText / scale);
+  Canvas canvas = Canvas::page(format, width, width, true);
+  cairo_scale(canvas.get(), scale, scale);
+  cairo_translate(canvas.get(), -kTankPageLeft, 0);
+  painter.draw_static(canvas, painter.field_at(time));
+  painter.draw_moving(canvas, time);
+  return canvas.encoded();
+}
+
+}  // namespace
+
 std::string frame_picture(const StoredRun& run, double time, const FrameStyle& style,
-                          const std::string& file) {
-  const PictureFormat format = format_of(file, {PictureFormat::png, PictureFormat::svg});
+                          const std::string& file, const FigureStyle& paper) {
+  const PictureFormat format = format_of(file);
   check_time(run.trajectory, time);
+  if (paper.on_paper()) return paper_picture(run, time, style, format, paper);
   if (format == PictureFormat::png) {
     FrameRaster raster(run, style, 0, style.size);
     return std::string(raster.draw(time).encoded());
   }
   FramePainter painter(run, style, 0);
   const double scale = style.size / kPageHeight;
-  Canvas canvas = Canvas::vector(format, width_for(style.size), style.size);
+  const double width = style.panel ? width_for(style.size) : style.size;
+  Canvas canvas = Canvas::vector(format, width, style.size);
   cairo_scale(canvas.get(), scale, scale);
+  if (!style.panel) cairo_translate(canvas.get(), -kTankPageLeft, 0);
   painter.draw_static(canvas, painter.field_at(time));
   painter.draw_moving(canvas, time);
   return std::string(canvas.encoded());
 }
 
-void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
-                const std::string& file) {
-  write_atomically(file, frame_picture(run, time, style, file));
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style, const std::string& file,
+                const FigureStyle& paper) {
+  write_atomically(file, frame_picture(run, time, style, file, paper));
 }
 
 }  // namespace lilytank

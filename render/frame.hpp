@@ -15,8 +15,9 @@ namespace lilytank {
 class FramePainter {
  public:
   /// `run` must outlive the painter. `speed`: simulated seconds per second of film, 0: a still.
-  /// Throws InputError for a style out of bounds or a run without frames.
-  FramePainter(const StoredRun& run, const FrameStyle& style, double speed);
+  /// `least_text`: units, smallest text at the tank. Throws InputError for a style out of bounds or
+  /// a run without frames.
+  FramePainter(const StoredRun& run, const FrameStyle& style, double speed, double least_text = 0);
 
   /// Number of the flow in force at a time (s). While it stays, so does all that draw_static draws.
   int field_at(double time) const { return pumps_.field_at(time); }
@@ -30,6 +31,7 @@ class FramePainter {
   FrameStyle style_;
   View view_;
   Pumps pumps_;
+  double least_text_;
   Panel panel_;
   BodyPainter bodies_;
   Snapshot now_;
@@ -49,11 +51,17 @@ class FrameRaster {
   Canvas scaled_page() const;
   const Canvas& background(int field);
 
+  bool panel_;
   int width_, height_;
   FramePainter painter_;
   std::map<int, Canvas> backgrounds_;  // by the flow in force
   Canvas page_;
 };
+
+/// The caption of a frame, for a figure whose name the caller knows.
+Figure frame_figure(const StoredRun& run, double time, const FrameStyle& style);
+/// "15 modules, 3 balls".
+std::string bodies_text(const StoredRun& run);
 
 /// Pixels across for a height: 16/9 of it, to the nearest even number.
 int width_for(int height);

@@ -3,21 +3,58 @@
 #include <cmath>
 #include <filesystem>
 
+#include "frame.hpp"
 #include "io/atomic_file.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 
+std::string whole_caption(const Figure& figure) {
+  std::string out = figure.caption;
+  if (!figure.n.empty()) out += " n: " + figure.n + ".";
+  if (!figure.band.empty()) out += " Bands: " + figure.band + ".";
+  return out;
+}
+
+std::string caption_file(const std::string& picture) {
+  return std::filesystem::path(picture).replace_extension(".caption.txt").string();
+}
+
+std::string caption_text(const Figure& figure, const ReportProvenance& provenance) {
+  std::string out = figure.caption + "\n";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) out += name + ": " + value + "\n";
+  };
+  out += "\n";
+  add("n", figure.n.empty() ? "see the report" : figure.n);
+  add("bands", figure.band.empty() ? "none" : figure.band);
+  add("seed", provenance.seed);
+  add("command", provenance.command);
+  add("version", provenance.version.empty() ? "" : "lilytank " + provenance.version);
+  return out;
+}
+
+void draw_figures(const std::vector<Figure>& figures, const ReportProvenance& provenance,
+                  const std::string& dir, const FigureStyle& style) {
+  const std::filesystem::path path(dir);
+  for (const Figure& f : figures) {
+    for (const char* ending : {".png", ".svg", ".pdf"}) {
+      const std::string file = (path / (f.name + ending)).string();
+      if (!f.page.plots.empty()) draw_plots(f.page, file, style);
+      if (!f.map.panels.empty()) draw_map(f.map, file, style);
+      if (!f.corner.axes.empty()) draw_corner(f.corner, file, style);
+    }
+    write_atomically((path / (f.name + ".caption.txt")).string(), caption_text(f, provenance));
+  }
+}
+
 void write_html_report(const ReportDocument& report, const std::vector<Figure>& figures,
-                       const std::string& dir) {
+                       const std::string& dir, const FigureStyle& style) {
+  draw_figures(figures, report.provenance, dir, style);
   const std::filesystem::path path(dir);
   std::vector<ReportPicture> pictures;
   for (const Figure& f : figures) {
-    for (const char* ending : {".png", ".svg"}) {
-      const std::string file = (path / (f.name + ending)).string();
-      if (!f.page.plots.empty()) draw_plots(f.page, file);
-      if (!f.map.panels.empty()) draw_map(f.map, file);
-    }
-    pictures.push_back({read_whole((path / (f.name + ".svg")).string()), f.name, f.caption});
+    pictures.push_back({read_whole((path / (f.name + ".svg")).string()), f.name, whole_caption(f)});
   }
   write_atomically((path / "report.html").string(), report_html(report, pictures));
 }
@@ -36,15 +73,19 @@ MapPanel velocity_panel(const std::string& title, const VelocityMap& map,
   return panel;
 }
 
-void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir) {
-  FrameStyle style;
-  style.flow = FlowStyle::none;  // thousands of arrows would be most of the page
-  draw_frame(run, run.trajectory.time.back(), style,
-             (std::filesystem::path(dir) / "frame.svg").string());
-  write_html_report(report,
-                    {{"frame", "The tank at the end of the run.", {}, {}},
-                     {"yield", "Completed copies over time.", {{yield_plot(run)}}, {}}},
-                    dir);
+void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir,
+              const FigureStyle& style) {
+  FrameStyle look;
+  look.flow = FlowStyle::none;  // thousands of arrows would be most of the page
+  const double end = run.trajectory.time.back();
+  for (const char* file : {"frame.svg", "frame.pdf"}) {
+    draw_frame(run, end, look, (std::filesystem::path(dir) / file).string(), style);
+  }
+  Figure frame = frame_figure(run, end, look);
+  frame.name = "frame";
+  Figure yield{"yield", "Completed copies of the target over time.", {{yield_plot(run)}}, {}};
+  yield.n = "1 run of " + bodies_text(run);
+  write_html_report(report, {frame, yield}, dir, style);
 }
 
 Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
@@ -76,14 +117,20 @@ Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
   return plot;
 }
 
-void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir) {
-  const std::string caption =
-      "Convergence: the best point so far and the median of each iteration.";
-  write_html_report(report, {{"fitness", caption, {{plot}}, {}}}, dir);
+void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir,
+                 const FigureStyle& style) {
+  Figure figure{
+      "fitness", "Convergence: the best point so far and the median of each iteration.", {{plot}}};
+  if (!plot.curves.empty() && !plot.curves[0].x.empty()) {
+    figure.n = significant(plot.curves[0].x.back(), 9) + " evaluations in " +
+               std::to_string(plot.curves[0].x.size()) + " iterations";
+  }
+  write_html_report(report, {figure}, dir, style);
 }
 
-void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir) {
-  write_html_report(report, study_plots(summary), dir);
+void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir,
+                const FigureStyle& style) {
+  write_html_report(report, study_plots(summary), dir, style);
 }
 
 }  // namespace lilytank

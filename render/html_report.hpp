@@ -8,11 +8,13 @@
 
 namespace lilytank {
 
-/// Draws the figures in a directory, each as .png and .svg, and writes report.html, one file with
-/// the report and all of them. A figure without plots and maps has its .svg there already. Throws
-/// InputError if a file cannot be written.
+/// draw_figures(), and report.html: one file with the report and all figures. A figure without
+/// plots, maps and a corner has its pictures there already.
 void write_html_report(const ReportDocument& report, const std::vector<Figure>& figures,
-                       const std::string& dir);
+                       const std::string& dir, const FigureStyle& style);
+
+/// What is shown, n and the band's level, as sentences.
+std::string whole_caption(const Figure& figure);
 
 /// Values in another unit.
 std::vector<double> divided(std::vector<double> values, double by);

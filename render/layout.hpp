@@ -5,6 +5,8 @@ namespace lilytank {
 
 constexpr double kPageWidth = 1920, kPageHeight = 1080;  // units
 constexpr double kTankCentreX = 560, kTankCentreY = 540;
+/// Without the panel the page is square about the tank: this much of it is cut off on the left.
+constexpr double kTankPage = kPageHeight, kTankPageLeft = kTankCentreX - kTankPage / 2;
 constexpr double kTankRadius = 466;  // units; the rim and the inlets come on top
 
 /// From metres (y up, origin in the tank's centre) to units (y down).

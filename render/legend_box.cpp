@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cut_text.hpp"
 #include "palette.hpp"
@@ -138,6 +139,39 @@ LegendBox place_legend(const LegendBox& size, const Plot& plot, const PlotArea& 
     first = false;
   }
   return best;
+}
+
+PageKey page_key(const Canvas& canvas, const PlotPage& page, double width) {
+  constexpr double kLeft = 26, kBetween = 22;
+  PageKey key;
+  for (const Plot& plot : page.plots) {
+    if (key.title.empty()) key.title = plot.legend_title;
+  }
+  double x = kLeft, y = kBoxRow / 2;
+  if (!key.title.empty()) x += canvas.width_of(key.title, kBoxTitle) + kBetween;
+  std::set<std::pair<std::string, int>> known;
+  for (const Plot& plot : page.plots) {
+    for (std::size_t i = 0; i < plot.curves.size(); ++i) {
+      const std::string& name = plot.curves[i].name;
+      if (name.empty() || !known.emplace(name, static_cast<int>(i)).second) continue;
+      const double room = width - 2 * kLeft - kSample - kBoxGap;
+      const std::string text = canvas.fitted(name, room, kName);
+      const double wide = kSample + kBoxGap + canvas.width_of(text, kName);
+      if (x > kLeft && x + wide > width - kLeft) x = kLeft, y += kBoxRow;
+      key.entries.push_back({&plot.curves[i], static_cast<int>(i), text, x, y});
+      x += wide + kBetween;
+    }
+  }
+  if (!key.entries.empty()) key.height = y + kBoxRow;
+  return key;
+}
+
+void draw_page_key(const Canvas& canvas, const PageKey& key, double top) {
+  for (const PageKey::Entry& e : key.entries) {
+    draw_sample(canvas, *e.curve, e.index, e.x, top + e.y, kSample);
+    canvas.text(e.x + kSample + kBoxGap, top + e.y + 5, e.text, kName);
+  }
+  if (!key.title.empty()) canvas.text(26, top + kBoxRow / 2 + 5, key.title, kBoxTitle);
 }
 
 void draw_legend_box(const Canvas& canvas, const LegendBox& box, const Plot& plot) {

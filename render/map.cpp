@@ -3,21 +3,19 @@
 
 #include "io/atomic_file.hpp"
 #include "map_panel.hpp"
+#include "page_fit.hpp"
 #include "palette.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr double kLeft = 62, kTop = 40, kBottom = 54;  // room around a panel, units
-constexpr double kKeyHeight = 30;                      // below all panels, units
-constexpr double kScale = 116, kClassLegend = 170,
-                 kRightGap = 12;  // to its right: bar, legend, nothing
+constexpr double kKeyHeight = 30;  // below all panels, units
 
-// The panels on the page, and which of them show a scale.
+// The panels on the page.
 struct MapPage {
   double width = 0, height = 0;
   std::vector<PanelPlace> places;
-  std::vector<bool> scales;
+  std::vector<std::string> title;
   bool key = false;  ///< of the hatching
 };
 
@@ -25,34 +23,30 @@ bool is_hatched(const MapPanel& panel) {
   return std::find(panel.hatched.begin(), panel.hatched.end(), true) != panel.hatched.end();
 }
 
-MapPage page_of(const Map& map) {
+// On paper, inner panels of a row have no numbers at their y axes.
+MapPage page_of(const Canvas& ruler, const Map& map, const FigureStyle& style) {
   MapPage page;
   const auto columns = static_cast<std::size_t>(std::max(1, map.columns));
   const double size = map.panel_size;
   const std::size_t n = map.panels.size();
-  page.scales.assign(n, true);
-  // Room right of a column is the same in all rows, so that panels stand below each other.
-  std::vector<double> room(columns, kRightGap);
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool last = i + 1 == n || (i + 1) % columns == 0;
-    page.scales[i] = last || !same_scale(map.panels[i], map.panels[i + 1]);
-    if (!page.scales[i]) continue;
-    double& r = room[i % columns];
-    r = std::max(r, map.panels[i].classes.empty() ? kScale : kClassLegend);
-  }
-  double y = map.title.empty() ? 0 : 34;
+  const std::vector<double> room = room_right(map);
+  const auto left = [&](std::size_t column) {
+    return column > 0 && style.on_paper() ? MapRoom::inner : MapRoom::left;
+  };
+  for (std::size_t c = 0; c < std::min(columns, n); ++c) page.width += left(c) + size + room[c];
+  page.width = std::max(style.on_paper() ? paper_width(style) : page.width, 100.0);
+  page.title = title_lines(ruler, map.title, page.width);
+  double y = map.title.empty() ? 0 : 34 + further_lines(page.title);
   for (std::size_t i = 0; i < n;) {
     double x = 0;
     for (std::size_t c = 0; c < columns && i < n; ++c, ++i) {
-      page.places.push_back({x + kLeft, y + kTop, size});
-      x += kLeft + size + room[c];
+      page.places.push_back({x + left(c), y + MapRoom::top, size, left(c) >= MapRoom::left});
+      x += left(c) + size + room[c];
     }
-    page.width = std::max(page.width, x);
-    y += kTop + size + kBottom;
+    y += MapRoom::top + size + MapRoom::bottom;
   }
   page.key = !map.hatching.empty() && std::any_of(map.panels.begin(), map.panels.end(), is_hatched);
   page.height = std::max(y + (page.key ? kKeyHeight : 0), 100.0);
-  page.width = std::max(page.width, 100.0);
   return page;
 }
 
@@ -70,18 +64,18 @@ void check(const Map& map) {
 
 }  // namespace
 
-void draw_map(const Map& map, const std::string& file) {
+void draw_map(const Map& map, const std::string& file, const FigureStyle& style) {
   const PictureFormat format = format_of(file);
   check(map);
-  const MapPage page = page_of(map);
-  Canvas canvas = Canvas::page(format, page.width, page.height);
-  const TextStyle title{17, palette::ink, true, Align::centre};
-  canvas.text(page.width / 2, 26, canvas.fitted(map.title, page.width - 20, title), title);
-  for (std::size_t i = 0; i < map.panels.size(); ++i) {
-    draw_panel(canvas, map.panels[i], map.tank_radius, page.places[i]);
-    if (page.scales[i]) draw_scale(canvas, map.panels[i], page.places[i]);
+  const Map shown = fitted(map, style);
+  const MapPage page = page_of(Canvas::raster(8, 8), shown, style);
+  Canvas canvas = Canvas::page(format, page.width, page.height, style.on_paper());
+  draw_title(canvas, page.title, page.width / 2, 26);
+  for (std::size_t i = 0; i < shown.panels.size(); ++i) {
+    draw_panel(canvas, shown.panels[i], shown.tank_radius, page.places[i]);
+    if (shows_scale(shown, i)) draw_scale(canvas, shown.panels[i], page.places[i]);
   }
-  if (page.key) draw_hatching_key(canvas, map.hatching, kLeft, page.height - 15);
+  if (page.key) draw_hatching_key(canvas, shown.hatching, MapRoom::left, page.height - 15);
   write_atomically(file, canvas.encoded());
 }
 

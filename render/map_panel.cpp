@@ -191,7 +191,9 @@ void draw_arrows(const Canvas& canvas, const MapPanel& panel, const PanelPlace& 
 void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& place) {
   constexpr double kTick = 5;
   const double cm = 100 * panel.extent;
-  const Axis axis = make_axis(-cm, cm, false, 5, true);
+  constexpr double kEvery = 50;  // units from a number to the next, at least
+  const int numbers = std::min(5, static_cast<int>(place.size / kEvery));
+  const Axis axis = make_axis(-cm, cm, false, numbers, true);
   cairo_rectangle(canvas.get(), place.left, place.top, place.size, place.size);
   canvas.stroke(palette::ink, 1.1);
   TextStyle right = kMapTickText;
@@ -203,10 +205,11 @@ void draw_axes(const Canvas& canvas, const MapPanel& panel, const PanelPlace& pl
     canvas.line(x, place.bottom(), x, place.bottom() + kTick, palette::ink, 1.1);
     canvas.line(place.left - kTick, y, place.left, y, palette::ink, 1.1);
     canvas.text(x, place.bottom() + 20, t.label, kMapTickText);
-    canvas.text(place.left - 9, y + 4.5, t.label, right);
+    if (place.y_numbers) canvas.text(place.left - 9, y + 4.5, t.label, right);
   }
   const TextStyle label{14, palette::ink, false, Align::centre};
   canvas.text(place.left + place.size / 2, place.bottom() + 40, "x (cm)", label);
+  if (!place.y_numbers) return;
   canvas.upright_text(place.left - 40, place.top + place.size / 2, "y (cm)", label);
 }
 

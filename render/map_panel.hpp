@@ -8,6 +8,7 @@ namespace lilytank {
 /// Where a panel's square lies on the page, units.
 struct PanelPlace {
   double left = 0, top = 0, size = 340;
+  bool y_numbers = true;  ///< and the axis' name
   double right() const { return left + size; }
   double bottom() const { return top + size; }
 };

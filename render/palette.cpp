@@ -9,11 +9,11 @@ namespace lilytank {
 namespace {
 
 // In an order that keeps the states of the first joins far apart.
-constexpr std::array<Colour, 9> kStates = {rgb(0x44AA99), rgb(0xDDCC77), rgb(0xCC6677),
-                                           rgb(0x332288), rgb(0x88CCEE), rgb(0xAA4499),
-                                           rgb(0x999933), rgb(0x117733), rgb(0x882255)};
-constexpr std::array<Colour, 6> kCurves = {rgb(0x0C5DA5), rgb(0xD1495B), rgb(0x228833),
-                                           rgb(0xE0A100), rgb(0x7A3E9D), rgb(0x33A6C4)};
+constexpr std::array<Colour, 9> kStates = {rgb(0x39C77B), rgb(0xEBD95C), rgb(0xB8708D),
+                                           rgb(0x332288), rgb(0x9EB1FF), rgb(0x9E59A6),
+                                           rgb(0x96932D), rgb(0x035312), rgb(0x7F0953)};
+constexpr std::array<Colour, 6> kCurves = {rgb(0x0C5DA5), rgb(0xC0091F), rgb(0x30A57A),
+                                           rgb(0xDF9C05), rgb(0x6F0146), rgb(0x3EBAD5)};
 
 // Nine samples of "viridis" (Smith and van der Walt), and P. Tol's "BuRd".
 constexpr std::array<Colour, 9> kRising = {rgb(0x440154), rgb(0x472D7B), rgb(0x3B528B),
@@ -22,8 +22,8 @@ constexpr std::array<Colour, 9> kRising = {rgb(0x440154), rgb(0x472D7B), rgb(0x3
 constexpr std::array<Colour, 9> kDiverging = {rgb(0x2166AC), rgb(0x4393C3), rgb(0x92C5DE),
                                               rgb(0xD1E5F0), rgb(0xF7F7F7), rgb(0xFDDBC7),
                                               rgb(0xF4A582), rgb(0xD6604D), rgb(0xB2182B)};
-constexpr std::array<Colour, 5> kClasses = {rgb(0xB9D9EB), rgb(0x2B4C6F), rgb(0xD1495B),
-                                            rgb(0xE0A100), rgb(0x228833)};
+constexpr std::array<Colour, 5> kClasses = {rgb(0xB9D9EB), rgb(0x2B4C6F), rgb(0xC0091F),
+                                            rgb(0xDF9C05), rgb(0x30A57A)};
 
 double linear(double channel) {
   return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);

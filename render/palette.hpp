@@ -1,6 +1,6 @@
 // The colours of all pictures: calm, and distinguishable by readers with any colour vision.
 #pragma once
-#include "canvas.hpp"
+#include "colour.hpp"
 #include "lilytank/render.hpp"
 
 namespace lilytank {
@@ -26,10 +26,11 @@ inline constexpr Colour accent{0.000, 0.353, 0.604};
 inline constexpr Colour isolated{0.831, 0.851, 0.867};
 }  // namespace palette
 
-/// The colour of control state l_a: neutral for 0, then nine hues after P. Tol's "muted" scheme,
+/// The colour of control state l_a: neutral for 0, then nine hues near P. Tol's "muted" scheme,
 /// which begin again in lighter and darker tones.
 Colour colour_of_state(int state);
-/// The colour of curve i of a plot (after P. Tol's "bright" and "vibrant" schemes), six in turn.
+/// The colour of curve i of a plot, six in turn. tests/render/palette_test.cpp bounds the distance
+/// of every pair, also as seen without red or green cones.
 Colour colour_of_curve(int curve);
 
 /// The colour at `share`, 0 .. 1, of the way along a scale for numbers, held at its ends. Scales

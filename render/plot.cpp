@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/atomic_file.hpp"
+#include "page_fit.hpp"
 #include "palette.hpp"
 #include "plot_area.hpp"
 
@@ -14,7 +15,6 @@ constexpr double kMargin = 26;              // units, to the right of the area
 constexpr double kBeside = 24;              // units, around a legend beside the area
 const TextStyle kTickText{14, palette::ink, false, Align::left};
 const TextStyle kLabelText{16, palette::ink, false, Align::centre};
-const TextStyle kTitleText{17, palette::ink, true, Align::centre};
 
 struct DataRange {
   Range x, y;
@@ -68,11 +68,13 @@ Axis named_axis(const std::vector<std::string>& names) {
 }
 
 void choose_axes(const Plot& plot, PlotArea& area) {
+  // Units from a number to the next: small plots have at least a few of them.
+  const double x_step = area.width < 450 ? 80 : 110, y_step = area.height < 260 ? 50 : 70;
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
   double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();
   if (is_range(plot.x_low, plot.x_high)) low = plot.x_low, high = plot.x_high;
-  area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / 110),
+  area.x = make_axis(low, high, plot.log_x, static_cast<int>(area.width / x_step),
                      data.x.whole() && !data.x.empty());
   if (!plot.y_names.empty()) {
     area.y = named_axis(plot.y_names);
@@ -84,7 +86,7 @@ void choose_axes(const Plot& plot, PlotArea& area) {
     low = plot.y_low, high = plot.y_high;
   else if (high > low)
     widen(low, high, plot.log_y);
-  area.y = make_axis(low, high, plot.log_y, static_cast<int>(area.height / 70),
+  area.y = make_axis(low, high, plot.log_y, static_cast<int>(area.height / y_step),
                      data.y.whole() && !data.y.empty());
 }
 
@@ -99,6 +101,7 @@ double widest_label(const Canvas& canvas, const Axis& axis) {
 struct Margins {
   double left = 0, right = kMargin;  // units; the left one at least so wide
   bool legends = false;              // they stand on the right, beside the area
+  bool key = false;                  // or once below all plots
 };
 
 // The area depends on the labels' widths, which depend on the area's size: two rounds settle it.
@@ -106,7 +109,8 @@ PlotArea layout(const Canvas& canvas, const Plot& plot, const Margins& margins) 
   PlotArea area;
   area.left = std::max(80.0, margins.left);
   for (int round = 0; round < 2; ++round) {
-    area.top = plot.title.empty() ? 22 : 50;
+    const auto title = title_lines(canvas, plot.title, plot.width);
+    area.top = title.empty() ? 22 : 50 + further_lines(title);
     area.width = std::max(40.0, plot.width - area.left - margins.right);
     area.height = std::max(40.0, plot.height - area.top - (plot.x_label.empty() ? 40 : 66));
     choose_axes(plot, area);
@@ -122,27 +126,28 @@ bool leaves_room(const LegendBox& legend, const Plot& plot) {
   return legend.height > 0 && legend.width < 0.45 * plot.width;
 }
 
-// What a plot alone would take.
-Margins margins_of(const Canvas& canvas, const Plot& plot) {
-  const PlotArea area = layout(canvas, plot, {});
-  Margins out{area.left, kMargin, false};
+// Whether a legend in the area would hide much.
+bool is_crowded(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   const LegendBox legend = legend_size(canvas, plot);
-  if (!leaves_room(legend, plot)) return out;
+  if (legend.height <= 0) return false;
   std::size_t hidden = 0;
   place_legend(legend, plot, area, hidden);
-  const bool fits = legend.height < area.height - 20 && legend.width < 0.6 * area.width;
-  // A legend that would hide much goes beside the plot, where that leaves room for the plot.
-  out.legends = hidden > 6 || !fits;
-  return out;
+  return hidden > 6 || legend.height > area.height - 20 || legend.width > 0.6 * area.width;
 }
 
 // Plots of a page have the same margins: panels are equally large, and axes above each other agree.
-Margins margins_of(const Canvas& canvas, const PlotPage& page) {
+// Legends without room in the area go beside a plot that is alone, where that leaves room for it;
+// on paper, and of several plots, below all.
+Margins margins_of(const Canvas& canvas, const PlotPage& page, const FigureStyle& style) {
   Margins all;
+  bool crowded = false;
   for (const Plot& plot : page.plots) {
-    const Margins own = margins_of(canvas, plot);
-    all.left = std::max(all.left, own.left), all.legends = all.legends || own.legends;
+    const PlotArea area = layout(canvas, plot, {});
+    all.left = std::max(all.left, area.left);
+    crowded = crowded || is_crowded(canvas, plot, area);
   }
+  all.key = crowded && (style.on_paper() || page.plots.size() > 1);
+  all.legends = crowded && !all.key;
   for (const Plot& plot : page.plots) {
     const LegendBox legend = legend_size(canvas, plot);
     if (all.legends && leaves_room(legend, plot)) {
@@ -203,7 +208,7 @@ void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
 
 void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   const double middle = area.left + area.width / 2;
-  canvas.text(middle, 30, canvas.fitted(plot.title, plot.width - 20, kTitleText), kTitleText);
+  draw_title(canvas, title_lines(canvas, plot.title, plot.width), plot.width / 2.0, 30);
   canvas.text(middle, area.bottom() + 46, canvas.fitted(plot.x_label, area.width, kLabelText),
               kLabelText);
   canvas.upright_text(24, area.top + area.height / 2,
@@ -230,7 +235,7 @@ void draw_points(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
 
 void draw_all(const Canvas& canvas, const Plot& plot, const Margins& margins) {
   const PlotArea area = layout(canvas, plot, margins);
-  LegendBox legend = legend_size(canvas, plot);
+  LegendBox legend = margins.key ? LegendBox{} : legend_size(canvas, plot);
   if (margins.legends && leaves_room(legend, plot)) {
     legend.x = area.right() + kBeside / 2, legend.y = area.top - 4;
     legend.inside = false;
@@ -260,8 +265,9 @@ void check_size(int width, int height) {
 }
 
 // Where each plot of a page lies, and the page's own size.
+constexpr int kTitleHeight = 44;  // height, of one line
 struct PageLayout {
-  static constexpr int kTitle = 44;
+  std::vector<std::string> title;
   struct At {
     int x = 0, y = 0;
   };
@@ -269,16 +275,21 @@ struct PageLayout {
   int width = 0, height = 0;
 };
 
-PageLayout layout(const PlotPage& page) {
+PageLayout layout(const Canvas& ruler, const PlotPage& page) {
   PageLayout out;
   const auto columns = static_cast<std::size_t>(std::max(1, page.columns));
   int x = 0, row = 0;
-  if (!page.title.empty()) out.height = PageLayout::kTitle;
+  for (std::size_t i = 0; i < page.plots.size(); ++i) {
+    x = i % columns == 0 ? page.plots[i].width : x + page.plots[i].width;
+    out.width = std::max(out.width, x);
+  }
+  out.title = title_lines(ruler, page.title, out.width);
+  if (!out.title.empty()) out.height = kTitleHeight + static_cast<int>(further_lines(out.title));
+  x = 0;
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     if (i > 0 && i % columns == 0) out.height += row, x = row = 0;
     out.at.push_back({x, out.height});
     x += page.plots[i].width, row = std::max(row, page.plots[i].height);
-    out.width = std::max(out.width, x);
   }
   out.height += row;
   return out;
@@ -286,15 +297,19 @@ PageLayout layout(const PlotPage& page) {
 
 }  // namespace
 
-void draw_plots(const PlotPage& page, const std::string& file) {
+void draw_plots(const PlotPage& given, const std::string& file, const FigureStyle& style) {
   const PictureFormat format = format_of(file);
-  const PageLayout places = layout(page);
+  for (const Plot& plot : given.plots) check_size(plot.width, plot.height);
+  const PlotPage page = fitted(given, style);
+  const Canvas ruler = Canvas::raster(8, 8);
+  const PageLayout places = layout(ruler, page);
   check_size(places.width, places.height);
-  for (const Plot& plot : page.plots) check_size(plot.width, plot.height);
-  Canvas canvas = Canvas::page(format, places.width, places.height);
-  canvas.text(places.width / 2.0, 30, canvas.fitted(page.title, places.width - 20, kTitleText),
-              kTitleText);
-  const Margins margins = margins_of(canvas, page);
+  const double width = style.on_paper() ? paper_width(style) : places.width;
+  const Margins margins = margins_of(ruler, page, style);
+  const PageKey key = margins.key ? page_key(ruler, page, width) : PageKey{};
+  Canvas canvas = Canvas::page(format, width, places.height + key.height, style.on_paper());
+  draw_title(canvas, places.title, width / 2, 30);
+  draw_page_key(canvas, key, places.height);
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     const Plot& plot = page.plots[i];
     const Saved saved(canvas);
@@ -306,8 +321,8 @@ void draw_plots(const PlotPage& page, const std::string& file) {
   write_atomically(file, canvas.encoded());
 }
 
-void draw_plot(const Plot& plot, const std::string& file) {
-  draw_plots({{plot}, 1}, file);
+void draw_plot(const Plot& plot, const std::string& file, const FigureStyle& style) {
+  draw_plots({{plot}, 1}, file, style);
 }
 
 }  // namespace lilytank

@@ -62,6 +62,21 @@ LegendBox legend_size(const Canvas& canvas, const Plot& plot);
 /// `hidden` becomes the number of their points (spread evenly along the lines) that it covers.
 LegendBox place_legend(const LegendBox& size, const Plot& plot, const PlotArea& area,
                        std::size_t& hidden);
+/// The names of all curves of a page once, in rows: where legends would hide curves.
+struct PageKey {
+  struct Entry {
+    const Curve* curve = nullptr;
+    int index = 0;
+    std::string text;
+    double x = 0, y = 0;  ///< of the sample, from the key's top left corner
+  };
+  std::vector<Entry> entries;
+  std::string title;
+  double height = 0;
+};
+/// `page` must outlive the key.
+PageKey page_key(const Canvas& canvas, const PlotPage& page, double width);
+void draw_page_key(const Canvas& canvas, const PageKey& key, double top);
 void draw_legend_box(const Canvas& canvas, const LegendBox& box, const Plot& plot);
 
 }  // namespace lilytank

@@ -43,7 +43,11 @@ void spread_x(const ProofFigures& of, Plot& plot) {
 
 Plot power_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Correct verdicts by effect size";
+  const auto right = std::count_if(of.points.begin(), of.points.end(), [](const ProofPoint& p) {
+    return p.outcome == ProofPoint::Outcome::right;
+  });
+  plot.title = std::to_string(right) + " of " + std::to_string(of.points.size()) +
+               " experiments with an omitted effect have a correct verdict.";
   plot.x_label = "standardised effect size (expected z)";
   plot.y_label = "correct verdicts (%)";
   plot.log_x = true, plot.y_low = 0, plot.y_high = 100;
@@ -63,7 +67,6 @@ Plot power_plot(const ProofFigures& of) {
 // A row an effect, a marker an experiment.
 Plot outcomes_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Every synthetic experiment with an omitted effect";
   plot.x_label = "standardised effect size (expected z)";
   plot.log_x = true;
   for (const ProofPoint& p : of.points) plot.y_names.push_back(p.row);
@@ -115,7 +118,13 @@ Curve errors_curve(const std::string& name, const std::vector<double>& sorted) {
 
 Plot errors_plot(const ProofFigures& of) {
   Plot plot;
-  plot.title = "Errors of what was fitted";
+  std::size_t within = 0, all = 0;
+  for (const auto* errors : {&of.baseline_errors, &of.effect_errors}) {
+    all += errors->size();
+    for (const double e : *errors) within += std::fabs(e) <= 1 ? 1 : 0;
+  }
+  plot.title = std::to_string(within) + " of " + std::to_string(all) +
+               " 95 % intervals contain the true value.";
   plot.x_label = "error (half widths of the 95 % interval)";
   plot.y_label = "intervals with a lower error (%)";
   plot.x_low = -kFar, plot.x_high = kFar, plot.y_low = 0, plot.y_high = 100;
@@ -124,7 +133,7 @@ Plot errors_plot(const ProofFigures& of) {
     if (!errors->empty()) plot.curves.push_back(errors_curve(name, *errors));
   }
   Curve normal;
-  normal.name = "as promised";
+  normal.name = "normal errors";
   const double half_width = normal_half_width();
   for (double x = -kFar; x <= kFar + 1e-9; x += 0.05) {
     normal.x.push_back(x), normal.y.push_back(50 * std::erfc(-half_width * x / std::sqrt(2.0)));
@@ -159,20 +168,27 @@ std::string outcomes_caption(const ProofFigures& of) {
 
 }  // namespace
 
-void draw_proof(const ProofFigures& of, const ReportDocument& report, const std::string& dir) {
+void draw_proof(const ProofFigures& of, const ReportDocument& report, const std::string& dir,
+                const FigureStyle& style) {
   std::vector<Figure> figures;
   if (!of.points.empty()) {
-    figures.push_back({"power", power_caption(of), {{power_plot(of)}}, {}});
-    figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}}, {}});
+    const std::string n =
+        std::to_string(of.points.size()) + " synthetic experiments with an omitted effect";
+    figures.push_back(
+        {"power", power_caption(of), {{power_plot(of)}}, {}, {}, n, "bars: 95 % (Wilson)"});
+    figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}}, {}, {}, n});
   }
   if (!of.baseline_errors.empty() || !of.effect_errors.empty()) {
-    figures.push_back({"errors",
-                       "Errors of fitted parameters: 95 % should be within one half width of their "
-                       "interval, as a normal law with it has.",
-                       {{errors_plot(of)}},
-                       {}});
+    figures.push_back(
+        {"errors",
+         "Errors of fitted parameters: 95 % should be within one half width of their "
+         "interval, as a normal law with it has.",
+         {{errors_plot(of)}},
+         {},
+         {},
+         std::to_string(of.baseline_errors.size() + of.effect_errors.size()) + " intervals"});
   }
-  write_html_report(report, figures, dir);
+  write_html_report(report, figures, dir, style);
 }
 
 }  // namespace lilytank

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "canvas.hpp"
+#include "cut_text.hpp"
 #include "lilytank/math.hpp"
 #include "lilytank/render.hpp"
+#include "page_fit.hpp"
 #include "palette.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -16,6 +19,7 @@ constexpr double kStageCaption = 30, kStageGap = 46;  // above a stage, between 
 constexpr double kPageMargin = 24, kFoot = 34, kHead = 40;
 constexpr double kWidestPage = 1290, kHighestPage = 900;
 constexpr double kHop = 16;  // of the hop numbers from a module's centre
+constexpr double kKeySample = 30, kKeyLine = 17;
 constexpr std::array<int, 4> kX = {1, 0, -1, 0}, kY = {0, 1, 0, -1};
 const TextStyle kRuleName{15, palette::ink, true, Align::left};
 const TextStyle kSmall{12, palette::muted, false, Align::left};
@@ -28,7 +32,8 @@ struct Grid {
   double width = 0, height = 0;  // of a stage with its caption
 };
 
-Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage>& stages) {
+Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage>& stages,
+             const FigureStyle& style) {
   Cell high;
   for (const Cell& cell : target.cells) high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
   Grid grid;
@@ -38,10 +43,12 @@ Grid grid_of(const Canvas& canvas, const Target& target, const std::vector<Stage
   grid.height = (high.y + 1) * kPitch + kStageCaption;
   const int n = static_cast<int>(stages.size());
   const double across = grid.width + kStageGap;
-  if (n * across <= kWidestPage)
+  const double widest =
+      style.on_paper() ? paper_width(style) - 2 * kPageMargin + kStageGap : kWidestPage;
+  if (n * across <= widest)
     grid.columns = n;
-  else if (n * (grid.height + kStageGap) > kHighestPage)
-    grid.columns = std::max(1, static_cast<int>(kWidestPage / across));
+  else if (style.on_paper() || n * (grid.height + kStageGap) > kHighestPage)
+    grid.columns = std::max(1, static_cast<int>(widest / across));
   grid.rows = (n + grid.columns - 1) / grid.columns;
   return grid;
 }
@@ -93,13 +100,13 @@ void draw_square(const Canvas& canvas, double x, double y, const StageModule& mo
                 4.6);
   }
   const std::string label = std::to_string(module.label);
-  const double size = label.size() == 1 ? 19 : label.size() == 2 ? 14.5 : 10.5;
+  const double size = label.size() == 1 ? 19 : label.size() == 2 ? 14.5 : 12;
   canvas.moving_text(x, y, label, {size, palette::ink, true, Align::centre});
   if (module.last < 0) return;
   for (int d = 0; d < 4; ++d) {
     const auto k = static_cast<std::size_t>(d);
     canvas.moving_text(x + kHop * kX[k], y - kHop * kY[k], std::to_string(hop_of(module.last, d)),
-                       {9.5, palette::muted, false, Align::centre});
+                       {12, palette::muted, false, Align::centre});
   }
 }
 
@@ -136,25 +143,48 @@ void draw_stage(const Canvas& canvas, const Target& target, const Stage& stage, 
 }
 
 // What the signs mean, below the stages.
-void draw_key(const Canvas& canvas, double x, double y) {
+void draw_key(const Canvas& canvas, const std::vector<std::string>& lines, double x, double y) {
+  y -= kKeyLine * static_cast<double>(lines.size() - 1);
   canvas.line(x, y - 4, x + 22, y - 4, palette::accent, 4.6);
-  canvas.text(x + 30, y, kSigns, kSmall);
+  for (const std::string& line : lines) canvas.text(x + kKeySample, y, line, kSmall), y += kKeyLine;
+}
+
+double width_on_paper(double stages_width, const FigureStyle& style) {
+  const double least = (stages_width + 2 * kPageMargin) / kUnitsPerMm;
+  if (least <= style.width) return paper_width(style);
+  throw InputError("the stages of this target need a figure " + significant(std::ceil(least), 4) +
+                   " mm wide, not " + significant(style.width, 4));
 }
 
 }  // namespace
 
+std::string stages_caption(const Target& target, const std::vector<Stage>& stages) {
+  Figure figure;
+  figure.caption = "Stages of the assembly of " + target.name +
+                   ", one after each join, with the rule above. Bold: control state; blue bar: "
+                   "connector engaged last (hop 1); at the faces: hops.";
+  figure.n = std::to_string(stages.size()) + " stages; drawn from the plan, not simulated";
+  return caption_text(figure, {});
+}
+
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
-                           const std::string& title, const std::string& file) {
+                           const std::string& given_title, const std::string& file,
+                           const FigureStyle& style) {
+  const std::string title = style.untitled ? "" : given_title;
   const PictureFormat format = format_of(file);
   const Canvas ruler = Canvas::raster(8, 8);
-  const Grid grid = grid_of(ruler, target, stages);
+  const Grid grid = grid_of(ruler, target, stages, style);
   const double head = title.empty() ? 0 : kHead;
-  const double width =
-      std::ceil(2 * kPageMargin + std::max(30 + ruler.width_of(kSigns, kSmall),
-                                           grid.columns * (grid.width + kStageGap) - kStageGap));
-  const double height =
-      2 * kPageMargin + head + kFoot + grid.rows * (grid.height + kStageGap) - kStageGap;
-  Canvas canvas = Canvas::page(format, width, height);
+  const double stages_width = grid.columns * (grid.width + kStageGap) - kStageGap;
+  const double key_width = kKeySample + ruler.width_of(kSigns, kSmall);
+  double width = std::ceil(2 * kPageMargin + std::max(key_width, stages_width));
+  if (style.on_paper()) width = width_on_paper(stages_width, style);
+  const auto key = lines_within(kSigns, width - 2 * kPageMargin - kKeySample,
+                                [&](const std::string& s) { return ruler.width_of(s, kSmall); });
+  const double height = 2 * kPageMargin + head + kFoot +
+                        kKeyLine * static_cast<double>(key.size() - 1) +
+                        grid.rows * (grid.height + kStageGap) - kStageGap;
+  Canvas canvas = Canvas::page(format, width, height, style.on_paper());
   if (!title.empty())
     canvas.text(kPageMargin, kPageMargin + 18, title, {18, palette::ink, true, Align::left});
   for (int k = 0; k < static_cast<int>(stages.size()); ++k) {
@@ -169,7 +199,7 @@ std::string stages_picture(const Target& target, const std::vector<Stage>& stage
       draw_arrow(canvas, left + grid.width + kStageGap / 2, top + (grid.height + kStageCaption) / 2,
                  false);
   }
-  draw_key(canvas, kPageMargin, height - kPageMargin);
+  draw_key(canvas, key, kPageMargin, height - kPageMargin);
   return std::string(canvas.encoded());
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -6,6 +7,8 @@
 #include "html_report.hpp"
 #include "statistics/undefined.hpp"
 #include "study_names.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 #include "yield.hpp"
 
 namespace lilytank {
@@ -13,9 +16,8 @@ namespace {
 
 constexpr std::size_t kBandsUpTo = 6;  // settings; more bands hide each other
 
-Plot time_plot(const StudySummary& summary, const TimeUnit& unit) {
+Plot time_plot(const TimeUnit& unit) {
   Plot plot;
-  plot.title = summary.name;
   plot.x_label = "time (" + unit.name + ")";
   return plot;
 }
@@ -33,8 +35,27 @@ void add_of_setting(Plot& plot, std::size_t number, const SettingNames& names, C
   plot.curves.push_back(std::move(curve));
 }
 
+// Of the setting with most copies at the end.
+std::string yield_sentence(const StudySummary& summary, const TimeUnit& unit) {
+  const SettingSummary* most = nullptr;
+  int settings = 0;
+  for (const SettingSummary& s : summary.settings) {
+    if (s.runs == 0 || std::isnan(s.copies.value)) continue;
+    ++settings;
+    if (most == nullptr || s.copies.value > most->copies.value) most = &s;
+  }
+  if (most == nullptr) return "";
+  const std::string copies =
+      significant(most->copies.value, 3) + " of " + std::to_string(most->possible) + " copies";
+  const std::string after =
+      "After " + significant(summary.horizon / unit.seconds, 3) + " " + unit.name + ", ";
+  if (settings == 1) return after + copies + " are complete on average.";
+  return after + most->label + " has most completed copies: " + copies + " on average.";
+}
+
 Plot mean_yield_plot(const StudySummary& summary, const SettingNames& names, const TimeUnit& unit) {
-  Plot plot = time_plot(summary, unit);
+  Plot plot = time_plot(unit);
+  plot.title = yield_sentence(summary, unit);
   plot.y_label = "mean copies of the target";
   int most = 1;
   for (std::size_t s = 0; s < summary.settings.size(); ++s) {
@@ -72,23 +93,26 @@ Curve survival_curve(const Survival& survival, double horizon, const TimeUnit& u
   return curve;
 }
 
-// " (log-rank p = 0.03)" of all settings together, or nothing.
-std::string test_note(const StudySummary& summary, int k) {
+// Whether times differ between all settings together; empty if nothing was tested.
+std::string test_sentence(const StudySummary& summary, int k) {
   for (const SurvivalTest& test : summary.survival_tests) {
     if (test.k != k || test.result.degrees == 0) continue;
     char text[60];
     std::snprintf(text, sizeof text,
-                  test.result.p < 1e-4 ? " (log-rank p < 0.0001)" : " (log-rank p = %.2g)",
+                  test.result.p < 1e-4 ? " (log-rank p < 0.0001)." : " (log-rank p = %.2g).",
                   test.result.p);
-    return text;  // the test of all comes before those of pairs
+    // The test of all comes before those of pairs.
+    return "Times to copy " + std::to_string(k) +
+           (test.result.p < 0.05 ? " differ" : " do not differ significantly") +
+           " between settings" + text;
   }
   return "";
 }
 
 Plot survival_plot(const StudySummary& summary, const SettingNames& names, int k,
                    const TimeUnit& unit) {
-  Plot plot = time_plot(summary, unit);
-  plot.title += ": time to copy " + std::to_string(k) + test_note(summary, k);
+  Plot plot = time_plot(unit);
+  plot.title = test_sentence(summary, k);
   plot.y_label = k == 1 ? "share of runs without a copy"
                         : "share of runs with fewer than " + std::to_string(k) + " copies";
   for (std::size_t s = 0; s < summary.settings.size(); ++s) {
@@ -139,7 +163,6 @@ Curve mean_time_curve(const std::vector<const SettingSummary*>& along, int k, co
 Plot mean_time_plot(const StudySummary& summary, const std::vector<const SettingSummary*>& along,
                     const TimeUnit& unit) {
   Plot plot;
-  plot.title = summary.name;
   plot.x_label = axis_label(summary.axes[0]);
   plot.y_label = "restricted mean time to copy k (" + unit.name + ")";
   const ValueAxis axis = value_axis(summary, 0);
@@ -164,7 +187,6 @@ Plot mean_time_plot(const StudySummary& summary, const std::vector<const Setting
 Plot copies_plot(const StudySummary& summary, std::size_t along,
                  const std::vector<std::size_t>& axes) {
   Plot plot;
-  plot.title = summary.name;
   plot.x_label = axis_label(summary.axes[along]), plot.y_label = "copies at the end, mean";
   SettingNames names = shades_by(summary, along == axes[0] ? axes.back() : axes[0]);
   if (axes.size() == 1) {
@@ -194,12 +216,25 @@ Plot copies_plot(const StudySummary& summary, std::size_t along,
   return plot;
 }
 
+// "20 runs in each of 4 settings"
+std::string runs_text(const StudySummary& summary) {
+  int least = INT_MAX, most = 0, settings = 0;
+  for (const SettingSummary& s : summary.settings) {
+    if (s.runs == 0) continue;
+    least = std::min(least, s.runs), most = std::max(most, s.runs), ++settings;
+  }
+  const std::string runs =
+      least == most ? counted(most, "run") : std::to_string(least) + " to " + counted(most, "run");
+  return settings == 1 ? runs : runs + " in each of " + counted(settings, "setting");
+}
+
 }  // namespace
 
 std::vector<Figure> study_plots(const StudySummary& summary) {
   std::vector<Figure> figures;
-  const auto add = [&](const std::string& name, const std::string& caption, const Plot& plot) {
-    figures.push_back({name, caption, {{plot}}, {}});
+  const auto add = [&](const std::string& name, const std::string& caption, const Plot& plot,
+                       const std::string& band) {
+    figures.push_back({name, caption, {{plot}}, {}, {}, runs_text(summary), band});
   };
   const TimeUnit unit = unit_for(summary.horizon);
   const bool any = std::any_of(summary.settings.begin(), summary.settings.end(),
@@ -207,25 +242,25 @@ std::vector<Figure> study_plots(const StudySummary& summary) {
   if (!any || summary.copies.empty()) return figures;
   const SettingNames names = names_of(summary);
   add("yield", "Mean number of completed copies over time, with its 95 % band.",
-      mean_yield_plot(summary, names, unit));
+      mean_yield_plot(summary, names, unit), "95 %, bootstrap over runs");
   for (const int k : summary.copies) {
     const std::string copy = std::to_string(k);
     add("survival_" + copy,
         "Fraction of runs without copy " + copy +
             " over time (Kaplan and Meier), with its 95 % band.",
-        survival_plot(summary, names, k, unit));
+        survival_plot(summary, names, k, unit), "95 %, Kaplan and Meier");
   }
   const std::vector<const SettingSummary*> along = along_axis(summary);
   if (!along.empty()) {
     add("mean_time", "Mean time to each copy, with its 95 % interval.",
-        mean_time_plot(summary, along, unit));
+        mean_time_plot(summary, along, unit), "intervals: 95 %");
   }
   if (settings_with_runs(summary) <= kNamedUpTo) return figures;
   const std::vector<std::size_t> axes = number_axes(summary);
   for (const std::size_t axis : axes) {
     add("copies_over_" + summary.axes[axis],
         "Completed copies at the end over " + summary.axes[axis] + ", with their 95 % intervals.",
-        copies_plot(summary, axis, axes));
+        copies_plot(summary, axis, axes), "intervals: 95 % (Student)");
   }
   return figures;
 }

@@ -166,8 +166,8 @@ void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowS
   }
 }
 
-void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, double x,
-                    double y) {
+void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, double x, double y,
+                    double least_text) {
   // In steps of 1, 2 and 5, about a third of the radius: 10 cm in the tank of 30 cm.
   const double wanted = model.tank.radius / 2.6;
   const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
@@ -181,7 +181,8 @@ void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, 
   }
   const std::string text =
       length < 1 ? significant(100 * length, 6) + " cm" : significant(length, 6) + " m";
-  canvas.text((x + end) / 2, y - 14, text, {22, palette::ink, false, Align::centre});
+  canvas.text((x + end) / 2, y - 14, text,
+              {std::max(22.0, least_text), palette::ink, false, Align::centre});
 }
 
 }  // namespace lilytank

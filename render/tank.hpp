@@ -13,7 +13,9 @@ namespace lilytank {
 void draw_tank(const Canvas& canvas, const View& view, const Model& model, FlowStyle flow,
                int number);
 
-/// A bar of 10 cm (5 cm in small tanks) with its left end at (x, y), units.
-void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, double x, double y);
+/// A bar of 10 cm (5 cm in small tanks) with its left end at (x, y), and its text of 22 units or
+/// `least_text`.
+void draw_scale_bar(const Canvas& canvas, const View& view, const Model& model, double x, double y,
+                    double least_text);
 
 }  // namespace lilytank

@@ -6,6 +6,7 @@
 
 #include "lilytank/render.hpp"
 #include "poses.hpp"
+#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
@@ -75,7 +76,6 @@ std::string clock_text(double time) {
 
 Plot yield_plot(const StoredRun& run) {
   Plot plot;
-  plot.title = run.scenario.title;
   const YieldCurve found = yield_of(run);
   Curve curve;
   curve.name = "completed copies";
@@ -93,6 +93,11 @@ Plot yield_plot(const StoredRun& run) {
   curve.y = std::move(copies);
   plot.x_label = "time (" + unit.name + ")";
   plot.y_label = "copies of the target";
+  if (found.possible > 0 && !curve.y.empty()) {
+    plot.title = "After " + significant(curve.x.back(), 3) + " " + unit.name + ", " +
+                 significant(curve.y.back(), 4) + " of " + std::to_string(found.possible) +
+                 (found.possible == 1 ? " copy is complete." : " copies are complete.");
+  }
   int most = 1;
   for (const double c : curve.y) most = std::max(most, static_cast<int>(c));
   if (found.possible > 0) {

@@ -32,7 +32,7 @@ struct AnalysisOptions {
   double touching = 0.001;     ///< gap below which bodies touch, m
   bool msd_only = false;       ///< whether only displacements are analysed
   SmoothingOptions smoothing;  ///< smoother of velocities; the MSD needs none
-  Bootstrap bootstrap;         ///< bands and intervals: bootstrap over bodies
+  Bootstrap bootstrap;         ///< bands and intervals: bootstrap over bodies and assemblies
 };
 
 /// One curve of all sources over the same x.
@@ -65,8 +65,9 @@ struct SourceSummary {
   BodyKind body = BodyKind::lily;
   /// Counts of the source: bodies are distinct ids within a recording, tracks the unbroken pieces.
   int recordings = 0, bodies = 0, tracks = 0;
-  std::int64_t sightings = 0;     ///< positions in all tracks
-  bool exact = false;             ///< places without noise
+  int units = 0;               ///< that bands resample: bodies, of which latched ones count as one
+  std::int64_t sightings = 0;  ///< positions in all tracks
+  bool exact = false;          ///< places without noise
   double rate = 0, duration = 0;  ///< frames per second, Hz; duration of the longest recording, s
   double missing = 0;  ///< fraction of the frames within tracks in which the body was not seen
   /// Fitted model of positions and of headings, one per recording.
@@ -125,6 +126,9 @@ std::string shared_key(const Analysis& analysis);
 /// each other. Lags are whole frames of the slowest source. Throws InputError for a source without
 /// tracks of two frames.
 Analysis analyse(const std::vector<AnalysisSource>& sources, const AnalysisOptions& options = {});
+
+/// What bands resample: "bootstrap over bodies", or over assemblies where modules were latched.
+std::string resampled(const Analysis& analysis);
 
 /// The report, without its provenance.
 ReportDocument analysis_report(const Analysis& analysis);

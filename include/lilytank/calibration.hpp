@@ -6,6 +6,7 @@
 // A search finds the region, response surfaces (response_surface.hpp) the estimate, and experiments
 // simulated at the estimate and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -133,6 +134,8 @@ struct CalibratedParameter {
   FitParameter parameter;
   /// The scenario's value.
   double start = 0;
+  /// The value in the simulation that made the recordings; NaN: not known.
+  double truth = NAN;
   /// The search's estimate.
   double searched = 0;
   /// middle: bias-corrected estimate from all statistics, within the bounds. estimate: the value in
@@ -184,14 +187,20 @@ struct LocalRound {
 struct MsdFit {
   /// Which recordings: "training" or "held out".
   std::string recordings;
-  /// Pieces of all these recordings.
-  int pieces = 0;
+  /// Pieces of all these recordings, and simulated experiments that each set of values has.
+  int pieces = 0, experiments = 0;
   /// Length of a piece, and the longest lag, s.
   double seconds = 0;
   double before = 0, after = 0, floor = 0, equals = 0, equals_p = 1;
   /// Mean MSD (m^2) over lag (s): recorded, simulated with the scenario's values and with the
   /// estimates.
   std::vector<double> lag, real, simulated_before, simulated_after;
+  /// 95 % bands of these MSDs, m^2: of the mean over recorded pieces, and of a simulated
+  /// experiment. Empty: fewer than two of them.
+  std::vector<double> real_low, real_high, after_low, after_high;
+  /// Mean |difference| of MSDs of halves at each lag, m^2: between recorded halves (noise floor),
+  /// and of recorded from simulated ones. Empty if an experiment diverged.
+  std::vector<double> floor_at, before_at, after_at;
 };
 
 /// The estimate, its uncertainty and what supports it.

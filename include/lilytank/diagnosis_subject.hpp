@@ -11,7 +11,6 @@ namespace lilytank {
 struct FitWording {
   std::string_view where;    ///< after "mismatch removed = 40 %"
   std::string_view section;  ///< title of the table
-  std::string_view figure;   ///< title of the plot
   std::string_view figure_caption;
 };
 
@@ -83,7 +82,6 @@ inline constexpr std::array<ReportName, 12> kTankGroups{{
 // All runs are fitted; the prediction starts from each sample and uses those coefficients.
 inline constexpr FitWording kBodyFit{
     ", a quarter of a run ahead", "Prediction a quarter of a run ahead",
-    "A quarter of a run ahead, coefficients of all runs: before and after",
     "Before and after: mean square error of places a quarter of a run ahead, over the square "
     "of the measurement's noise. The coefficients are those fitted to all runs, these "
     "included."};
@@ -94,11 +92,9 @@ inline constexpr FitWording kBodyFit{
 inline constexpr DiagnosisSubject kLiliesInTank{
     .bodies = "Lilies",
     .held_out = {", on held-out recordings", "Fit to the held-out recordings",
-                 "Held-out recordings: distance from simulations, before and after",
                  "Before and after, on recordings that were not used: groups of numbers that "
                  "describe the motion, each in units of what chance alone would give."},
     .fitted = {", on the fitted recordings", "Fit to the recordings (none was held out)",
-               "Fitted recordings: distance from simulations, before and after",
                "Before and after, on recordings that the fit rests on, as none was held out: "
                "groups of numbers that describe the motion, each in units of what chance alone "
                "would give."},

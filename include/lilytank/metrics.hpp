@@ -3,7 +3,8 @@
 //
 // Every curve is a ratio of two sums over bodies, bin by bin: squared displacements over their
 // number, bodies counted in a ring over all bodies counted. A body's sums are kept apart, as bodies
-// are what a band resamples: the frames of one body are not independent of each other.
+// are what a band resamples: the frames of one body are not independent of each other. Neither are
+// modules that are latched together: an assembly is resampled as one body.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -18,13 +19,15 @@ namespace lilytank {
 
 /// The modules' (balls') motion in a stored run as a recording without noise, on the clock of its
 /// frames, which must be even to within a thousandth of the interval but for a last shorter one,
-/// which is left out. Headings are unwrapped; balls have none. Throws InputError.
+/// which is left out. Headings are unwrapped; balls have none. Modules that are in one assembly in
+/// half of the frames or more, directly or in a chain, share Track::assembly. Throws InputError.
 Recording as_recording(const Trajectory& trajectory, BodyKind body);
 
-/// A curve's sums, kept by body. Tracks that share an id in one recording are one body.
+/// A curve's sums, kept by body; assemblies count as one. Tracks that share an id in one recording
+/// are one body.
 struct BodySums {
   int bins = 0;                      ///< bins of the curve: the length of a body's row
-  std::vector<double> sum, weight;   ///< [body * bins + bin]
+  std::vector<double> sum, weight;   ///< [body or assembly * bins + bin]
   std::vector<std::int64_t> tracks;  ///< [bin] tracks that add to it
   int bodies() const { return bins == 0 ? 0 : static_cast<int>(sum.size()) / bins; }
   /// Adds the bodies of another recording.

@@ -10,12 +10,23 @@
 #include "lilytank/flow_report.hpp"
 #include "lilytank/job_control.hpp"
 #include "lilytank/proof.hpp"
+#include "lilytank/recovery.hpp"
 #include "lilytank/run.hpp"
 #include "lilytank/search.hpp"
 #include "lilytank/study_summary.hpp"
 #include "lilytank/synthesis.hpp"
 
 namespace lilytank {
+
+/// How figures are adapted to a journal.
+struct FigureStyle {
+  /// Width on paper, mm: 85 is a column, 174 two. 0: figures are as large as they say. Texts have
+  /// 6 pt or more at every width.
+  double width = 0;
+  /// No sentences above figures. Names of panels stay.
+  bool untitled = false;
+  bool on_paper() const { return width > 0; }
+};
 
 /// How the mean flow is drawn below the bodies.
 enum class FlowStyle { none, arrows, streamlines };
@@ -29,15 +40,21 @@ struct FrameStyle {
   double trail = 4;
   /// l_a and the last engaged connector on each module.
   bool labels = true;
+  /// Title, clock, yield and legend right of the tank. Without them the picture is square.
+  bool panel = true;
 };
 
-/// Frame at a time (s), poses interpolated between stored ones, as .png or .svg by the file's
-/// ending. Throws InputError outside the run or if the file cannot be written.
-void draw_frame(const StoredRun& run, double time, const FrameStyle& style,
-                const std::string& file);
+/// Frame at a time (s), poses interpolated between stored ones, as .png, .svg or .pdf by the file's
+/// ending; on paper without the panel. Throws InputError outside the run or if the file cannot be
+/// written.
+void draw_frame(const StoredRun& run, double time, const FrameStyle& style, const std::string& file,
+                const FigureStyle& paper = {});
 /// The bytes that draw_frame() writes to `file`.
 std::string frame_picture(const StoredRun& run, double time, const FrameStyle& style,
-                          const std::string& file);
+                          const std::string& file, const FigureStyle& paper = {});
+/// What its caption file says.
+std::string frame_caption(const StoredRun& run, double time, const FrameStyle& style,
+                          const ReportProvenance& provenance);
 
 /// Which part of a run is filmed, and how fast.
 struct FilmOptions : JobControl {
@@ -107,17 +124,17 @@ struct Plot {
   int width = 900, height = 600;  ///< pixels (PNG: twice that)
 };
 /// Writes .png, .svg or .pdf by the ending. Throws InputError if the file cannot be written.
-void draw_plot(const Plot& plot, const std::string& file);
+void draw_plot(const Plot& plot, const std::string& file, const FigureStyle& style = {});
 
 /// Plots on one page, `columns` in a row, each as large as it says.
 struct PlotPage {
   std::vector<Plot> plots;
   int columns = 1;
-  /// Above all plots.#2
+  /// Above all plots. Of several, plots' own titles name the panels.
   std::string title;
 };
-/// As draw_plot().
-void draw_plots(const PlotPage& page, const std::string& file);
+/// As draw_plot(). On paper, plots have as many columns as have room, at most `columns`.
+void draw_plots(const PlotPage& page, const std::string& file, const FigureStyle& style = {});
 
 /// Colours for numbers: from dark to light, or from blue over white at 0 to red.
 enum class ColourScale { rising, diverging };
@@ -159,7 +176,26 @@ struct Map {
   std::string hatching;
 };
 /// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.
-void draw_map(const Map& map, const std::string& file);
+void draw_map(const Map& map, const std::string& file, const FigureStyle& style = {});
+
+/// A parameter of a corner plot, in its own unit; NaN: not known, not drawn.
+struct CornerAxis {
+  std::string name;              ///< with its unit
+  bool log = false;              ///< logarithmic axes
+  double low = NAN, high = NAN;  ///< bounds of the prior
+  double estimate = NAN;         ///< of the data
+  double from = NAN, to = NAN;   ///< its interval
+  double truth = NAN;            ///< planted in synthetic data
+};
+/// Parameters in pairs: draws of two below the diagonal, histograms of one on it.
+struct Corner {
+  std::string title;
+  std::vector<CornerAxis> axes;
+  std::vector<std::vector<double>> draws;  ///< [draw][axis]
+  std::string draws_name;                  ///< what the draws are, for the legend
+};
+/// Writes .png, .svg or .pdf by the ending. Throws InputError if it cannot be written.
+void draw_corner(const Corner& corner, const std::string& file, const FigureStyle& style = {});
 
 /// Copies standing over time, from a run's metrics.
 Plot yield_plot(const StoredRun& run);
@@ -169,8 +205,19 @@ struct Figure {
   std::string name;     ///< of its files, without ending
   std::string caption;  ///< what a reader sees in it
   PlotPage page;
-  Map map;  ///< drawn if there are no plots
+  Map map;           ///< drawn if there are no plots
+  Corner corner;     ///< drawn if there are neither plots nor maps
+  std::string n;     ///< "15 bodies in 3 recordings"; empty: the caption says it
+  std::string band;  ///< what bands are and their level; empty: there are none
 };
+/// The caption file of a picture: "a.caption.txt" of "a.pdf".
+std::string caption_file(const std::string& picture);
+/// The content of a caption file: what is shown, n, the band's level, seed and command.
+std::string caption_text(const Figure& figure, const ReportProvenance& provenance);
+/// Draws figures in a directory that exists, each as .png, .svg and .pdf beside its .caption.txt.
+/// Throws InputError if a file cannot be written.
+void draw_figures(const std::vector<Figure>& figures, const ReportProvenance& provenance,
+                  const std::string& dir, const FigureStyle& style = {});
 /// "yield": mean copies over time with bootstrap bands; "survival_<k>": Kaplan and Meier's curves
 /// of the time to the k-th copy, with their intervals and censored times; "mean_time": restricted
 /// mean times over the axis' values, where there is one axis and its labels show numbers; curves
@@ -195,36 +242,49 @@ std::vector<Figure> flow_maps(const FlowReport& report);
 /// modules, hops at their faces, the connector engaged last in blue, the rule above. The bytes of a
 /// picture for `file`: .png, .svg or .pdf by the ending; throws InputError for another one.
 std::string stages_picture(const Target& target, const std::vector<Stage>& stages,
-                           const std::string& title, const std::string& file);
+                           const std::string& title, const std::string& file,
+                           const FigureStyle& style = {});
+
+/// What the caption file of that picture says.
+std::string stages_caption(const Target& target, const std::vector<Stage>& stages);
 
 /// How a search came along: the best point's mean so far and the median of each iteration's new
 /// points, over evaluations [paper, Figs. 10 (a) and 12 (a)]. `selected`: the last record is that
 /// of a final selection, whose new values of the best point stand alone.
 Plot search_plot(const std::vector<IterationRecord>& history, bool selected,
                  const std::string& title, const std::string& y_label);
-// Each of the following draws the figures of a result in a directory that exists, as .png and .svg,
-// and writes report.html, the report with all of them. They throw InputError if a file cannot be
-// written.
+// Each of the following draws the figures of a result in a directory that exists, as .png, .svg and
+// .pdf with a .caption.txt, and writes report.html, the report with all of them. They throw
+// InputError if a file cannot be written.
 
-/// "frame", the last one of a run, as .svg alone, and "yield".
-void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir);
+/// "frame", the last one of a run, as .svg and .pdf, and "yield".
+void draw_run(const StoredRun& run, const ReportDocument& report, const std::string& dir,
+              const FigureStyle& style = {});
 /// study_plots().
-void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir);
+void draw_study(const StudySummary& summary, const ReportDocument& report, const std::string& dir,
+                const FigureStyle& style = {});
 /// `plot`, of search_plot(), as "fitness".
-void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir);
+void draw_search(const Plot& plot, const ReportDocument& report, const std::string& dir,
+                 const FigureStyle& style = {});
 /// analysis_plots(), and velocity_maps() as "velocity_map".
-void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir);
+void draw_analysis(const Analysis& analysis, const ReportDocument& report, const std::string& dir,
+                   const FigureStyle& style = {});
 /// flow_maps(), the last estimate's before the others.
-void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir);
+void draw_flow(const FlowReport& flow, const ReportDocument& report, const std::string& dir,
+               const FigureStyle& style = {});
 /// "convergence" of the search [paper, Fig. 6a], "msd" recorded and simulated [Fig. 6b], "velocity"
-/// maps [Fig. 7], "profiles" of the parameters, and "estimates" of simulated experiments, two
-/// parameters a plot.
+/// maps [Fig. 7], "profiles" of the parameters, and "estimates" of simulated experiments as a
+/// corner plot.
 void draw_calibration(const CalibrationResult& calibration, const ReportDocument& report,
-                      const std::string& dir);
+                      const std::string& dir, const FigureStyle& style = {});
+/// "recovery", a plot a parameter: intervals over the planted values. Without report.html.
+void draw_recovery(const std::vector<RecoveryRow>& rows, const ReportProvenance& provenance,
+                   const std::string& dir, const FigureStyle& style = {});
 /// "maps" of the baseline's residual, "laws" of the findings, "fit" before and after.
 void draw_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
-                    const std::string& dir);
+                    const std::string& dir, const FigureStyle& style = {});
 /// "power" against expected z, "outcomes" of every experiment, "errors" of what was fitted.
-void draw_proof(const ProofFigures& proof, const ReportDocument& report, const std::string& dir);
+void draw_proof(const ProofFigures& proof, const ReportDocument& report, const std::string& dir,
+                const FigureStyle& style = {});
 
 }  // namespace lilytank

@@ -7,6 +7,7 @@
 #include "calibrate/stages.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/smoothing.hpp"
+#include "statistics/quantiles.hpp"
 
 namespace lilytank {
 namespace {
@@ -35,6 +36,26 @@ std::vector<Recording> some_of(const std::vector<Recording>& pieces,
   return out;
 }
 
+// mean -/+ t s k of the curves at each lag; none of fewer than two.
+void add_band(const std::vector<Curve>& curves, double k, Curve& low, Curve& high) {
+  const auto n = static_cast<double>(curves.size());
+  if (n < 2) return;
+  const double t = student_half_width(n - 1);
+  for (std::size_t i = 0; i < curves[0].size(); ++i) {
+    double sum = 0, square = 0;
+    for (const Curve& c : curves) sum += c[i];
+    for (const Curve& c : curves) square += (c[i] - sum / n) * (c[i] - sum / n);
+    const double half = t * k * std::sqrt(square / (n - 1));
+    low.push_back(std::max(0.0, sum / n - half)), high.push_back(sum / n + half);
+  }
+}
+
+// Adds the n-th part of the distance of two curves at each lag.
+void add_distance(const Curve& a, const Curve& b, int n, Curve& mean) {
+  mean.resize(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) mean[i] += std::fabs(a[i] - b[i]) / n;
+}
+
 class Comparison {
  public:
   Comparison(Stages& stages, const std::vector<Recording>& recordings,
@@ -61,14 +82,27 @@ class Comparison {
       halves_.push_back(eq9_curve(some_of(pieces_, order, 0, half), rule_));
       const Curve other = eq9_curve(some_of(pieces_, order, half, 2 * half), rule_);
       out_.floor += eq9(halves_.back(), other) / n;
+      add_distance(halves_.back(), other, n, out_.floor_at);
     }
-    against(start, "start", out_.simulated_before, out_.before);
-    const std::vector<Curve> same = against(estimate, "estimate", out_.simulated_after, out_.after);
+    band_of_pieces();
+    out_.experiments = n;
+    against(start, "start", out_.simulated_before, out_.before, out_.before_at);
+    const std::vector<Curve> same =
+        against(estimate, "estimate", out_.simulated_after, out_.after, out_.after_at);
+    add_band(whole_, 1, out_.after_low, out_.after_high);
     compare_equals(same);
     return std::move(out_);
   }
 
  private:
+  // Pieces, not bodies, are independent: bodies of one share its flow, latched ones their motion.
+  void band_of_pieces() {
+    std::vector<Curve> curves;
+    for (const Recording& piece : pieces_) curves.push_back(eq9_curve({piece}, rule_));
+    add_band(curves, 1 / std::sqrt(static_cast<double>(curves.size())), out_.real_low,
+             out_.real_high);
+  }
+
   // Compares every simulated experiment with the others, as the recordings are compared with all.
   void compare_equals(const std::vector<Curve>& same) {
     const std::size_t n = same.size();
@@ -88,9 +122,10 @@ class Comparison {
     out_.equals_p = static_cast<double>(as_far + 1) / static_cast<double>(n + 1);
   }
 
-  // Simulates halves; sets `fit` to the mean of Eq. 9 against them and `mean` to the mean curve.
+  // Simulates halves; sets `fit` to the mean of Eq. 9 against them, `mean` to the mean curve and
+  // `distance` to the mean distance at each lag.
   std::vector<Curve> against(const std::vector<double>& values, const std::string& when,
-                             Curve& mean, double& fit) {
+                             Curve& mean, double& fit, Curve& distance) {
     const int n = setup_.options.comparisons;
     const auto rows =
         stages_.rows("comparison with the " + when + ", " + out_.recordings, n, [&](int i) {
@@ -106,15 +141,19 @@ class Comparison {
         });
     std::vector<Curve> simulated;
     mean.assign(out_.real.size(), 0), fit = 0;
+    whole_.clear();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       // A diverged world has the largest misfit.
       if (rows[i].empty()) {
         fit = INFINITY;
+        whole_.clear(), distance.clear();
         return {};
       }
       const auto middle = rows[i].begin() + static_cast<std::ptrdiff_t>(mean.size());
       simulated.emplace_back(rows[i].begin(), middle);
+      whole_.emplace_back(middle, rows[i].end());
       fit += eq9(simulated.back(), halves_[i]) / n;
+      add_distance(simulated.back(), halves_[i], n, distance);
       for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += rows[i][mean.size() + k] / n;
     }
     return simulated;
@@ -126,7 +165,7 @@ class Comparison {
   std::vector<Recording> pieces_;
   Eq9 rule_;
   std::uint64_t seed_;
-  std::vector<Curve> halves_;
+  std::vector<Curve> halves_, whole_;  // recorded; simulated last
   MsdFit out_;
 };
 

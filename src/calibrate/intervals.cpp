@@ -24,6 +24,7 @@ constexpr double kEstimateReach = 5;      // deviations of the points that an es
 constexpr double kLeastSlope = 0.1;       // of an estimate in the truth: less is noise
 constexpr int kProfilePoints = 41;
 constexpr double kProfileReach = 4;      // standard errors
+constexpr double kDrawnRise = 20;        // of the misfit, that figures show
 constexpr double kOneAndTheSame = 0.95;  // correlation beyond which two parameters are one
 constexpr double kTellsNothing = 0.5;    // share of the bounds that an interval takes up
 constexpr double kMisfits = 0.01;        // probability below which the model does not explain data
@@ -141,6 +142,20 @@ Matrix replicate_points(const Stages& stages, const LocalAnswer& answer, const V
   return points;
 }
 
+// The values between which a profile is below kDrawnRise, and one more on each side; equal where
+// that is most of it.
+std::pair<double, double> low_part(const CalibratedParameter& p) {
+  const std::vector<double>& rise = p.profile_rise;
+  std::size_t first = rise.size(), last = 0, low = 0;
+  for (std::size_t j = 0; j < rise.size(); ++j) {
+    if (rise[j] > kDrawnRise) continue;
+    first = std::min(first, j), last = j, ++low;
+  }
+  if (low == 0 || 2 * low > rise.size()) return {0, 0};
+  return {p.profile_value[first > 0 ? first - 1 : 0],
+          p.profile_value[std::min(last + 1, rise.size() - 1)]};
+}
+
 void set_profiles(const Stages& stages, const Replicates& replicates, const Vector& observed,
                   CalibrationResult& out) {
   FitBounds bounds = stages.bounds();
@@ -150,15 +165,22 @@ void set_profiles(const Stages& stages, const Replicates& replicates, const Vect
     CalibratedParameter& p = out.parameters[i];
     if (p.parameter.nuisance) continue;
     const auto k = static_cast<Eigen::Index>(i);
-    for (int j = 0; j < kProfilePoints; ++j) {
-      const double share = 2.0 * j / (kProfilePoints - 1) - 1;
-      const double at = replicates.middle(k) + share * kProfileReach * p.deviation;
-      const double value = p.parameter.from_scale(at);
-      if (value < p.parameter.low || value > p.parameter.high) continue;
-      const LocalFit held = replicates.model.fit_with(observed, static_cast<int>(k), at, bounds);
-      p.profile_value.push_back(value);
-      p.profile_rise.push_back(std::max(0.0, held.misfit - best.misfit));
-    }
+    const auto add = [&](double from, double to) {
+      p.profile_value.clear(), p.profile_rise.clear();
+      for (int j = 0; j < kProfilePoints; ++j) {
+        const double at = from + j * (to - from) / (kProfilePoints - 1);
+        const double value = p.parameter.from_scale(at);
+        if (value < p.parameter.low || value > p.parameter.high) continue;
+        const LocalFit held = replicates.model.fit_with(observed, static_cast<int>(k), at, bounds);
+        p.profile_value.push_back(value);
+        p.profile_rise.push_back(std::max(0.0, held.misfit - best.misfit));
+      }
+    };
+    const double reach = kProfileReach * p.deviation, middle = replicates.middle(k);
+    add(middle - reach, middle + reach);
+    // A profile may be much narrower than the interval: then again, as far as it can be drawn.
+    const auto [from, to] = low_part(p);
+    if (from < to) add(p.parameter.to_scale(from), p.parameter.to_scale(to));
   }
 }
 

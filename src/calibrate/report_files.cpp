@@ -83,12 +83,18 @@ std::string numbers_csv(const CalibrationResult& c) {
 }
 
 std::string msd_csv(const CalibrationResult& c) {
-  std::string out = "recordings,lag_s,real_m2,before_m2,after_m2\n";
+  std::string out =
+      "recordings,lag_s,real_m2,before_m2,after_m2,real_low_m2,real_high_m2,after_low_m2,"
+      "after_high_m2,floor_m2\n";
   for (const MsdFit& m : c.msd) {
     for (std::size_t k = 0; k < m.lag.size(); ++k) {
       out += m.recordings;
       for (const double v : {m.lag[k], m.real[k], m.simulated_before[k], m.simulated_after[k]}) {
         out += "," + number(v);
+      }
+      for (const auto* values :
+           {&m.real_low, &m.real_high, &m.after_low, &m.after_high, &m.floor_at}) {
+        out += "," + (k < values->size() ? number((*values)[k]) : "");
       }
       out += "\n";
     }

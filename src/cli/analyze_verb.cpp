@@ -84,7 +84,7 @@ Track part_of(const Track& track, int from, int to) {
   while (a <= b && !seen(a)) ++a;
   while (b >= a && !seen(b)) --b;
   Track out;
-  out.id = track.id;
+  out.id = track.id, out.assembly = track.assembly;
   if (a > b) return out;
   out.first = a - from;
   out.x = cut(track.x, a, b), out.y = cut(track.y, a, b), out.theta = cut(track.theta, a, b);
@@ -237,6 +237,7 @@ struct AnalyzeJob {
   SourceOptions sources;
   AnalysisOptions analysis;
   std::string body;
+  FigureStyle style;
   bool force = false;
 };
 
@@ -270,6 +271,7 @@ void add_analyze_options(VerbOptions& options, AnalyzeJob& job) {
   options.add({"size", "side or diameter of their bodies", "LENGTH"}, &s.size, 1e-4, 10, "m");
   options.add({"resamples", "of each band (1000)", "N"}, &a.bootstrap.resamples, 20, 1000000);
   options.add({"seed", "of the bands (1)", "N"}, &a.bootstrap.seed, 0, INT64_MAX);
+  add_figure_options(options, job.style);
   options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace files of other results in the directory"}, &job.force);
 }
@@ -349,7 +351,7 @@ int analyze_verb(const Arguments& arguments, const Host& host) {
   ReportDocument report = analysis_report(analysis);
   report.provenance = origin;
   write_analysis(analysis, report, dir);
-  if constexpr (kDraws) draw_analysis(analysis, report, dir);
+  if constexpr (kDraws) draw_analysis(analysis, report, dir, job.style);
   if constexpr (!kDraws) say_undrawn("plots");
   return print_results(report, dir, host);
 }

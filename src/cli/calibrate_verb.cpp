@@ -23,6 +23,7 @@ struct CalibrateJob {
   RecoveryOptions recovery;
   std::string objective = "summary", flow = "smooth";
   std::vector<std::string> vary, sets;
+  FigureStyle style;
   bool quiet = false;
 };
 
@@ -67,6 +68,8 @@ void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
   options.add({"out", "directory of the results (default: out/calibrate-<name>)", "DIR"});
   options.add({"seed", "of everything that is drawn (1)", "N"}, &c.seed, 0, INT64_MAX);
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &c.threads, 0, 4096);
+  options.add({"truth", "overlay with the values in synthetic recordings, for figures", "FILE"});
+  add_figure_options(options, job.style);
   options.add({"dry-run", "check everything, say how long it would take, write nothing"});
   options.add({"force", "replace another calibration's files"}, &c.force);
   options.add({"quiet", "no progress"}, &job.quiet);
@@ -126,11 +129,12 @@ void complete(const VerbOptions& options, CalibrateJob& job) {
   c.last_round = 2 * c.round;
 }
 
-// The parameters' values where the last file overrides the others. Only these: a file of another
+// The parameters' values where `last` overrides the other files. Only these: a file of another
 // experiment has another tank and other modules.
-std::vector<double> start_values(const std::vector<std::string>& files,
-                                 const std::vector<std::string>& sets,
-                                 const std::vector<FitParameter>& parameters) {
+std::vector<double> values_with(std::vector<std::string> files, const std::string& last,
+                                const std::vector<std::string>& sets,
+                                const std::vector<FitParameter>& parameters) {
+  files.push_back(last);
   const Model model = load_experiment(files, sets).base.model;
   std::vector<double> values;
   for (const FitParameter& p : parameters) values.push_back(parameter_value(model, p.path));
@@ -162,7 +166,7 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
                  Progress& progress) {
   CalibrationOptions& c = job.calibration;
   RecoveryOptions& r = job.recovery;
-  options.refuse_given({"start", "comparisons", "balls", "dry-run"},
+  options.refuse_given({"start", "truth", "comparisons", "balls", "dry-run"},
                        "has no effect with --recover");
   if (c.flow == CalibrationFlow::paper) {
     options.refuse("--flow " + job.flow + " does not go with --recover: smooth or scenario");
@@ -179,10 +183,12 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
     write_atomically((out / "recovery.txt").string(), recovery_text(rows));
   };
   const ReportProvenance origin = provenance("calibrate", arguments, c.seed, options.positional());
-  const auto lock = claim_directory(
-      c.out, c.force, {"recovery", identity_of(origin), {"recovery.csv", "recovery.txt"}});
+  const auto lock = claim_directory(c.out, c.force,
+                                    {"recovery", identity_of(origin),
+                                     with_figures({"recovery.csv", "recovery.txt"}, {"recovery"})});
   const std::vector<RecoveryRow> rows = recover(scenario, r);
   progress.clear();
+  if constexpr (kDraws) draw_recovery(rows, origin, c.out, job.style);
   std::cout << recovery_text(rows) << std::flush;
   std::cerr << "results in " << c.out << "\n";
   return Exit::done;
@@ -211,9 +217,11 @@ int calibrate_verb(const Arguments& arguments, const Host& host) {
   if (options.has("recover")) return recover_verb(options, arguments, job, progress);
   std::vector<std::string> files = options.positional();
   const Experiment experiment = load_experiment(files, job.sets);
-  if (options.has("start")) {
-    files.push_back(options.text("start"));
-    c.start = start_values(files, job.sets, c.parameters);
+  std::vector<double> truth;
+  for (const auto& [name, values] : {std::pair{"start", &c.start}, {"truth", &truth}}) {
+    if (!options.has(name)) continue;
+    *values = values_with(options.positional(), options.text(name), job.sets, c.parameters);
+    files.push_back(options.text(name));
   }
   c.out = options.out("out/calibrate-" + experiment.name);
   if (options.has("dry-run")) {
@@ -229,13 +237,14 @@ int calibrate_verb(const Arguments& arguments, const Host& host) {
   }
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   c.lock = &lock;
-  const CalibrationResult found = calibrate(experiment, c);
+  CalibrationResult found = calibrate(experiment, c);
+  for (std::size_t i = 0; i < truth.size(); ++i) found.parameters[i].truth = truth[i];
   progress.clear();
   ReportDocument report = calibration_report(found);
   for (const RecordingSource& source : experiment.sources) files.push_back(source.file);
   report.provenance = provenance("calibrate", arguments, c.seed, files);
   write_calibration(found, report, c.out);
-  if constexpr (kDraws) draw_calibration(found, report, c.out);
+  if constexpr (kDraws) draw_calibration(found, report, c.out, job.style);
   if constexpr (!kDraws) say_undrawn("plots");
   return print_results(report, c.out, host);
 }

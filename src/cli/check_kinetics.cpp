@@ -168,9 +168,8 @@ std::string curve_csv(const CurveBand& worlds, const CurveBand& model) {
 }
 
 void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, int possible,
-          const std::string& dir) {
+          const CheckJob& job, const std::string& dir) {
   Plot plot;
-  plot.title = "Simulations and the well-mixed model on rates measured in them";
   plot.x_label = "time (h)";
   plot.y_label = "mean copies of the target";
   plot.y_high = possible;
@@ -182,9 +181,15 @@ void draw(const CurveBand& worlds, const CurveBand& model, std::size_t number, i
   };
   add(worlds, std::to_string(number) + " simulations");
   add(model, "well-mixed model");
-  for (const char* ending : {".png", ".svg"})
-    if constexpr (kDraws)
-      draw_plot(plot, (fs::path(dir) / (std::string("yield") + ending)).string());
+  Figure figure{
+      "yield",
+      "Mean completed copies over time, in simulations and in the well-mixed model on rates "
+      "measured in them.",
+      {{plot}}};
+  figure.n = counted(static_cast<std::int64_t>(number), "simulation") + ", " +
+             std::to_string(job.gillespie) + " runs of the model";
+  figure.band = "95 % of the mean, bootstrap over runs";
+  if constexpr (kDraws) draw_figures({figure}, job.origin, dir, job.style);
 }
 
 std::string digits(double value) {
@@ -248,7 +253,7 @@ std::string run_model(const CheckJob& job, const CheckInput& input, const Kineti
     write_atomically((fs::path(dir) / "yield.csv").string(), curve_csv(worlds, model));
     const int possible =
         input.rules.target.empty() ? 1 : possible_copies(input.rules, input.modules);
-    draw(worlds, model, counted.completion.size(), possible, dir);
+    draw(worlds, model, counted.completion.size(), possible, job, dir);
   }
   return "well-mixed model, " + std::to_string(runs) + " runs of " + digits(one.duration / 3600) +
          " h, " + std::to_string(reactions) + " reactions; mean copies completed:\n" +
@@ -285,6 +290,7 @@ void add_kinetics_options(CheckJob& job) {
   options.add({"gillespie", "runs of the well-mixed model on the rates (1000)", "N"},
               &job.gillespie, 0, 1000000);
   options.add({"out", "directory of simulations, rates and curves (out/check-<name>)", "DIR"});
+  add_figure_options(options, job.style);
   options.add({"kappa", "the rules for KaSim", "FILE.ka"});
   options.add({"bngl", "the rules for BioNetGen", "FILE.bngl"});
 }

@@ -8,6 +8,7 @@
 #include "lilytank/kinetics.hpp"
 #include "lilytank/lattice.hpp"
 #include "lilytank/measure.hpp"
+#include "lilytank/render.hpp"
 #include "lilytank/scenario.hpp"
 
 namespace lilytank::cli {
@@ -22,6 +23,8 @@ struct CheckJob {
   std::vector<std::string> scenarios, sets;
   double duration = 0;   ///< s; 0: not given
   int gillespie = 1000;  ///< runs of the well-mixed model
+  FigureStyle style;
+  ReportProvenance origin;  ///< for captions
   bool force = false, quiet = false, json = false;
 };
 

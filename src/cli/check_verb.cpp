@@ -90,6 +90,7 @@ int check_verb(const Arguments& arguments, const Host& host) {
   }
   ReportDocument report = check_report(input.rules, check);
   report.provenance = provenance("check", arguments, job.measured.seed, input_files(job));
+  job.origin = report.provenance;
   if (!input.note.empty()) report.warnings.push_back(without_line_end(input.note));
   const KineticsReport kinetics = run_kinetics(job, input, host);
   if (!kinetics.text.empty()) add_kinetics(kinetics, report);

@@ -18,6 +18,7 @@ struct DiagnoseJob {
   DiagnosisOptions diagnosis;
   std::vector<std::string> sets;
   std::string tank, tank_results;
+  FigureStyle style;
   bool quiet = false;
 };
 
@@ -42,6 +43,7 @@ void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
   options.add(
       {"uncertified", "diagnose insufficient recordings, too: error rates are then unknown"},
       &d.uncertified);
+  add_figure_options(options, job.style);
   options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace another diagnosis's files"}, &d.force);
   options.add({"quiet", "no progress"}, &job.quiet);
@@ -128,7 +130,7 @@ int diagnose_verb(const Arguments& arguments, const Host& host) {
   ReportDocument report = diagnosis_report(found);
   report.provenance = provenance("diagnose", arguments, d.seed, inputs);
   write_diagnosis(found, report, d.out);
-  if constexpr (kDraws) draw_diagnosis(found, report, d.out);
+  if constexpr (kDraws) draw_diagnosis(found, report, d.out, job.style);
   if constexpr (!kDraws) say_undrawn("report.html");
   return print_results(report, d.out, host);
 }

@@ -20,6 +20,7 @@ struct FlowJob {
   std::vector<std::string> sets;
   double drag = 0;  // coefficient; 0: that of the experiment
   std::uint64_t seed = 1;
+  FigureStyle style;
   bool bias = false, force = false, quiet = false;
 };
 
@@ -46,6 +47,7 @@ void add_flow_options(VerbOptions& options, FlowJob& job) {
   options.add({"level", "significance of the tests of normality (0.05)", "P"}, &f.significance,
               1e-6, 0.5);
   options.add({"seed", "of --bias (1)", "N"}, &job.seed, 0, INT64_MAX);
+  add_figure_options(options, job.style);
   options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace other results in the directory"}, &job.force);
   options.add({"quiet", "no progress"}, &job.quiet);
@@ -143,7 +145,7 @@ int flow_verb(const Arguments& arguments, const Host& host) {
     document = flow_report(report);
     document.provenance = origin;
     write_flow(report, document, dir);
-    if constexpr (kDraws) draw_flow(report, document, dir);
+    if constexpr (kDraws) draw_flow(report, document, dir, job.style);
     if constexpr (!kDraws) say_undrawn("maps");
   };
   write();

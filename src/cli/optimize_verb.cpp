@@ -37,17 +37,26 @@ int dry_run(const OptimizationPlan& plan, const std::string& out) {
   return Exit::done;
 }
 
+/// What the search gained, as a figure's title.
+std::string search_sentence(const std::vector<IterationRecord>& history) {
+  if (history.empty()) return "";
+  return "The search moves the best point from " + significant(history.front().best, 3) + " to " +
+         significant(history.back().best, 3) + " in " +
+         counted(history.back().evaluations, "evaluation") + ".";
+}
+
 /// Text and, where they can be drawn, the plot and the page.
 void write_report(const OptimizationPlan& plan, const OptimizationResult& result,
-                  const ReportDocument& document, const std::string& dir) {
+                  const ReportDocument& document, const std::string& dir,
+                  const FigureStyle& style) {
   write_atomically((fs::path(dir) / "optimum.txt").string(), report_text(document));
   write_atomically((fs::path(dir) / "optimum.json").string(), report_json(document));
   if constexpr (kDraws) {
     const std::string unit = fitness_unit(plan.fitness.fitness);
     const Plot plot =
-        search_plot(result.history, result.selected, plan.name,
+        search_plot(result.history, result.selected, search_sentence(result.history),
                     name_of(plan.fitness.fitness) + (unit == "1" ? "" : " (" + unit + ")"));
-    draw_search(plot, document, dir);
+    draw_search(plot, document, dir, style);
   } else {
     say_undrawn("plots");
   }
@@ -63,7 +72,8 @@ OptimizationResult run_with_progress(const Optimization& what, OptimizationOptio
 
 /// The study that compares the optimum; its exit code.
 int compare(const Optimization& what, const OptimizationResult& result,
-            const OptimizationOptions& options, bool quiet, const Host& host) {
+            const OptimizationOptions& options, const FigureStyle& style, bool quiet,
+            const Host& host) {
   const Study study(result.compare, what.plan().sets);
   StudyOptions job;
   job.out = (fs::path(options.out) / "compare").string();
@@ -77,7 +87,7 @@ int compare(const Optimization& what, const OptimizationResult& result,
   progress.clear();
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
-  std::cout << report(stored, job.out, host) << std::flush;
+  std::cout << report(stored, job.out, style, host) << std::flush;
   return done.failed > 0 ? Exit::diverged : Exit::done;
 }
 
@@ -96,6 +106,8 @@ int optimize_verb(const Arguments& arguments, const Host& host) {
   options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &job.threads, 1,
               kMostThreads);
+  FigureStyle style;
+  add_figure_options(options, style);
   options.add({"no-compare", "skip the comparison of [compare]"});
   options.add({"dry-run", "check everything, write nothing"});
   options.add({"force", "replace another search's files"}, &job.force);
@@ -121,9 +133,9 @@ int optimize_verb(const Arguments& arguments, const Host& host) {
   ReportDocument document = optimization_report(what.plan(), result);
   document.provenance = provenance("optimize", arguments, what.plan().seed, what.source().inputs());
   std::cout << printed(document, host) << std::flush;
-  write_report(what.plan(), result, document, job.out);
+  write_report(what.plan(), result, document, job.out, style);
   if (result.compare.empty() || options.has("no-compare")) return Exit::done;
-  return compare(what, result, job, quiet, host);
+  return compare(what, result, job, style, quiet, host);
 }
 
 }  // namespace lilytank::cli

@@ -15,17 +15,18 @@
 namespace lilytank::cli {
 namespace {
 
-int report_proofs(std::span<const Proof> proofs, const std::string& dir, const Host& host) {
+int report_proofs(std::span<const Proof> proofs, const std::string& dir, const FigureStyle& style,
+                  const Host& host) {
   const ReportDocument report = proof_report(proofs);
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
-  if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir);
+  if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir, style);
   if constexpr (!kDraws) say_undrawn("report.html");
   return print_results(report, dir, host);
 }
 
 // `out`: "" to print only.
-int print_together(const std::vector<std::string>& dirs, const std::string& out, bool force,
-                   const Host& host) {
+int print_together(const std::vector<std::string>& dirs, const std::string& out,
+                   const FigureStyle& style, bool force, const Host& host) {
   std::vector<Proof> proofs;
   std::string hashes;
   for (const std::string& dir : dirs) {
@@ -42,7 +43,7 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out, host);
+  return report_proofs(proofs, out, style, host);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -109,13 +110,16 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   ProofOptions job;
   bool quiet = false;
   add_prove_options(options, job);
+  FigureStyle style;
+  add_figure_options(options, style);
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
                           "modelled", "budget", "seed", "threads", "dry-run"},
                          "is for a new proof");
-    return print_together(options.positional(), options.text("out"), job.diagnosis.force, host);
+    return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
+                          host);
   }
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
@@ -135,7 +139,7 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out, host);
+  return report_proofs({&proof, 1}, job.diagnosis.out, style, host);
 }
 
 }  // namespace lilytank::cli

@@ -18,6 +18,7 @@ void take_style(const VerbOptions& options, const std::string& flow, FilmOptions
   if (flow == "none") film.style.flow = FlowStyle::none;
   if (flow == "arrows") film.style.flow = FlowStyle::arrows;
   film.style.labels = !options.has("no-labels");
+  film.style.panel = !options.has("no-panel");
   if (film.to >= 0 && film.to <= film.from) options.refuse("--to is not after --from");
 }
 
@@ -35,7 +36,7 @@ bool any_given(const VerbOptions& options, std::initializer_list<const char*> na
 /// Says so where poses were stored too seldom for the requested frame or film.
 void warn_if_seldom(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
                     double at) {
-  const bool frame = any_given(options, {"png", "svg"});
+  const bool frame = any_given(options, {"png", "svg", "pdf"});
   std::string note;
   if (frame) note = too_seldom_to_draw(run, {at});
   if (note.empty() && (!frame || any_given(options, {"mp4", "gif", "stills"}))) {
@@ -46,8 +47,8 @@ void warn_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
 
 /// Draws the requested pictures and films. A picture that would be refused is found before a film
 /// is drawn, and written after it.
-void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film, double at,
-              bool quiet, const Host& host) {
+void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film,
+              const FigureStyle& paper, double at, bool quiet, const Host& host) {
   const StoredRun run = load_run(dir);
   if (!options.has("at")) at = run.trajectory.time.back();
   warn_if_seldom(options, run, film, at);
@@ -55,12 +56,20 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
   progress.watch(film);
   NamedContents pictures;
   std::vector<std::string> made;
-  for (const char* name : {"png", "svg"}) {
+  const ReportProvenance origin{
+      "lilytank render " + dir, LILYTANK_VERSION, std::to_string(run.scenario.seed), {}};
+  for (const char* name : {"png", "svg", "pdf"}) {
     if (!options.has(name)) continue;
-    const std::string file = options.text(name);
-    pictures.emplace_back(file, frame_picture(run, at, film.style, file));
-    if (!film.force && holds_other(file, pictures.back().second)) refuse_to_replace(file);
+    const std::string file = options.text(name), caption = caption_file(file);
+    pictures.emplace_back(file, frame_picture(run, at, film.style, file, paper));
     made.push_back(file);
+    const auto same = [&](const auto& p) { return p.first == caption; };
+    if (std::none_of(pictures.begin(), pictures.end(), same)) {
+      pictures.emplace_back(caption, frame_caption(run, at, film.style, origin));
+    }
+  }
+  for (const auto& [file, content] : pictures) {
+    if (!film.force && holds_other(file, content)) refuse_to_replace(file);
   }
   std::vector<std::string> films;
   for (const char* name : {"mp4", "gif"}) {
@@ -85,7 +94,8 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
 
 #endif
 
-void add_render_options(VerbOptions& options, FilmOptions& film, std::string& flow, double& at) {
+void add_render_options(VerbOptions& options, FilmOptions& film, FigureStyle& paper,
+                        std::string& flow, double& at) {
   FrameStyle& style = film.style;
   options.add({"from", "begin of the film", "TIME"}, &film.from, 0, kLongest, "s");
   options.add({"to", "its end", "TIME"}, &film.to, 0, kLongest, "s");
@@ -99,10 +109,14 @@ void add_render_options(VerbOptions& options, FilmOptions& film, std::string& fl
   options.add({"stills", "the film's frames as PNG files", "DIR"});
   options.add({"png", "one frame", "FILE"});
   options.add({"svg", "one frame", "FILE"});
+  options.add({"pdf", "one frame", "FILE"});
   options.add({"at", "the frame's time (default: the end)", "TIME"}, &at, 0, kLongest, "s");
   options.add({"flow", "none, arrows or streamlines", "WORD"}, &flow,
               {"none", "arrows", "streamlines"});
   options.add({"no-labels", "no states on modules"});
+  options.add({"no-panel", "the tank alone: no clock, yield and legend"});
+  options.add({"figure-width", "one frame for paper, without the panel: 85 or 174 mm", "MM"},
+              &paper.width, 60, 400);
   options.add({"trail", "time of path drawn behind each body (4 s)", "TIME"}, &style.trail, 0, 3600,
               "s");
   options.add({"force", "replace files of other contents"}, &film.force);
@@ -113,22 +127,23 @@ void add_render_options(VerbOptions& options, FilmOptions& film, std::string& fl
 int render_verb(const Arguments& arguments, [[maybe_unused]] const Host& host) {
   VerbOptions options("render", "RUN", "Draws a run's directory: a film, stills or one frame.");
   FilmOptions film;
+  FigureStyle paper;
   film.force = false;
   std::string flow;
   double at = 0;
   bool quiet = false;
-  add_render_options(options, film, flow, at);
+  add_render_options(options, film, paper, flow, at);
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
 #ifdef LILYTANK_HAS_RENDER
   const std::string& run =
       options.only("which run? write lilytank render RUN, as out/chain5-seed1");
-  for (const char* name : {"png", "svg", "mp4", "gif"}) check_ending(options, name);
-  if (options.has("at") && !options.has("png") && !options.has("svg")) {
-    options.refuse("--at goes with --png or --svg");
+  for (const char* name : {"png", "svg", "pdf", "mp4", "gif"}) check_ending(options, name);
+  if (!any_given(options, {"png", "svg", "pdf"})) {
+    options.refuse_given({"at", "figure-width"}, "goes with --png, --svg or --pdf");
   }
   take_style(options, flow, film);
-  draw_all(options, run, film, at, quiet, host);
+  draw_all(options, run, film, paper, at, quiet, host);
   return Exit::done;
 #else
   options.refuse("this program was built without the renderer (Cairo was not found)");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "cli/options.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
@@ -31,8 +32,10 @@ std::vector<std::string> essential(const Arguments& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& word = arguments[i];
     const std::string name = word.substr(0, word.find('='));
-    if (name == "--force" || name == "--quiet" || name == "--open") continue;
-    if (name == "--out" || name == "--tank-results" || name == "--threads") {
+    if (name == "--force" || name == "--quiet" || name == "--open" || name == "--no-titles")
+      continue;
+    if (name == "--out" || name == "--tank-results" || name == "--threads" ||
+        name == "--figure-width") {
       i += word == name ? 1 : 0;
       continue;
     }
@@ -42,6 +45,12 @@ std::vector<std::string> essential(const Arguments& arguments) {
 }
 
 }  // namespace
+
+void add_figure_options(VerbOptions& options, FigureStyle& style) {
+  options.add({"figure-width", "figures for paper: 85 (a column) or 174 (two columns)", "MM"},
+              &style.width, 60, 400);
+  options.add({"no-titles", "no sentences above figures"}, &style.untitled);
+}
 
 void check_directory_can_be(const std::string& dir) {
   std::error_code ignored;

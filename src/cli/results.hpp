@@ -10,6 +10,8 @@
 
 namespace lilytank::cli {
 
+class VerbOptions;
+
 /// Whether this program can draw. Calls of functions of render.hpp stand within `if constexpr
 /// (kDraws)`; render_verb.cpp, nearly all of which would, leaves them to the preprocessor.
 #ifdef LILYTANK_HAS_RENDER
@@ -19,6 +21,9 @@ inline constexpr bool kDraws = false;
 #endif
 /// Says on stderr that this program cannot draw, and so makes no `what`.
 void say_undrawn(const std::string& what);
+
+/// Adds --figure-width and --no-titles, for figures on paper.
+void add_figure_options(VerbOptions& options, FigureStyle& style);
 
 /// Throws InputError if a directory can neither be there nor be made, as it or one above it is a
 /// file. For --dry-run, writes nothing.
@@ -30,8 +35,9 @@ void check_directory_of(const std::string& kind, const std::string& dir, bool fo
 void check_directory_of(const StudyPlan& plan, const std::string& dir, bool force);
 
 /// The command as a shell takes it, without options that change no number (--out, --threads,
-/// --force, --quiet), the program's version, the seed, and the SHA-256 of the files that were read;
-/// of a directory of tracks each file counts. Files that cannot be read are left out.
+/// --force, --quiet, --figure-width, --no-titles), the program's version, the seed, and the SHA-256
+/// of the files that were read; of a directory of tracks each file counts. Files that cannot be
+/// read are left out.
 ReportProvenance provenance(const std::string& verb, const Arguments& arguments, std::uint64_t seed,
                             const std::vector<std::string>& inputs);
 /// The command, its seed and the contents of its inputs as one word: that of a repeated command is

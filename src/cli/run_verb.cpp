@@ -45,8 +45,14 @@ void check_pictures(const std::string& out) {
   refuse_foreign(out, existing_in(out, pictures_of_run()), "run");
 }
 
+/// Where the numbers of a drawn run come from, and how its figures look.
+struct Drawing {
+  ReportProvenance origin;
+  FigureStyle style;
+};
+
 /// Draws video.mp4, then the pictures and the page of the report.
-void draw(const RunOptions& job, const ReportProvenance& origin, bool quiet, const Host& host) {
+void draw(const RunOptions& job, const Drawing& how, bool quiet, const Host& host) {
   if constexpr (kDraws) {
     const StoredRun stored = load_run(job.out);
     FilmOptions film;
@@ -57,8 +63,8 @@ void draw(const RunOptions& job, const ReportProvenance& origin, bool quiet, con
     progress.watch(film);
     draw_film(stored, film, (fs::path(job.out) / "video.mp4").string());
     ReportDocument report = run_report(stored, job.out);
-    report.provenance = origin;
-    draw_run(stored, report, job.out);
+    report.provenance = how.origin;
+    draw_run(stored, report, job.out, how.style);
   }
 }
 
@@ -85,9 +91,9 @@ void say_time(const RunResult& result, const std::string& out) {
   std::cerr << "results in " << out << "\n";
 }
 
-/// What to print, and the exit code. `film`: where the numbers come from, if the run is drawn.
+/// What to print, and the exit code. `film`: if the run is drawn.
 int finish(const Scenario& scenario, const RunResult& result, const RunOptions& job,
-           const std::optional<ReportProvenance>& film, bool quiet, const Host& host) {
+           const std::optional<Drawing>& film, bool quiet, const Host& host) {
   if (!quiet) say_time(result, job.out);
   if (result.status == RunStatus::diverged) {
     std::cerr << divergence_text(result.divergence, scenario.model) << "\n";
@@ -111,6 +117,8 @@ int run_verb(const Arguments& arguments, const Host& host) {
   options.add({"seed", "where all random numbers come from", "N"}, &seed, 0, 1000000000000000000);
   options.add({"out", "directory of the results (default: out/<title>-seed<N>)", "DIR"});
   options.add({"video", "draw video.mp4 (35 s, 1280 x 720), yield.png and report.html"}, &video);
+  FigureStyle style;
+  add_figure_options(options, style);
   options.add({"dry-run", "check everything, write nothing"});
   options.add({"force", "replace another run's files"}, &job.force);
   options.add({"quiet", "no progress"}, &quiet);
@@ -118,6 +126,7 @@ int run_verb(const Arguments& arguments, const Host& host) {
                      "which scenario? write lilytank run SCENARIO, as scenarios/chain5.toml")) {
     return Exit::done;
   }
+  if (!video) options.refuse_given({"figure-width", "no-titles"}, "goes with --video");
   if (options.has("seed")) sets.push_back("run.seed=" + std::to_string(seed));
   refuse_point_bodies(options.positional());
   const Scenario scenario = load_scenario(options.positional(), sets);
@@ -131,8 +140,8 @@ int run_verb(const Arguments& arguments, const Host& host) {
   progress.watch(job);
   const RunResult result = run(scenario, job);
   progress.clear();
-  std::optional<ReportProvenance> film;
-  if (video) film = provenance("run", arguments, scenario.seed, options.positional());
+  std::optional<Drawing> film;
+  if (video) film = {provenance("run", arguments, scenario.seed, options.positional()), style};
   return finish(scenario, result, job, film, quiet, host);
 }
 

@@ -63,7 +63,7 @@ StudyResult run_with_progress(const Study& study, StudyOptions job, bool quiet, 
 
 /// What to print, and the exit code.
 int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions& job,
-           const Host& host) {
+           const FigureStyle& style, const Host& host) {
   if (job.shard.count > 1) {
     std::cerr << shard_text(job.shard)
               << (result.waiting ? " has done what it can: " : " is done: ")
@@ -79,7 +79,7 @@ int finish(const StudyPlan& plan, const StudyResult& result, const StudyOptions&
   }
   const StoredStudy stored = load_study(job.out);
   write_table(stored, job.out);
-  std::cout << report(stored, job.out, host) << std::flush;
+  std::cout << report(stored, job.out, style, host) << std::flush;
   std::cerr << "study " << plan.name << " is complete; results in " << job.out << "\n";
   return result.failed > 0 ? Exit::diverged : Exit::done;
 }
@@ -102,6 +102,8 @@ int run_one(const Arguments& arguments, const Host& host) {
   options.add(
       {"threads", "simulations at a time (default: SLURM_CPUS_PER_TASK, or one a core)", "N"},
       &job.threads, 1, kMostThreads);
+  FigureStyle style;
+  add_figure_options(options, style);
   options.add({"dry-run", "check everything, write nothing"});
   options.add({"force", "replace another study's files"}, &job.force);
   options.add({"quiet", "no progress"}, &quiet);
@@ -111,7 +113,7 @@ int run_one(const Arguments& arguments, const Host& host) {
   job.shard = shard_of(options);
   spare_read(options, files_of_study(job.out), study.inputs());
   if (options.has("dry-run")) return dry_run(study.plan(), job);
-  return finish(study.plan(), run_with_progress(study, job, quiet, host), job, host);
+  return finish(study.plan(), run_with_progress(study, job, quiet, host), job, style, host);
 }
 
 /// This program's file, so that the script finds it on other machines with the same file system.

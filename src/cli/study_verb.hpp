@@ -16,7 +16,8 @@ void spare_read(const VerbOptions& options, const std::vector<std::string>& file
                 const std::vector<std::string>& inputs);
 /// Writes the statistics and, where there is a renderer, the plots beside them; returns the
 /// statistics as text.
-std::string report(const StoredStudy& study, const std::string& dir, const Host& host);
+std::string report(const StoredStudy& study, const std::string& dir, const FigureStyle& style,
+                   const Host& host);
 /// "3 settings, 12 of 30 runs, 1 diverged".
 std::string counts_text(const StoredStudy& study);
 

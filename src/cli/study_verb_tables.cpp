@@ -89,7 +89,8 @@ std::string counts_text(const StoredStudy& study) {
          " runs, " + std::to_string(failed) + " diverged";
 }
 
-std::string report(const StoredStudy& study, const std::string& dir, const Host& host) {
+std::string report(const StoredStudy& study, const std::string& dir, const FigureStyle& style,
+                   const Host& host) {
   const StudySummary summary = summarise(study.table);
   ReportDocument document = study_report(summary);
   const StudyPlan& plan = study.plan;
@@ -102,7 +103,7 @@ std::string report(const StoredStudy& study, const std::string& dir, const Host&
                          std::to_string(plan.seed),
                          {}};
   write_study_summary(summary, document, dir);
-  if constexpr (kDraws) draw_study(summary, document, dir);
+  if constexpr (kDraws) draw_study(summary, document, dir, style);
   if constexpr (!kDraws) say_undrawn("plots");
   return printed(document, host);
 }
@@ -120,9 +121,11 @@ int study_report(const Arguments& arguments, const Host& host) {
   VerbOptions options("study report", "DIR",
                       "Writes a study's statistics and plots beside its runs, and prints the "
                       "statistics.");
+  FigureStyle style;
+  add_figure_options(options, style);
   const auto found = found_study(options, arguments, true);
   if (!found) return Exit::done;
-  std::cout << report(found->study, found->dir, host) << std::flush;
+  std::cout << report(found->study, found->dir, style, host) << std::flush;
   return completeness(found->study, "results in " + found->dir);
 }
 

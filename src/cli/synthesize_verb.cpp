@@ -65,9 +65,14 @@ std::string file_text(const Plan& plan, const Ruleset& rules, const std::vector<
   return text.substr(0, first) + comments + text.substr(first);
 }
 
-std::string picture(const VerbOptions& options, const Target& target, const Plan& plan) {
+// The picture and its caption.
+void add_figure(const VerbOptions& options, const Target& target, const Plan& plan,
+                const FigureStyle& style, NamedContents& files) {
   if constexpr (kDraws) {
-    return stages_picture(target, stages_of(target, plan), target.name, options.text("figure"));
+    const std::string file = options.text("figure");
+    const std::vector<Stage> stages = stages_of(target, plan);
+    files.emplace_back(file, stages_picture(target, stages, target.name, file, style));
+    files.emplace_back(caption_file(file), stages_caption(target, stages));
   } else {
     options.refuse("--figure: this program was built without the renderer (Cairo was not found)");
   }
@@ -101,7 +106,8 @@ int write_all(const VerbOptions& options, const Target& target, const EmitOption
   return Exit::done;
 }
 
-void add_synthesize_options(VerbOptions& options, EmitOptions& emitting, int& modules) {
+void add_synthesize_options(VerbOptions& options, EmitOptions& emitting, int& modules,
+                            FigureStyle& style) {
   options.add({"algorithm", "singleton (the default), linchpin, balanced, or plan", "WORD"});
   options.add({"tree", "a drawing of the same cells with the bonds to use", "FILE"});
   options.add({"order", "a drawing with numbered bonds: the whole plan", "FILE"});
@@ -113,6 +119,7 @@ void add_synthesize_options(VerbOptions& options, EmitOptions& emitting, int& mo
   options.add({"name", "of the ruleset (default: the target's)", "WORD"});
   options.add({"out", "file for the rules (default: the terminal)", "FILE"});
   options.add({"figure", "the stages of the assembly as .svg, .png or .pdf", "FILE"});
+  add_figure_options(options, style);
   options.add({"all", "the rules of all plans: every tree, algorithm and order", "DIR"});
   options.add({"force", "replace files of other contents"});
 }
@@ -146,11 +153,15 @@ int synthesize_verb(const Arguments& arguments, const Host&) {
                       "bonds '-' and '|' between spaced ones where they matter.");
   EmitOptions emitting;
   int modules = 0;
-  add_synthesize_options(options, emitting, modules);
+  FigureStyle style;
+  add_synthesize_options(options, emitting, modules, style);
   if (!options.parse(with_long_name(arguments))) return Exit::done;
   const std::string& file =
       options.only("one target, please: lilytank synthesize scenarios/targets/chain5.txt");
   check_outputs(options);
+  if (!options.has("figure")) {
+    options.refuse_given({"figure-width", "no-titles"}, "goes with --figure");
+  }
   Target target = read_target(file);
   if (options.has("name")) {
     // The same rule for names as in a drawing.
@@ -167,8 +178,7 @@ int synthesize_verb(const Arguments& arguments, const Host&) {
   const std::string text = file_text(plan, rules, notes);
   NamedContents files;
   if (options.has("out")) files.emplace_back(options.text("out"), text);
-  if (options.has("figure"))
-    files.emplace_back(options.text("figure"), picture(options, target, plan));
+  if (options.has("figure")) add_figure(options, target, plan, style, files);
   write_results(files, options.has("force"));
   if (!options.has("out")) std::cout << text << std::flush;
   for (const Note& note : notes)

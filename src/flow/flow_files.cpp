@@ -99,7 +99,9 @@ std::string flow_cells_csv(const FlowEstimate& estimate) {
 std::vector<std::string> flow_files() {
   std::vector<std::string> files{"bias.csv", "flow.txt", "flow.json", "report.html"};
   for (const char* figure : {"flow_paper", "flow_smooth", "normality", "errors"}) {
-    for (const char* ending : {".png", ".svg"}) files.push_back(std::string(figure) + ending);
+    for (const char* ending : {".png", ".svg", ".pdf", ".caption.txt"}) {
+      files.push_back(std::string(figure) + ending);
+    }
   }
   for (const char* table : {"flow_", "cells_", "errors_"}) {
     for (const char* estimator : {"paper.csv", "smooth.csv"}) {

@@ -105,7 +105,9 @@ std::vector<std::string> existing_in(const std::string& dir,
 std::vector<std::string> with_figures(std::vector<std::string> files,
                                       const std::vector<std::string>& figures) {
   for (const std::string& figure : figures) {
-    for (const char* ending : {".png", ".svg"}) files.push_back(figure + ending);
+    for (const char* ending : {".png", ".svg", ".pdf", ".caption.txt"}) {
+      files.push_back(figure + ending);
+    }
   }
   return files;
 }

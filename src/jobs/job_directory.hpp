@@ -47,7 +47,7 @@ bool exists(const std::string& file);
 /// Paths of those of the named files that exist in `dir`.
 std::vector<std::string> existing_in(const std::string& dir, const std::vector<std::string>& names);
 
-/// Names of figures as they are drawn: "maps.png" and "maps.svg" of "maps".
+/// Names of figures as they are drawn: "maps.png", "maps.svg", "maps.pdf" and "maps.caption.txt".
 std::vector<std::string> with_figures(std::vector<std::string> files,
                                       const std::vector<std::string>& figures);
 

@@ -72,7 +72,7 @@ void check_run_files(const std::string& dir, const std::string& poses, const Che
 }
 
 std::vector<std::string> pictures_of_run() {
-  return {"video.mp4", "yield.png", "yield.svg", "frame.svg", "report.html"};
+  return with_figures({"video.mp4", "report.html"}, {"yield", "frame"});
 }
 
 RunDirectory::RunDirectory(std::string dir, const Scenario& scenario, bool force)

@@ -83,7 +83,7 @@ AxesEstimate estimate(const Axes& axes, const SmoothingOptions& options, const M
 
 SmoothTrack smooth_track(const Track& track, const SmoothRecording& all) {
   SmoothTrack out;
-  out.id = track.id, out.first = track.first;
+  out.id = track.id, out.assembly = track.assembly, out.first = track.first;
   out.seen.resize(track.x.size());
   for (std::size_t f = 0; f < track.x.size(); ++f) out.seen[f] = !std::isnan(track.x[f]);
   AxesEstimate place = estimate(places_of(track), all.options, all.position, 1 / all.rate);

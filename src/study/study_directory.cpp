@@ -30,8 +30,11 @@ bool is_made(const std::string& name) {
                     "yield_curve.csv", "survival.csv", "report.html", "view.html"},
                    {"yield", "mean_time"});
   if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return true;
-  if (!name.ends_with(".png") && !name.ends_with(".svg")) return false;
-  const std::string figure = name.substr(0, name.size() - 4), survival = "survival_";
+  static const std::vector<std::string> kEndings = with_figures({}, {""});
+  const auto ending = std::find_if(kEndings.begin(), kEndings.end(),
+                                   [&](const std::string& e) { return name.ends_with(e); });
+  if (ending == kEndings.end()) return false;
+  const std::string figure = name.substr(0, name.size() - ending->size()), survival = "survival_";
   return figure.starts_with("copies_over_") ||
          (figure.starts_with(survival) && parse_whole(figure.substr(survival.size())));
 }

@@ -89,9 +89,18 @@ std::string rate_warning(const Analysis& analysis) {
          "--set output.rate=40";
 }
 
+bool any_latched(const Analysis& analysis) {
+  return std::any_of(analysis.sources.begin(), analysis.sources.end(),
+                     [](const SourceSummary& s) { return s.units < s.bodies; });
+}
+
 ReportSection tracks_section(const Analysis& analysis) {
   Table table(analysis);
   table.add("bodies", [](const SourceSummary& s) { return std::to_string(s.bodies); });
+  if (any_latched(analysis)) {
+    table.add("bodies, latched ones as one",
+              [](const SourceSummary& s) { return std::to_string(s.units); });
+  }
   table.add("tracks", [](const SourceSummary& s) { return std::to_string(s.tracks); });
   table.add("recordings", [](const SourceSummary& s) { return std::to_string(s.recordings); });
   table.add("duration (s)", [](const SourceSummary& s) { return three(s.duration); });
@@ -287,11 +296,15 @@ ReportCard card_of(const Analysis& analysis) {
 
 }  // namespace
 
+std::string resampled(const Analysis& analysis) {
+  return any_latched(analysis) ? "bootstrap over bodies and assemblies" : "bootstrap over bodies";
+}
+
 ReportDocument analysis_report(const Analysis& analysis) {
   ReportDocument report;
   report.title = "Analysis";
-  report.subtitle = "Intervals: " + fixed(100 * analysis.options.bootstrap.level, 0) +
-                    " %, bootstrap over bodies";
+  report.subtitle = "Intervals: " + fixed(100 * analysis.options.bootstrap.level, 0) + " %, " +
+                    resampled(analysis);
   report.card = card_of(analysis);
   if (const std::string warning = rate_warning(analysis); !warning.empty()) {
     report.warnings.push_back(warning);

@@ -2,6 +2,7 @@
 
 #include "lilytank/metrics.hpp"
 #include "text/number.hpp"
+#include "tracks/latched.hpp"
 
 namespace lilytank {
 namespace {
@@ -37,9 +38,12 @@ Recording as_recording(const Trajectory& t, BodyKind body) {
   }
   const bool balls = body == BodyKind::ball;
   const int first = balls ? t.modules : 0, end = balls ? t.bodies : t.modules;
+  std::vector<int> assembly;
+  if (!balls) assembly = lasting_assemblies(t);
   for (int b = first; b < end; ++b) {
     Track track;
     track.id = b - first;
+    if (!balls) track.assembly = assembly[static_cast<std::size_t>(b)];
     for (int f = 0; f < recording.frames; ++f) {
       const std::size_t at = static_cast<std::size_t>(f) * t.bodies + b;
       track.x.push_back(t.x[at]), track.y.push_back(t.y[at]);

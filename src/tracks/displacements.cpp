@@ -110,7 +110,7 @@ LagPlace place_of(double lag, double rate) {
   return place;
 }
 
-// Collects tracks' sums at all lags into bodies' sums at the wanted ones.
+// Collects tracks' sums at all lags into those of bodies and assemblies at the wanted ones.
 class LagCollector {
  public:
   LagCollector(const std::vector<double>& lags, double rate) {
@@ -122,8 +122,8 @@ class LagCollector {
     sums_.tracks.assign(lags.size(), 0);
   }
   std::size_t most() const { return most_; }
-  void add(std::int64_t id, const LaggedSums& track) {
-    const auto [found, fresh] = body_of_.try_emplace(id, body_of_.size());
+  void add(std::int64_t unit, const LaggedSums& track) {
+    const auto [found, fresh] = unit_of_.try_emplace(unit, unit_of_.size());
     const std::size_t bins = places_.size(), at = found->second * bins;
     if (fresh) sums_.sum.resize(at + bins, 0.0), sums_.weight.resize(at + bins, 0.0);
     for (std::size_t i = 0; i < bins; ++i) {
@@ -146,7 +146,7 @@ class LagCollector {
  private:
   std::vector<LagPlace> places_;
   std::size_t most_ = 0;
-  std::map<std::int64_t, std::size_t> body_of_;
+  std::map<std::int64_t, std::size_t> unit_of_;
   BodySums sums_;
 };
 
@@ -171,9 +171,9 @@ BodySums squares(const Recording& recording, const std::vector<double>& lags, Or
     signal_of(track, z);
     if (z.empty()) continue;
     if (origins == Origins::all) {
-      collector.add(track.id, summer(z, collector.most(), LaggedKind::square));
+      collector.add(track.unit(), summer(z, collector.most(), LaggedKind::square));
     } else if (track.first <= recording.rate) {
-      collector.add(track.id, from_first(z, collector.most()));
+      collector.add(track.unit(), from_first(z, collector.most()));
     }
   }
   return collector.take();
@@ -188,7 +188,7 @@ BodySums products(const SmoothRecording& recording, const std::vector<double>& l
   for (const SmoothTrack& track : recording.tracks) {
     signal_of(track, z);
     if (z.empty()) continue;
-    collector.add(track.id, summer(z, collector.most(), LaggedKind::product));
+    collector.add(track.unit(), summer(z, collector.most(), LaggedKind::product));
   }
   return collector.take();
 }

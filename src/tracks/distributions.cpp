@@ -28,35 +28,35 @@ double value_of(const SmoothTrack& t, std::size_t f, Quantity quantity) {
   return t.spin[f];
 }
 
-// Calls act(body, track, frame) for every sighting that has a velocity (for spins, a spin).
+// Calls act(unit, track, frame) for every sighting that has a velocity (for spins, a spin).
 template <class Act>
 void for_each_seen(const SmoothRecording& recording, Quantity quantity, const Act& act) {
-  const BodyNumbers numbers(recording);
+  const UnitNumbers numbers(recording);
   for (const SmoothTrack& t : recording.tracks) {
-    const std::size_t body = numbers.of(t);
+    const std::size_t unit = numbers.of(t);
     const auto& values = quantity == Quantity::spin ? t.spin : t.vx;
     for (std::size_t f = 0; f < values.size(); ++f) {
-      if (t.seen[f] && !std::isnan(values[f])) act(body, t, f);
+      if (t.seen[f] && !std::isnan(values[f])) act(unit, t, f);
     }
   }
 }
 
 BodySums sums_for(const SmoothRecording& recording, int bins, Quantity quantity) {
   BodySums sums;
-  std::size_t bodies = BodyNumbers(recording).count();
+  std::size_t units = UnitNumbers(recording).count();
   std::int64_t tracks = 0;
   for (const SmoothTrack& t : recording.tracks) {
     tracks += quantity == Quantity::spin ? !t.spin.empty() : !t.vx.empty();
   }
-  if (tracks == 0) bodies = 0;
+  if (tracks == 0) units = 0;
   sums.bins = bins;
-  sums.sum.assign(bodies * static_cast<std::size_t>(bins), 0.0);
+  sums.sum.assign(units * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
   sums.tracks.assign(bins, tracks);
   return sums;
 }
 
-// What one body did in one cell.
+// What one body or assembly did in one cell.
 struct Passage {
   std::size_t cell = 0;
   double n = 0, vx = 0, vy = 0;
@@ -65,13 +65,13 @@ struct Passage {
 void add_passages(const SmoothRecording& recording, const Bins& bins,
                   std::vector<Passage>& passages) {
   const auto count = static_cast<std::size_t>(bins.count) * static_cast<std::size_t>(bins.count);
-  std::vector<Passage> own(BodyNumbers(recording).count() * count);
+  std::vector<Passage> own(UnitNumbers(recording).count() * count);
   for_each_seen(recording, Quantity::speed,
-                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
+                [&](std::size_t unit, const SmoothTrack& t, std::size_t f) {
                   const int ix = bins.of(t.x[f]), iy = bins.of(t.y[f]);
                   if (ix < 0 || iy < 0) return;
                   const auto cell = static_cast<std::size_t>(iy * bins.count + ix);
-                  Passage& p = own[body * count + cell];
+                  Passage& p = own[unit * count + cell];
                   p.cell = cell;
                   ++p.n, p.vx += t.vx[f], p.vy += t.vy[f];
                 });
@@ -89,11 +89,11 @@ int Bins::of(double value) const {
 
 BodySums distribution(const SmoothRecording& recording, Quantity quantity, const Bins& bins) {
   BodySums sums = sums_for(recording, bins.count, quantity);
-  std::vector<double> samples(BodyNumbers(recording).count(), 0.0);
-  for_each_seen(recording, quantity, [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
-    ++samples[body];
+  std::vector<double> samples(UnitNumbers(recording).count(), 0.0);
+  for_each_seen(recording, quantity, [&](std::size_t unit, const SmoothTrack& t, std::size_t f) {
+    ++samples[unit];
     const int bin = bins.of(value_of(t, f, quantity));
-    if (bin >= 0) sums.sum[body * bins.count + bin] += 1 / bins.width();
+    if (bin >= 0) sums.sum[unit * bins.count + bin] += 1 / bins.width();
   });
   for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
@@ -113,10 +113,10 @@ double quantile_of_size(const SmoothRecording& recording, Quantity quantity, dou
 
 BodySums mean_power(const SmoothRecording& recording, Quantity quantity, int power) {
   BodySums sums = sums_for(recording, 1, quantity);
-  for_each_seen(recording, quantity, [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
+  for_each_seen(recording, quantity, [&](std::size_t unit, const SmoothTrack& t, std::size_t f) {
     const double v = value_of(t, f, quantity);
-    sums.sum[body] += power == 2 ? v * v : v;
-    ++sums.weight[body];
+    sums.sum[unit] += power == 2 ? v * v : v;
+    ++sums.weight[unit];
   });
   return sums;
 }
@@ -124,27 +124,27 @@ BodySums mean_power(const SmoothRecording& recording, Quantity quantity, int pow
 BodySums circulation(const SmoothRecording& recording) {
   BodySums sums = sums_for(recording, 1, Quantity::speed);
   for_each_seen(recording, Quantity::speed,
-                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
-                  sums.sum[body] += t.x[f] * t.vy[f] - t.y[f] * t.vx[f];
-                  sums.weight[body] += t.x[f] * t.x[f] + t.y[f] * t.y[f];
+                [&](std::size_t unit, const SmoothTrack& t, std::size_t f) {
+                  sums.sum[unit] += t.x[f] * t.vy[f] - t.y[f] * t.vx[f];
+                  sums.weight[unit] += t.x[f] * t.x[f] + t.y[f] * t.y[f];
                 });
   return sums;
 }
 
 BodySums radial_density(const SmoothRecording& recording, double tank_radius, const Bins& bins) {
   BodySums sums = sums_for(recording, bins.count, Quantity::speed);
-  std::vector<double> samples(BodyNumbers(recording).count(), 0.0);
+  std::vector<double> samples(UnitNumbers(recording).count(), 0.0);
   const auto edge = [&](int i) { return bins.low + i * bins.width(); };
   std::vector<double> share(bins.count);  // of the tank's area
   for (int i = 0; i < bins.count; ++i) {
     share[i] = (edge(i + 1) * edge(i + 1) - edge(i) * edge(i)) / (tank_radius * tank_radius);
   }
   for_each_seen(recording, Quantity::speed,
-                [&](std::size_t body, const SmoothTrack& t, std::size_t f) {
-                  ++samples[body];
+                [&](std::size_t unit, const SmoothTrack& t, std::size_t f) {
+                  ++samples[unit];
                   const int bin = bins.of(std::sqrt(t.x[f] * t.x[f] + t.y[f] * t.y[f]));
                   if (bin < 0) return;
-                  sums.sum[body * bins.count + bin] += 1 / share[bin];
+                  sums.sum[unit * bins.count + bin] += 1 / share[bin];
                 });
   for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
@@ -166,7 +166,7 @@ VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cel
     map.vx.push_back(total.n > 0 ? total.vx / total.n : kUndefined);
     map.vy.push_back(total.n > 0 ? total.vy / total.n : kUndefined);
   }
-  // The error of a ratio of sums over independent bodies, to first order.
+  // The error of a ratio of sums over independent units, to first order.
   for (const Passage& p : passages) {
     ++map.bodies[p.cell];
     const double dx = p.vx - p.n * map.vx[p.cell], dy = p.vy - p.n * map.vy[p.cell];

@@ -16,7 +16,8 @@ bool placed(const SmoothTrack& t, int i) {
 
 FramesView::FramesView(const SmoothRecording& recording) {
   const BodyNumbers numbers(recording);
-  bodies_ = numbers.count();
+  const UnitNumbers units(recording);
+  bodies_ = numbers.count(), units_ = units.count();
   int frames = 0;
   for (const SmoothTrack& t : recording.tracks) frames = std::max(frames, t.first + t.frames());
   begin_.assign(static_cast<std::size_t>(frames) + 1, 0);
@@ -33,7 +34,7 @@ FramesView::FramesView(const SmoothRecording& recording) {
   std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
   for_each([&](const SmoothTrack& t, int i, std::size_t f) {
     const double theta = t.theta.empty() ? 0 : t.theta[i];
-    seen_[next[f]++] = {numbers.of(t), t.x[i], t.y[i], theta};
+    seen_[next[f]++] = {numbers.of(t), units.of(t), t.x[i], t.y[i], theta};
   });
 }
 

@@ -18,13 +18,13 @@ double distance(const SeenBody& a, const SeenBody& b) {
 BodySums empty_sums(const SmoothRecording& recording, const FramesView& frames, int bins) {
   BodySums sums;
   sums.bins = bins;
-  sums.sum.assign(frames.bodies() * static_cast<std::size_t>(bins), 0.0);
+  sums.sum.assign(frames.units() * static_cast<std::size_t>(bins), 0.0);
   sums.weight = sums.sum;
   sums.tracks.assign(bins, static_cast<std::int64_t>(recording.tracks.size()));
   return sums;
 }
 
-// Pairs of different bodies, by bin and body: [body * bins + bin], and all of a body's.
+// Pairs of different bodies, by bin and unit: [unit * bins + bin], and all of a unit's.
 struct PairCounts {
   std::vector<double> by_bin, all;
 };
@@ -35,11 +35,11 @@ void count_pairs(const SeenBody* a, const SeenBody* a_end, const SeenBody* b, co
   for (; a != a_end; ++a) {
     for (const SeenBody* p = b; p != b_end; ++p) {
       if (p->body == a->body) continue;
-      ++counts.all[a->body];
+      ++counts.all[a->unit];
       const double dx = a->x - p->x, dy = a->y - p->y;
       if (dx * dx + dy * dy > reach) continue;
       const int bin = bins.of(std::sqrt(dx * dx + dy * dy));
-      if (bin >= 0) ++counts.by_bin[a->body * bins.count + bin];
+      if (bin >= 0) ++counts.by_bin[a->unit * bins.count + bin];
     }
   }
 }
@@ -49,7 +49,7 @@ std::size_t stride_of(const SmoothRecording& recording) {
   return static_cast<std::size_t>(std::max(1.0, std::round(recording.rate / 10)));
 }
 
-// Calls act(body, distance to the nearest other one) for frames with two bodies or more.
+// Calls act(unit, distance to the nearest other body) for frames with two bodies or more.
 template <class Act>
 void for_each_nearest(const SmoothRecording& recording, const FramesView& frames, const Act& act) {
   std::vector<double> nearest;  // squared
@@ -65,7 +65,7 @@ void for_each_nearest(const SmoothRecording& recording, const FramesView& frames
         nearest[i] = std::min(nearest[i], square), nearest[j] = std::min(nearest[j], square);
       }
     }
-    for (std::size_t i = 0; i < seen; ++i) act(first[i].body, std::sqrt(nearest[i]));
+    for (std::size_t i = 0; i < seen; ++i) act(first[i].unit, std::sqrt(nearest[i]));
   }
 }
 
@@ -127,11 +127,13 @@ class ContactFinder {
     const SeenBody* const last = frames_.end(f);
     touching_.assign(frames_.bodies(), false);
     for (const SeenBody* a = frames_.begin(f); a != last; ++a) {
-      out_.begun.weight[a->body] += static_cast<double>(spacing_) * interval_;
-      out_.touching.weight[a->body] += 1;
+      out_.begun.weight[a->unit] += static_cast<double>(spacing_) * interval_;
+      out_.touching.weight[a->unit] += 1;
       for (const SeenBody* b = a + 1; b != last; ++b) look_at_pair(f, *a, *b);
     }
-    for (std::size_t i = 0; i < touching_.size(); ++i) out_.touching.sum[i] += touching_[i];
+    for (const SeenBody* a = frames_.begin(f); a != last; ++a) {
+      out_.touching.sum[a->unit] += touching_[a->body];
+    }
   }
   void look_at_pair(std::size_t f, const SeenBody& a, const SeenBody& b) {
     const auto [low, high] = std::minmax(a.body, b.body);
@@ -143,7 +145,7 @@ class ContactFinder {
     if (t.on && space > rule_.apart) end(t, f, true);
     if (!t.on && space <= rule_.touching) {
       t.on = true, t.counted = known, t.since = f;
-      if (known) ++out_.begun.sum[low], ++out_.begun.sum[high];
+      if (known) ++out_.begun.sum[a.unit], ++out_.begun.sum[b.unit];
     }
     if (t.on) touching_[low] = touching_[high] = true;
     t.seen = f;
@@ -177,7 +179,7 @@ class ContactFinder {
 BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
   const FramesView frames(recording);
   BodySums sums = empty_sums(recording, frames, bins.count);
-  PairCounts same{sums.sum, std::vector<double>(frames.bodies(), 0.0)}, other = same;
+  PairCounts same{sums.sum, std::vector<double>(frames.units(), 0.0)}, other = same;
   // Shifts that are far from each other and from whole turns of each other.
   const std::size_t n = frames.frames();
   constexpr std::array kShifts{0.2137, 0.3819, 0.5393};
@@ -189,9 +191,9 @@ BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
     count_pairs(frames.begin(f), frames.end(f), frames.begin(g), frames.end(g), bins, other);
   }
   for (std::size_t i = 0; i < sums.sum.size(); ++i) {
-    const std::size_t body = i / static_cast<std::size_t>(bins.count);
+    const std::size_t unit = i / static_cast<std::size_t>(bins.count);
     sums.sum[i] = same.by_bin[i];
-    if (other.all[body] > 0) sums.weight[i] = other.by_bin[i] * same.all[body] / other.all[body];
+    if (other.all[unit] > 0) sums.weight[i] = other.by_bin[i] * same.all[unit] / other.all[unit];
   }
   return sums;
 }
@@ -199,11 +201,11 @@ BodySums pair_correlation(const SmoothRecording& recording, const Bins& bins) {
 BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins) {
   const FramesView frames(recording);
   BodySums sums = empty_sums(recording, frames, bins.count);
-  std::vector<double> samples(frames.bodies(), 0.0);
-  for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
-    ++samples[body];
+  std::vector<double> samples(frames.units(), 0.0);
+  for_each_nearest(recording, frames, [&](std::size_t unit, double nearest) {
+    ++samples[unit];
     const int bin = bins.of(nearest);
-    if (bin >= 0) sums.sum[body * bins.count + bin] += 1 / bins.width();
+    if (bin >= 0) sums.sum[unit * bins.count + bin] += 1 / bins.width();
   });
   for (std::size_t i = 0; i < sums.weight.size(); ++i) sums.weight[i] = samples[i / bins.count];
   return sums;
@@ -212,9 +214,9 @@ BodySums nearest_neighbours(const SmoothRecording& recording, const Bins& bins) 
 BodySums nearest_distance(const SmoothRecording& recording) {
   const FramesView frames(recording);
   BodySums sums = empty_sums(recording, frames, 1);
-  for_each_nearest(recording, frames, [&](std::size_t body, double nearest) {
-    sums.sum[body] += nearest;
-    ++sums.weight[body];
+  for_each_nearest(recording, frames, [&](std::size_t unit, double nearest) {
+    sums.sum[unit] += nearest;
+    ++sums.weight[unit];
   });
   return sums;
 }

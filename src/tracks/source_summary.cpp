@@ -48,22 +48,26 @@ double plateau(const Values& lags, const Values& curve) {
   return width > 0 ? sum / width : kUndefined;
 }
 
+int distinct(std::vector<std::int64_t>& ids) {
+  std::sort(ids.begin(), ids.end());
+  return static_cast<int>(std::unique(ids.begin(), ids.end()) - ids.begin());
+}
+
 void add_counts(const AnalysisSource& source, SourceSummary& s) {
   s.name = source.name, s.panel = source.panel, s.key = source.key, s.exact = source.exact;
   s.recordings = static_cast<int>(source.recordings.size());
   std::int64_t frames = 0;
   for (const Recording& recording : source.recordings) {
     s.body = recording.body, s.rate = recording.rate;
-    std::vector<std::int64_t> ids;
+    std::vector<std::int64_t> ids, units;
     int last = 0;
     for (const Track& t : recording.tracks) {
-      ids.push_back(t.id);
+      ids.push_back(t.id), units.push_back(t.unit());
       last = std::max(last, t.last());
       frames += static_cast<std::int64_t>(t.x.size());
       for (const double x : t.x) s.sightings += !std::isnan(x);
     }
-    std::sort(ids.begin(), ids.end());
-    s.bodies += static_cast<int>(std::unique(ids.begin(), ids.end()) - ids.begin());
+    s.bodies += distinct(ids), s.units += distinct(units);
     s.tracks += static_cast<int>(recording.tracks.size());
     s.duration = std::max(s.duration, last / recording.rate);
   }

@@ -1,7 +1,7 @@
 // The player, second part: colours, and drawing of a tank on its canvas.
 
-// Nine hues after P. Tol's "muted" scheme, as in films (render/palette.cpp); they begin again lighter, then darker.
-const STATES = ['#44AA99', '#DDCC77', '#CC6677', '#332288', '#88CCEE', '#AA4499', '#999933', '#117733', '#882255'];
+// Nine hues near P. Tol's "muted" scheme, as in films (render/palette.cpp); they begin again lighter, then darker.
+const STATES = ['#39C77B', '#EBD95C', '#B8708D', '#332288', '#9EB1FF', '#9E59A6', '#96932D', '#035312', '#7F0953'];
 const PAPER = [255, 255, 255], INK = [31, 41, 51], TRAIL_POINTS = 24, TRAIL_TONES = 6;
 const parts = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16));
 const mix = (a, b, w) => a.map((v, i) => v + (b[i] - v) * w);

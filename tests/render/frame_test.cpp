@@ -180,7 +180,7 @@ TEST(Frame, RefusesWhatCannotBeDrawn) {
   try {
     draw_frame(run, 5, style, folder.file("a.jpg"));
   } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find(".png or .svg"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(".png, .svg or .pdf"), std::string::npos) << e.what();
   }
 }
 

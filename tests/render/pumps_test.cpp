@@ -139,10 +139,10 @@ TEST(Legend, ShowsStatesAsPaleAsModulesAre) {
   draw_frame(sample::run(10), 1, {}, folder.file("a.png"));
   const sample::Pixels pixels(folder.file("a.png"));
   ASSERT_TRUE(pixels.read());
-  // Beside the number on the second chip, of state 1: (68, 170, 153), with 28 % of white.
+  // Beside the number on the second chip, of state 1: (57, 199, 123), with 28 % of white.
   const sample::Pixel chip = pixels.at(1322, 804);
-  EXPECT_NEAR(chip.r, 120, 4);
-  EXPECT_NEAR(chip.g, 194, 4);
+  EXPECT_NEAR(chip.r, 112, 4);
+  EXPECT_NEAR(chip.g, 215, 4);
 }
 
 }  // namespace

@@ -38,11 +38,14 @@ TEST(StudyReport, WritesTablesAndEveryPlotTwice) {
   for (const auto& entry : std::filesystem::directory_iterator(folder.file("report"))) {
     names.insert(entry.path().filename().string());
   }
-  EXPECT_EQ(names, (std::set<std::string>{
-                       "summary.txt", "summary.csv", "yield_curve.csv", "survival.csv",
-                       "comparisons.csv", "yield.png", "yield.svg", "survival_1.png",
-                       "survival_1.svg", "survival_2.png", "survival_2.svg", "survival_3.png",
-                       "survival_3.svg", "mean_time.png", "mean_time.svg", "report.html"}));
+  std::set<std::string> expected{"summary.txt",  "summary.csv",     "yield_curve.csv",
+                                 "survival.csv", "comparisons.csv", "report.html"};
+  for (const char* figure : {"yield", "survival_1", "survival_2", "survival_3", "mean_time"}) {
+    for (const char* ending : {".png", ".svg", ".pdf", ".caption.txt"}) {
+      expected.insert(std::string(figure) + ending);
+    }
+  }
+  EXPECT_EQ(names, expected);
   EXPECT_EQ(sample::png_size(folder.file("report/yield.png")), (sample::Size{1800, 1200}));
   EXPECT_NE(sample::bytes_of(folder.file("report/yield.svg")).find("<svg"), std::string::npos);
 }
@@ -77,7 +80,7 @@ TEST(StudyReport, SurvivalFallsInStepsFromOneAndMarksWhatWasCensored) {
   EXPECT_EQ(c.marks, (std::vector<double>{70, 100}));
   EXPECT_EQ(c.low.size(), c.x.size());
   EXPECT_EQ(find(plots, "mean_time"), nullptr) << "no axis";
-  EXPECT_EQ(plot->title, "hand: time to copy 1") << "one setting: nothing to test";
+  EXPECT_EQ(plot->title, "") << "one setting: nothing to test";
 }
 
 TEST(StudyReport, SurvivalGoesOnToTheHorizonWhereNobodyIsLeft) {

@@ -211,5 +211,31 @@ TEST(VelocityMap, HasMeansWhereBodiesPassedAndTheirErrors) {
   EXPECT_NEAR(map.se_x[2], std::sqrt((square - mean * mean) / (bodies - 1)), 1e-12);
 }
 
+// Every statistic has a row for an assembly, with the sums of its modules.
+TEST(Distribution, AnAssemblyIsOneRow) {
+  Recording recording = test::random_walks(3, 6, 80, 0.01, 10);
+  const SmoothRecording apart = smooth(recording);
+  for (std::size_t i = 0; i < 3; ++i) recording.tracks[i].assembly = recording.tracks[0].id;
+  const SmoothRecording latched = smooth(recording);
+  const Bins bins{0, 1, 5};
+  const auto expect_rows = [&](const BodySums& one, const BodySums& other, const char* what) {
+    EXPECT_EQ(one.bodies(), 6) << what;
+    EXPECT_EQ(other.bodies(), 4) << what;
+    const std::vector<double> a = ratio_values(one), b = ratio_values(other);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if (!std::isnan(a[k])) EXPECT_NEAR(a[k], b[k], 1e-9 * (1 + std::fabs(a[k]))) << what;
+    }
+  };
+  expect_rows(distribution(apart, Quantity::speed, bins),
+              distribution(latched, Quantity::speed, bins), "speed");
+  expect_rows(mean_power(apart, Quantity::speed, 2), mean_power(latched, Quantity::speed, 2),
+              "power");
+  expect_rows(nearest_neighbours(apart, bins), nearest_neighbours(latched, bins), "nearest");
+  expect_rows(nearest_distance(apart), nearest_distance(latched), "distance");
+  const ContactRule rule{0.05, false, 0.001, 0.002};
+  expect_rows(find_contacts(apart, rule).touching, find_contacts(latched, rule).touching, "touch");
+  expect_rows(find_contacts(apart, rule).begun, find_contacts(latched, rule).begun, "contacts");
+}
+
 }  // namespace
 }  // namespace lilytank

@@ -245,6 +245,75 @@ TEST(Bands, OneBodyGivesNoBandAndNoDataNoValue) {
   EXPECT_TRUE(std::isnan(c.value[1]) && std::isnan(c.low[1]) && std::isnan(c.high[1]));
 }
 
+// Three modules of 35 mm side in a row and one apart; the row's third is latched in `third` of ten
+// frames, the second in all.
+Trajectory row_of_three(int third) {
+  Trajectory t;
+  t.bodies = t.modules = 4;
+  for (int f = 0; f < 10; ++f) {
+    t.time.push_back(f);
+    const double turn = 0.3 * f;
+    for (int b = 0; b < 4; ++b) {
+      const double along = b < 3 ? 0.035 * b : 0.2;
+      t.x.push_back(static_cast<float>(along * std::cos(turn)));
+      t.y.push_back(static_cast<float>(along * std::sin(turn)));
+      // The second one is turned: it holds the others by faces of its own.
+      const double theta = turn + (b == 1 ? kPi / 2 : 0);
+      t.theta.push_back(static_cast<float>(std::remainder(theta, 2 * kPi)));
+      Markings m;
+      const bool held = f < third;
+      if (b == 0) m.latched = 1;                                              // face 0, ahead
+      if (b == 1) m.latched = static_cast<std::uint8_t>(2 | (held ? 8 : 0));  // 1 back, 3 ahead
+      if (b == 2 && held) m.latched = 4;                                      // face 2, back
+      t.markings.push_back(m);
+    }
+  }
+  return t;
+}
+
+TEST(AsRecording, ModulesLatchedForHalfOfTheTimeAreOneUnit) {
+  const auto assemblies = [](int third) {
+    std::vector<std::int64_t> out;
+    for (const Track& track : as_recording(row_of_three(third), BodyKind::lily).tracks) {
+      out.push_back(track.assembly);
+    }
+    return out;
+  };
+  EXPECT_EQ(assemblies(5), (std::vector<std::int64_t>{0, 0, 0, -1}));
+  EXPECT_EQ(assemblies(4), (std::vector<std::int64_t>{0, 0, -1, -1})) << "not for half of it";
+  Trajectory poses = row_of_three(10);
+  poses.markings.clear();
+  EXPECT_EQ(as_recording(poses, BodyKind::lily).tracks[0].assembly, -1) << "nothing is known";
+}
+
+// Twenty pairs of modules that move as one are twenty data, not forty.
+TEST(Bands, ResampleAssembliesNotModules) {
+  Recording pairs = test::random_walks(5, 20, 200, 1, 1);
+  for (std::size_t i = 0; i < 20; ++i) {
+    pairs.tracks.push_back(pairs.tracks[i]);
+    pairs.tracks.back().id = static_cast<std::int64_t>(100 + i);
+  }
+  Recording latched = pairs;
+  for (std::size_t i = 0; i < 20; ++i) {
+    latched.tracks[i].assembly = latched.tracks[20 + i].assembly = latched.tracks[i].id;
+  }
+  const std::vector<double> lags{5, 20};
+  const auto curve = [&](const Recording& r, int& units) {
+    const BodySums sums = squared_displacements(r, lags, Origins::all);
+    units = sums.bodies();
+    return ratio_curve(sums);
+  };
+  int modules = 0, assemblies = 0;
+  const CurveEstimate apart = curve(pairs, modules), together = curve(latched, assemblies);
+  EXPECT_EQ(modules, 40);
+  EXPECT_EQ(assemblies, 20);
+  for (std::size_t k = 0; k < lags.size(); ++k) {
+    EXPECT_DOUBLE_EQ(together.value[k], apart.value[k]) << "the curve stays";
+    const double wider = (together.high[k] - together.low[k]) / (apart.high[k] - apart.low[k]);
+    EXPECT_NEAR(wider, std::sqrt(2.0), 0.25) << "its band is that of half as many";
+  }
+}
+
 TEST(Diffusion, OfARandomWalkWithMeasurementNoise) {
   const double step = 0.001, rate = 30, noise = 0.002;
   Recording r = test::random_walks(5, 60, 2000, rate, step);
