@@ -52,7 +52,7 @@ const std::vector<Verb>& verbs() {
       {"prove",
        "benchmark the diagnosis on blinded synthetic experiments",
        prove_verb,
-       {"lilytank prove --worlds 20 --only null --minutes 1 --known-flow --dry-run"}},
+       {"lilytank prove --only null --minutes 1 --known-flow --dry-run"}},
       {"synthesize",
        "make a ruleset from the drawing of a target",
        synthesize_verb,
