@@ -29,3 +29,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lilytankConfigVersion.cma
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lilytankConfig.cmake
               ${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake DESTINATION ${package_dir})
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/shell_files.cmake)

@@ -57,6 +57,10 @@ void print_verb(const Verb& verb) {
     std::cout << ".SS " << roff(own + " " + one.usage) << "\n" << roff(one.summary) << "\n";
     print_options(one);
   }
+  std::cout << ".SH EXAMPLES\n";
+  for (const std::string& example : verb.examples) {
+    std::cout << ".PP\n.nf\n" << roff(example) << "\n.fi\n";
+  }
   std::cout << ".SH SEE ALSO\n.BR lilytank (1)\n";
 }
 

@@ -42,6 +42,13 @@ VerbDescription describe(const Verb& verb, const std::string& own) {
   return {"", verb.summary, {}};
 }
 
+std::string examples_of(const std::string& verb) {
+  const auto found = std::find_if(verbs().begin(), verbs().end(),
+                                  [&](const Verb& one) { return one.name == verb; });
+  if (found == verbs().end() || found->examples.empty()) return "";
+  return "\nExamples:\n  " + joined(found->examples, "\n  ") + "\n";
+}
+
 VerbOptions::VerbOptions(const std::string& verb, const std::string& usage,
                          const std::string& summary)
     : verb_(verb), description_{usage, summary, {}}, options_("lilytank " + verb, summary) {
@@ -112,7 +119,7 @@ bool VerbOptions::parse(const Arguments& arguments, const std::string& none_give
   }
   if (end != arguments.end()) positional_.insert(positional_.end(), end + 1, arguments.end());
   if (has("help")) {
-    std::cout << options_.help();
+    std::cout << options_.help() << examples_of(verb_);
     return false;
   }
   if (!none_given.empty() && positional_.empty()) refuse(none_given);

@@ -33,6 +33,8 @@ struct VerbDescription {
 inline const std::string kDescribe = "--describe-options";
 /// Of a verb, or of `lilytank recording` with one of its own verbs.
 VerbDescription describe(const Verb& verb, const std::string& own = "");
+/// What the help of a verb ends with: its examples, or nothing.
+std::string examples_of(const std::string& verb);
 
 /// Options and positional arguments of one verb. Where add() gets a variable, parse() stores the
 /// value there if the option is given; the variable must exist until then.

@@ -119,7 +119,8 @@ int recording_verb(const Arguments& arguments, const Host&) {
                  "  lilytank recording convert FILE...  to another format; or a run, through a "
                  "camera\n\n"
                  "Each has --help. FILE is a tracker's file, a directory with one file a "
-                 "track, or an experiment (*.toml).\n";
+                 "track, or an experiment (*.toml).\n"
+              << examples_of("recording");
     return Exit::done;
   }
   throw InputError(

@@ -24,6 +24,7 @@ struct Verb {
   /// Does it for the host; the arguments are those after the verb. "--help" among them prints the
   /// verb's help. Throws InputError.
   int (*act)(const Arguments& arguments, const Host& host);
+  std::vector<std::string> examples;  ///< whole commands, for its help
 };
 
 /// All, in the order of the help.

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Runs the commands of the documentation: every line of a fenced block that begins with lilytank, in the order
-# of its page, beside a copy of the scenarios. Runs are cut to five minutes of simulated time and pictures are
-# small. A command that takes longer than seconds() is interrupted, and must then stop as Ctrl-C stops it (exit
-# code 3). A command that reads the results of an interrupted or skipped one is skipped.
+# Runs the commands of the documentation and of the verbs' --help (those of minutes with --dry-run): every line of
+# a fenced block that begins with lilytank, in the order of its page, beside a copy of the scenarios. Runs are cut
+# to five minutes of simulated time and pictures are small. A command that takes longer than seconds() is
+# interrupted, and must then stop as Ctrl-C stops it (exit code 3). A command that reads the results of an
+# interrupted or skipped one is skipped.
 #   run.sh LILYTANK SOURCES
 set -euo pipefail
 lilytank=$(realpath "$1") sources=$(realpath "$2")
@@ -53,7 +54,7 @@ shortened() {
 
 # seconds <command>: after which it is interrupted. Jobs of minutes or hours are, in any case.
 seconds() {
-  [[ $1 =~ ^lilytank\ (calibrate|diagnose|optimize|prove|study)\  && $1 != *--dry-run* ]] && echo 1 || echo 3
+  [[ $1 =~ (^lilytank\ (calibrate|diagnose|optimize|prove|study)\ )|--bias && $1 != *--dry-run* ]] && echo 1 || echo 6
 }
 
 # outputs <command>: what it writes below out/: its --out, --png, --csv, ...; else the directory of its verb.
@@ -114,6 +115,17 @@ page() {
   done < <(commands "$1")
 }
 
-for one in "$sources"/README.md "$sources"/scenarios/README.md "$sources"/docs/*.md; do page "$one"; done
+# examples: those of all verbs as a page; what a shell redirects or pipes is left to it.
+examples() {
+  local verb
+  echo '```'
+  for verb in $("$lilytank" help | sed -nE 's/^  ([a-z]+) .*/\1/p' | grep -vx help); do
+    "$lilytank" "$verb" --help | sed -n '/^Examples:$/,$s/^  lilytank /lilytank /p'
+  done | sed -E '/^lilytank (study|optimize|calibrate|diagnose|prove) scen/s/( --dry-run)?$/ --dry-run/; s/ --open$//; s/ [>|] .*//'
+  echo '```'
+}
+examples > "$work/help.md"
+
+for one in "$work/help.md" "$sources"/README.md "$sources"/scenarios/README.md "$sources"/docs/*.md; do page "$one"; done
 echo "commands of the documentation: $done ran, $cut were interrupted, $skipped need their results, $faults failed"
 exit $((faults > 0))

@@ -1,0 +1,11 @@
+# A package for Debian: cpack --config build/CPackConfig.cmake -B <folder>.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The lilytank authors")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libtbb-dev, python3-numpy")
+include(CPack)
