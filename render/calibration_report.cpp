@@ -52,9 +52,10 @@ Plot distance_plot(const MsdFit& m) {
   plot.x_label = "lag (s)", plot.y_label = "|difference| (m\u00b2)";
   plot.width = 640, plot.height = 330;
   // Places among the curves are those of the MSDs above: they choose the colours.
-  plot.curves = {{"noise floor", m.lag, m.floor_at, {}, {}},
+  plot.curves = {{},
                  {"simulated, calibrated", m.lag, m.after_at, {}, {}},
-                 {"simulated, before", m.lag, m.before_at, {}, {}}};
+                 {"simulated, before", m.lag, m.before_at, {}, {}},
+                 {"noise floor", m.lag, m.floor_at, {}, {}}};
   return plot;
 }
 
@@ -74,7 +75,9 @@ PlotPage msd_page(const CalibrationResult& c) {
     page.plots.push_back(std::move(plot));
   }
   for (const MsdFit& m : c.msd) {
-    if (!m.floor_at.empty()) page.plots.push_back(distance_plot(m));
+    if (m.floor_at.empty()) continue;
+    page.plots.push_back(distance_plot(m));
+    if (c.msd.size() > 1) page.plots.back().title = m.recordings + " recordings, halves";
   }
   if (c.msd.empty() || !(c.msd[0].floor > 0)) return page;
   const MsdFit& m = c.msd[0];
@@ -172,14 +175,15 @@ PlotPage profile_page(const CalibrationResult& c) {
 
 Corner corner_of(const CalibrationResult& c) {
   Corner corner;
-  corner.draws_name = "simulated, estimated";
+  corner.draws_name = "simulated experiment";
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const CalibratedParameter& p = c.parameters[i];
     if (p.parameter.nuisance) continue;
     shown.push_back(i);
-    corner.axes.push_back({with_unit(p), p.parameter.logarithmic, p.parameter.low, p.parameter.high,
-                           p.estimate, p.low, p.high, p.truth});
+    corner.axes.push_back({short_name(p), p.parameter.unit == "1" ? "" : p.parameter.unit,
+                           p.parameter.logarithmic, p.parameter.low, p.parameter.high, p.estimate,
+                           p.low, p.high, p.truth});
   }
   for (const auto& of : c.replicate_estimates) {
     corner.draws.emplace_back();
@@ -193,7 +197,7 @@ Corner corner_of(const CalibrationResult& c) {
       const double r = c.correlation[shown[a] * c.parameters.size() + shown[b]];
       if (!(std::fabs(r) > std::fabs(most))) continue;
       most = r;
-      corner.title = "The estimates of " + short_name(c.parameters[shown[b]]) + " and " +
+      corner.title = short_name(c.parameters[shown[b]]) + " and " +
                      short_name(c.parameters[shown[a]]) + " correlate by " +
                      (r < 0 ? "\u2212" : "") + number(std::fabs(r), 2) + ".";
     }

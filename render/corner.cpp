@@ -85,9 +85,8 @@ class CornerPainter {
     if (row != column) ticks(area, false, column == 0);
     if (bottom) x_label(area, column);
     if (column == 0 && row > 0) {
-      const std::string& name = corner_.axes[row].name;
-      canvas_.upright_text(20, area.top + cell_ / 2,
-                           canvas_.fitted(name, cell_ + kCellGap, kCornerLabel), kCornerLabel);
+      const auto [name, style] = label_of(row);
+      canvas_.upright_text(20, area.top + cell_ / 2, name, style);
     }
   }
 
@@ -188,18 +187,29 @@ class CornerPainter {
     }
   }
 
+  // The name with its unit where they fit, or the name alone in small letters.
+  std::pair<std::string, TextStyle> label_of(std::size_t k) const {
+    const CornerAxis& of = corner_.axes[k];
+    const double room = cell_ + kCellGap - 2;
+    const std::string whole = of.name + (of.unit.empty() ? "" : " (" + of.unit + ")");
+    if (canvas_.width_of(whole, kCornerLabel) <= room) return {whole, kCornerLabel};
+    return {canvas_.fitted(of.name, room, kCornerNumber), kCornerNumber};
+  }
+
   // The name, the power of ten of the numbers, and the prior's bounds.
   void x_label(const PlotArea& area, std::size_t k) const {
     const CornerAxis& of = corner_.axes[k];
     const double x = area.left + cell_ / 2;
-    const auto label = [&](double below, const std::string& text, const TextStyle& style) {
-      canvas_.text(x, area.bottom() + below, canvas_.fitted(text, cell_ + kCellGap - 2, style),
-                   style);
-    };
-    label(38, of.name + (area.x.note.empty() ? "" : ", " + area.x.note), kCornerLabel);
+    const auto [name, style] = label_of(k);
+    canvas_.text(x, area.bottom() + 38, name + (area.x.note.empty() ? "" : ", " + area.x.note),
+                 style);
     if (std::isnan(of.low) || std::isnan(of.high)) return;
-    label(56, "prior from", kPriorText);
-    label(72, prior_number(of.low) + " to " + prior_number(of.high), kPriorText);
+    const auto line = [&](double below, const std::string& text) {
+      canvas_.text(x, area.bottom() + below, canvas_.fitted(text, cell_ + kCellGap - 2, kPriorText),
+                   kPriorText);
+    };
+    line(56, "prior " + prior_number(of.low));
+    line(72, "to " + prior_number(of.high) + (of.unit.empty() ? "" : " " + of.unit));
   }
   static std::string prior_number(double value) {
     std::string text = significant(value, 3);

@@ -40,7 +40,8 @@ MapPage page_of(const Canvas& ruler, const Map& map, const FigureStyle& style) {
   for (std::size_t i = 0; i < n;) {
     double x = 0;
     for (std::size_t c = 0; c < columns && i < n; ++c, ++i) {
-      page.places.push_back({x + left(c), y + MapRoom::top, size, left(c) >= MapRoom::left});
+      page.places.push_back(
+          {x + left(c), y + MapRoom::top, size, left(c) >= MapRoom::left, room[c]});
       x += left(c) + size + room[c];
     }
     y += MapRoom::top + size + MapRoom::bottom;

@@ -316,7 +316,7 @@ void draw_panel(const Canvas& canvas, const MapPanel& panel, double tank_radius,
   draw_arrows(canvas, panel, place);
   draw_axes(canvas, panel, place);
   const TextStyle title{15, palette::ink, true, Align::left};
-  const double room = place.size - (panel.arrow_x.empty() ? 0 : 110);
+  const double room = panel.arrow_x.empty() ? place.size + place.beside : place.size - 110;
   canvas.text(place.left, place.top - 10, canvas.fitted(panel.title, room, title), title);
 }
 

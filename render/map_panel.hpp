@@ -9,6 +9,7 @@ namespace lilytank {
 struct PanelPlace {
   double left = 0, top = 0, size = 340;
   bool y_numbers = true;  ///< and the axis' name
+  double beside = 0;      ///< units, right of it, that its title may take
   double right() const { return left + size; }
   double bottom() const { return top + size; }
 };

@@ -69,7 +69,7 @@ Axis named_axis(const std::vector<std::string>& names) {
 
 void choose_axes(const Plot& plot, PlotArea& area) {
   // Units from a number to the next: small plots have at least a few of them.
-  const double x_step = area.width < 450 ? 80 : 110, y_step = area.height < 260 ? 50 : 70;
+  const double x_step = area.width < 450 ? 80 : 110, y_step = area.height < 260 ? 35 : 70;
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
   double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();

@@ -81,7 +81,8 @@ struct VelocityMap {
   std::vector<int> bodies;            ///< number of bodies that passed the cell
 };
 /// Averages the smoothed velocities of all recordings over cells x cells squares on [-extent,
-/// extent]^2 (m). Frames count once per body; standard errors take bodies and assemblies as independent.
+/// extent]^2 (m). Frames count once per body; standard errors take bodies and assemblies as
+/// independent.
 VelocityMap velocity_map(const std::vector<SmoothRecording>& recordings, int cells, double extent);
 
 }  // namespace lilytank

@@ -19,12 +19,12 @@ enum class BodyKind : std::uint8_t { lily, ball, point };
 struct Track {
   std::int64_t id = 0;  ///< as in the file; tracks that a check cut apart share it
   int first = 0;        ///< frame of the first sighting, on the recording's clock
-  /// Id of the first body of the assembly that it is latched to for half of the recording or more;
-  /// -1: none.
-  std::int64_t assembly = -1;
   /// [frames] Position of the centre, m, tank centre at the origin, y up.
   std::vector<double> x, y;
   std::vector<double> theta;  ///< [frames] heading, rad, counter-clockwise from +x
+  /// Id of the first body of the assembly that it is latched to for half of the recording or more;
+  /// -1: none.
+  std::int64_t assembly = -1;
   /// What bands resample: the assembly, or the body alone. One id for all tracks of it.
   std::int64_t unit() const { return assembly < 0 ? id : assembly; }
   /// Frame of the last sighting.

@@ -180,7 +180,7 @@ void draw_map(const Map& map, const std::string& file, const FigureStyle& style 
 
 /// A parameter of a corner plot, in its own unit; NaN: not known, not drawn.
 struct CornerAxis {
-  std::string name;              ///< with its unit
+  std::string name, unit;        ///< unit may be empty
   bool log = false;              ///< logarithmic axes
   double low = NAN, high = NAN;  ///< bounds of the prior
   double estimate = NAN;         ///< of the data

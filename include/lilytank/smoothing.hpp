@@ -53,7 +53,7 @@ struct SmoothingOptions {
 /// body has no acceleration at an instant: the Kalman smoother's is the change of velocity from the
 /// frame before to the frame after, by the time between them (at the ends of a track, on one side).
 struct SmoothTrack {
-  std::int64_t id = 0, assembly = -1;          ///< as in the track
+  std::int64_t id = 0;
   int first = 0;                               ///< frame, as in the track
   std::vector<std::uint8_t> seen;              ///< 1: the frame has a measurement
   std::vector<double> x, y, vx, vy, ax, ay;    ///< m, m/s, m/s^2
@@ -61,6 +61,7 @@ struct SmoothTrack {
   std::vector<double> theta, spin, spin_rate;  ///< rad, rad/s, rad/s^2; empty without headings
   /// Standard deviations of the errors of these, rad, rad/s, rad/s^2.
   std::vector<double> sd_theta, sd_spin, sd_spin_rate;
+  std::int64_t assembly = -1;  ///< as in the track
   int frames() const { return static_cast<int>(x.size()); }
   std::int64_t unit() const { return assembly < 0 ? id : assembly; }  ///< as of the track
 };

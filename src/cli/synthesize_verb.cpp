@@ -71,7 +71,9 @@ void add_figure(const VerbOptions& options, const Target& target, const Plan& pl
   if constexpr (kDraws) {
     const std::string file = options.text("figure");
     const std::vector<Stage> stages = stages_of(target, plan);
-    files.emplace_back(file, stages_picture(target, stages, target.name, file, style));
+    const auto joins = static_cast<std::int64_t>(stages.size()) - 1;
+    const std::string title = target.name + " takes " + counted(joins, "join") + ".";
+    files.emplace_back(file, stages_picture(target, stages, title, file, style));
     files.emplace_back(caption_file(file), stages_caption(target, stages));
   } else {
     options.refuse("--figure: this program was built without the renderer (Cairo was not found)");

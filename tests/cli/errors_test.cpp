@@ -133,7 +133,7 @@ TEST_F(ErrorsTest, Pictures) {
   expect({
       {"render", "lilytank render: which run? write lilytank render RUN, as out/chain5-seed1"},
       {"render a --png x.jpg", "lilytank render: --png x.jpg does not end with .png"},
-      {"render a --at 3", "lilytank render: --at goes with --png or --svg"},
+      {"render a --at 3", "lilytank render: --at goes with --png, --svg or --pdf"},
       {"render a --flow arows",
        "lilytank render: --flow arows is none of none, arrows, streamlines - did you mean "
        "'arrows'?"},

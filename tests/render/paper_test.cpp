@@ -75,7 +75,7 @@ Corner sample_corner(int parameters) {
   corner.title = "K_v and K_F correlate by −0.98.";
   corner.draws_name = "simulated";
   for (int k = 0; k < parameters; ++k) {
-    corner.axes.push_back({"D_linear (1/s)", false, 0, 0.8, 0.4, 0.3, 0.5, 0.35});
+    corner.axes.push_back({"D_linear", "1/s", false, 0, 0.8, 0.4, 0.3, 0.5, 0.35});
   }
   for (int i = 0; i < 50; ++i) corner.draws.emplace_back(parameters, 0.3 + 0.2 * i / 50);
   return corner;

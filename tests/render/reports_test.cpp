@@ -212,5 +212,100 @@ TEST(CalibrationFigures, ReplicatesAreMarkers) {
   EXPECT_GT(red_pixels(folder.file("estimates.png")), 240);
 }
 
+CalibrationResult calibrated(double truth) {
+  CalibrationResult c;
+  c.name = "tank", c.objective = "summary", c.recordings = 2, c.bodies = 15;
+  for (const char* path : {"flow.K_v", "forces.damping.D_linear"}) {
+    CalibratedParameter p;
+    p.parameter = {path, "1/s", 0, 0.8, false, false};
+    p.estimate = 0.4, p.low = 0.3, p.high = 0.5, p.truth = truth;
+    // Far narrower than the interval, and never at the threshold on the left.
+    p.profile_value = {0.38, 0.4, 0.42}, p.profile_rise = {2, 0, 30};
+    c.parameters.push_back(p);
+  }
+  c.correlation = {1, -0.9, -0.9, 1};
+  for (int i = 0; i < 30; ++i) c.replicate_estimates.push_back({0.3 + 0.01 * i, 0.5 - 0.01 * i});
+  MsdFit m;
+  m.recordings = "training", m.pieces = 8, m.experiments = 24, m.seconds = 60;
+  m.floor = 2, m.after = 3, m.before = 8;
+  m.lag = {1, 2, 3}, m.real = m.simulated_after = m.simulated_before = {1, 3, 2};
+  m.real_low = m.after_low = {0.9, 2.9, 1.9}, m.real_high = m.after_high = {1.1, 3.1, 2.1};
+  m.floor_at = m.after_at = m.before_at = {0.1, 0.2, 0.3};
+  c.msd = {m};
+  return c;
+}
+
+// A file of its figures.
+std::string drawn(const CalibrationResult& c, const std::string& file) {
+  const Folder folder;
+  draw_calibration(c, ReportDocument{}, folder.path());
+  return sample::bytes_of(folder.file(file));
+}
+
+TEST(CalibrationFigures, TheCornerHasPriorBoundsAndTheTruthWhereItIsKnown) {
+  const std::string known = drawn(calibrated(0.45), "estimates.svg");
+  const std::string unknown = drawn(calibrated(NAN), "estimates.svg");
+  for (const std::string& svg : {known, unknown}) {
+    EXPECT_NE(svg.find(">prior 0</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">to 0.8 1/s</text>"), std::string::npos);
+    EXPECT_NE(svg.find("K_v and D_linear correlate by −0.90."), std::string::npos);
+  }
+  EXPECT_NE(known.find("planted truth"), std::string::npos);
+  EXPECT_EQ(unknown.find("planted truth"), std::string::npos);
+  EXPECT_NE(drawn(calibrated(NAN), "estimates.caption.txt").find("n: 30 simulated experiments"),
+            std::string::npos);
+}
+
+TEST(CalibrationFigures, MsdsHaveBandsAndTheNoiseFloor) {
+  const std::string svg = drawn(calibrated(NAN), "msd.svg");
+  EXPECT_NE(svg.find("noise floor</text>"), std::string::npos);
+  EXPECT_NE(svg.find("1.5 times the noise floor"), std::string::npos) << "as a sentence";
+  const std::string caption = drawn(calibrated(NAN), "msd.caption.txt");
+  EXPECT_NE(caption.find("8 pieces of 60 s"), std::string::npos) << caption;
+  EXPECT_NE(caption.find("24 simulated experiments"), std::string::npos) << caption;
+  EXPECT_NE(caption.find("bands: 95 %"), std::string::npos) << caption;
+  CalibrationResult bare = calibrated(NAN);
+  bare.msd[0].real_low.clear(), bare.msd[0].real_high.clear();
+  EXPECT_FALSE(drawn(bare, "msd.png") == drawn(calibrated(NAN), "msd.png")) << "without a band";
+}
+
+// From frame to frame, though the profile is a tenth of the axis.
+TEST(CalibrationFigures, TheThresholdOfProfilesIsDrawnInFull) {
+  if (!sample::has_ffmpeg()) GTEST_SKIP() << "reading pixels needs ffmpeg";
+  const Folder folder;
+  CalibrationResult c = calibrated(NAN);
+  c.parameters.resize(1), c.correlation = {1};
+  draw_calibration(c, ReportDocument{}, folder.path());
+  const std::string file = folder.file("profiles.png");
+  const sample::Pixels pixels(file);
+  ASSERT_TRUE(pixels.read());
+  const sample::Size size = sample::png_size(file);
+  int longest = 0;
+  for (int y = 0; y < size.height; ++y) {
+    int green = 0;
+    for (int x = 0; x < size.width; ++x) {
+      const sample::Pixel p = pixels.at(x, y);
+      green += p.g > p.r + 80 && p.g > p.b + 20;
+    }
+    longest = std::max(longest, green);
+  }
+  EXPECT_GT(longest, 0.75 * size.width) << "all but the margins";
+}
+
+TEST(RecoveryFigures, ShowEveryParameterAndCountWhatIsCovered) {
+  const Folder folder;
+  std::vector<RecoveryRow> rows(3);
+  for (int i = 0; i < 3; ++i) {
+    rows[i] = {i + 1, "summary", "flow.K_v", 0.4 + 0.1 * i, 0.5, 0.35, 0.55, 0.1, 1, false};
+  }
+  draw_recovery(rows, {"lilytank calibrate", "0.1.0", "1", {}}, folder.path());
+  const std::string svg = sample::bytes_of(folder.file("recovery.svg"));
+  EXPECT_NE(svg.find("2 of 3 intervals contain the planted value."), std::string::npos);
+  EXPECT_NE(svg.find("K_v, planted"), std::string::npos);
+  EXPECT_NE(
+      sample::bytes_of(folder.file("recovery.caption.txt")).find("n: 3 synthetic experiments"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace lilytank
