@@ -10,7 +10,8 @@
 namespace lilytank {
 namespace {
 
-constexpr double kHighest = 240 * kUnitsPerMm;  // of a page
+constexpr double kHighest = 240 * kUnitsPerMm;       // of a page
+constexpr double kHighestPlots = 220 * kUnitsPerMm;  // without title and legend
 constexpr double kLeastPlot = 300;    // units wide: below, numbers at the axis take most of a plot
 constexpr double kNarrowest = 200;    // of a plot on a page that would otherwise be too high
 constexpr double kLowestShare = 0.7;  // of a narrow plot's width
@@ -62,7 +63,8 @@ PlotPage fitted(PlotPage page, const FigureStyle& style) {
   const int given = std::max(1, std::min(page.columns, static_cast<int>(page.plots.size())));
   int columns = std::clamp(static_cast<int>(wide / kLeastPlot), 1, given);
   const int most = std::clamp(static_cast<int>(wide / kNarrowest), columns, given);
-  while (columns < most && height_at(ruler, page, columns, wide / columns) > kHighest) ++columns;
+  while (columns < most && height_at(ruler, page, columns, wide / columns) > kHighestPlots)
+    ++columns;
   for (Plot& plot : page.plots) {
     plot.height = height_at(ruler, plot, wide / columns);
     plot.width = static_cast<int>(wide / columns);
