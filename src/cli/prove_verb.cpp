@@ -13,8 +13,10 @@
 namespace lilytank::cli {
 namespace {
 
-int report_proofs(std::span<const Proof> proofs, const std::string& dir, const FigureStyle& style) {
-  const ReportDocument report = proof_report(proofs);
+int report_proofs(std::span<const Proof> proofs, const std::string& dir, const FigureStyle& style,
+                  const ReportProvenance& origin) {
+  ReportDocument report = proof_report(proofs);
+  report.provenance = origin;
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
   if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir, style);
   if constexpr (!kDraws) say_undrawn("report.html");
@@ -40,7 +42,9 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out, style);
+  ReportProvenance origin{"lilytank prove", LILYTANK_VERSION, "", {}};
+  for (const std::string& dir : dirs) origin.command += " " + dir;
+  return report_proofs(proofs, out, style, origin);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -122,7 +126,8 @@ int prove_verb(const Arguments& arguments) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out, style);
+  return report_proofs({&proof, 1}, job.diagnosis.out, style,
+                       provenance("prove", arguments, job.diagnosis.seed, {}));
 }
 
 }  // namespace lilytank::cli
