@@ -199,7 +199,7 @@ PlotPage page_of(const Analysis& analysis, const AnalysisCurves& set, bool logar
 
 Figure contact_plot(const Analysis& analysis) {
   Plot plot;
-  plot.x_label = "time (s)", plot.y_label = "share of contacts that last longer";
+  plot.x_label = "time (s)", plot.y_label = "fraction that lasts longer";
   plot.width = kWidth, plot.height = kHeight;
   plot.y_low = -0.03, plot.y_high = 1.04;
   double longest = 0;

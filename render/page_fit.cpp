@@ -10,25 +10,31 @@
 namespace lilytank {
 namespace {
 
-constexpr double kHighest = 240 * kUnitsPerMm;  // of a page
-constexpr double kLeastPlot = 300;  // units wide: below, numbers at the axis take most of a plot
-constexpr double kNarrowest = 200;  // of a plot on a page that would otherwise be too high
+constexpr double kHighest = 240 * kUnitsPerMm;       // of a page
+constexpr double kHighestPlots = 220 * kUnitsPerMm;  // without title and legend
+constexpr double kLeastPlot = 300;    // units wide: below, numbers at the axis take most of a plot
+constexpr double kNarrowest = 200;    // of a plot on a page that would otherwise be too high
+constexpr double kLowestShare = 0.7;  // of a narrow plot's width
 constexpr double kLowest = 210, kTallest = 560;  // units high, of a plot
 constexpr double kLargestPanel = 480;            // units, of a map
 constexpr double kTitleLine = 21;
 const TextStyle kSentence{17, palette::ink, true, Align::centre};
 
-// Rows of named values keep their height, others their proportions.
-int height_at(const Plot& plot, double width) {
-  if (!plot.y_names.empty()) return plot.height;
-  return static_cast<int>(std::clamp(plot.height * width / plot.width, kLowest, kTallest));
+// Rows of named values keep their height, others their proportions. A title comes on top.
+int height_at(const Canvas& ruler, const Plot& plot, double width) {
+  const auto title = title_lines(ruler, plot.title, width);
+  const double head = title.empty() ? 0 : 28 + further_lines(title);
+  if (!plot.y_names.empty()) return plot.height + static_cast<int>(further_lines(title));
+  const double lowest = std::min(kLowest, kLowestShare * width);
+  const double height = std::clamp(plot.height * width / plot.width, lowest, kTallest);
+  return static_cast<int>(height + head);
 }
 
-double height_at(const PlotPage& page, int columns, double width) {
+double height_at(const Canvas& ruler, const PlotPage& page, int columns, double width) {
   double height = 0, row = 0;
   for (std::size_t i = 0; i < page.plots.size(); ++i) {
     if (i % static_cast<std::size_t>(columns) == 0) height += row, row = 0;
-    row = std::max<double>(row, height_at(page.plots[i], width));
+    row = std::max<double>(row, height_at(ruler, page.plots[i], width));
   }
   return height + row;
 }
@@ -52,13 +58,15 @@ PlotPage fitted(PlotPage page, const FigureStyle& style) {
     if (page.plots.size() == 1) page.plots[0].title.clear();
   }
   if (!style.on_paper()) return page;
+  const Canvas ruler = Canvas::raster(8, 8);
   const double wide = paper_width(style);
   const int given = std::max(1, std::min(page.columns, static_cast<int>(page.plots.size())));
   int columns = std::clamp(static_cast<int>(wide / kLeastPlot), 1, given);
   const int most = std::clamp(static_cast<int>(wide / kNarrowest), columns, given);
-  while (columns < most && height_at(page, columns, wide / columns) > kHighest) ++columns;
+  while (columns < most && height_at(ruler, page, columns, wide / columns) > kHighestPlots)
+    ++columns;
   for (Plot& plot : page.plots) {
-    plot.height = height_at(plot, wide / columns);
+    plot.height = height_at(ruler, plot, wide / columns);
     plot.width = static_cast<int>(wide / columns);
   }
   page.columns = columns;

@@ -211,8 +211,12 @@ void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   draw_title(canvas, title_lines(canvas, plot.title, plot.width), plot.width / 2.0, 30);
   canvas.text(middle, area.bottom() + 46, canvas.fitted(plot.x_label, area.width, kLabelText),
               kLabelText);
-  canvas.upright_text(24, area.top + area.height / 2,
-                      canvas.fitted(plot.y_label, area.height + 40, kLabelText), kLabelText);
+  // A long name is set smaller, then cut.
+  TextStyle upright = kLabelText;
+  const double room = area.height + 40;
+  while (upright.size > 13 && canvas.width_of(plot.y_label, upright) > room) upright.size -= 1;
+  canvas.upright_text(24, area.top + area.height / 2, canvas.fitted(plot.y_label, room, upright),
+                      upright);
 }
 
 void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {

@@ -5,6 +5,7 @@
 #include "html_report.hpp"
 #include "lilytank/render.hpp"
 #include "statistics/quantiles.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -173,7 +174,8 @@ void draw_proof(const ProofFigures& of, const ReportDocument& report, const std:
   std::vector<Figure> figures;
   if (!of.points.empty()) {
     const std::string n =
-        std::to_string(of.points.size()) + " synthetic experiments with an omitted effect";
+        counted(static_cast<std::int64_t>(of.points.size()), "synthetic experiment") +
+        " with an omitted effect";
     figures.push_back(
         {"power", power_caption(of), {{power_plot(of)}}, {}, {}, n, "bars: 95 % (Wilson)"});
     figures.push_back({"outcomes", outcomes_caption(of), {{outcomes_plot(of)}}, {}, {}, n});

@@ -113,8 +113,8 @@ Plot survival_plot(const StudySummary& summary, const SettingNames& names, int k
                    const TimeUnit& unit) {
   Plot plot = time_plot(unit);
   plot.title = test_sentence(summary, k);
-  plot.y_label = k == 1 ? "share of runs without a copy"
-                        : "share of runs with fewer than " + std::to_string(k) + " copies";
+  plot.y_label = k == 1 ? "fraction without a copy"
+                        : "fraction with fewer than " + std::to_string(k) + " copies";
   for (std::size_t s = 0; s < summary.settings.size(); ++s) {
     for (const CopyTime& time : summary.settings[s].times) {
       if (time.k != k || time.survival.time.empty()) continue;

@@ -54,7 +54,7 @@ picture $out/optimize/fitness.png figures/fitness 700
 picture $out/flow/flow_smooth.png tour/flow 700
 
 "$program" calibrate $tour --out $out/calibration > /dev/null
-picture $out/calibration/msd.png tour/msd 600
+picture $out/calibration/msd.png tour/msd 900
 picture $out/calibration/estimates.png figures/estimates 900
 
 "$program" diagnose $tour --budget 3 --out $out/diagnosis > /dev/null

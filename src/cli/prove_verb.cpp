@@ -16,8 +16,9 @@ namespace lilytank::cli {
 namespace {
 
 int report_proofs(std::span<const Proof> proofs, const std::string& dir, const FigureStyle& style,
-                  const Host& host) {
-  const ReportDocument report = proof_report(proofs);
+                  const ReportProvenance& origin, const Host& host) {
+  ReportDocument report = proof_report(proofs);
+  report.provenance = origin;
   write_atomically((std::filesystem::path(dir) / "proof.txt").string(), report_text(report));
   if constexpr (kDraws) draw_proof(proof_figures(proofs), report, dir, style);
   if constexpr (!kDraws) say_undrawn("report.html");
@@ -43,7 +44,9 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  return report_proofs(proofs, out, style, host);
+  ReportProvenance origin{"lilytank prove", LILYTANK_VERSION, "", {}};
+  for (const std::string& dir : dirs) origin.command += " " + dir;
+  return report_proofs(proofs, out, style, origin, host);
 }
 
 void add_prove_options(VerbOptions& options, ProofOptions& job) {
@@ -139,7 +142,8 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   const Proof proof = prove(job);
   progress.clear();
   write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out, style, host);
+  return report_proofs({&proof, 1}, job.diagnosis.out, style,
+                       provenance("prove", arguments, job.diagnosis.seed, {}), host);
 }
 
 }  // namespace lilytank::cli

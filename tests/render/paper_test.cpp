@@ -103,6 +103,7 @@ TEST(Paper, FiguresAreAsWideAsAColumn) {
     draw_plot(sample_plot(), file, style);
     expect_width("plot");
     PlotPage page{std::vector<Plot>(12, sample_plot()), 4, "Twelve."};
+    for (Plot& plot : page.plots) plot.title = "panel";
     draw_plots(page, file, style);
     expect_width("page of plots");
     for (const int panels : {1, 3, 9}) {
@@ -155,8 +156,8 @@ TEST(Paper, TextIsWholeWithTrueMinusSigns) {
   draw_plot(sample_plot(), file, {85});
   const std::string svg = sample::bytes_of(file);
   EXPECT_EQ(svg.find("…"), std::string::npos);
-  EXPECT_NE(svg.find(">−5</text>"), std::string::npos);
-  EXPECT_EQ(svg.find(">-5</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">−4</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">-4</text>"), std::string::npos);
 }
 
 TEST(Paper, AStagesPictureThatHasNoRoomIsRefused) {
@@ -175,7 +176,7 @@ TEST(Paper, APdfHasLiveTextInEmbeddedFonts) {
   EXPECT_NE(bytes.find("/ToUnicode"), std::string::npos);
   if (!has_poppler()) GTEST_SKIP() << "reading the text needs poppler";
   const std::string text = sample::output_of("pdftotext '" + file + "' -");
-  for (const char* words : {"recorded", "lag (s)", "MSD (cm²)", "−5", "rises by 4 cm²"}) {
+  for (const char* words : {"recorded", "lag (s)", "MSD (cm²)", "−4", "rises by 4 cm²"}) {
     EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
   }
   std::istringstream fonts(sample::output_of("pdffonts '" + file + "'"));

@@ -259,7 +259,7 @@ TEST(CalibrationFigures, TheCornerHasPriorBoundsAndTheTruthWhereItIsKnown) {
 TEST(CalibrationFigures, MsdsHaveBandsAndTheNoiseFloor) {
   const std::string svg = drawn(calibrated(NAN), "msd.svg");
   EXPECT_NE(svg.find("noise floor</text>"), std::string::npos);
-  EXPECT_NE(svg.find("1.5 times the noise floor"), std::string::npos) << "as a sentence";
+  EXPECT_NE(svg.find("by 1.5 times"), std::string::npos) << "as a sentence";
   const std::string caption = drawn(calibrated(NAN), "msd.caption.txt");
   EXPECT_NE(caption.find("8 pieces of 60 s"), std::string::npos) << caption;
   EXPECT_NE(caption.find("24 simulated experiments"), std::string::npos) << caption;
