@@ -6,6 +6,7 @@
 
 #include "finder/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
+#include "lilytank/study.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {
@@ -101,7 +102,7 @@ void push_nuisances(const Features& features, const Kinematics& k, std::size_t i
   push_flow(Polynomials(x, y), features, i, at, pushes);
 }
 
-Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed) {
+Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads) {
   const FlowField& best = *maps.best();
   const double R = model.tank.radius, pitch = 2 * best.extent() / best.cells();
   std::vector<std::size_t> cells;
@@ -120,14 +121,14 @@ Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t s
     basis.row(c) =
         Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(c)].value.data(), terms);
   }
-  for (int d = 0; d < kDraws; ++d) {
+  for_each_world(kDraws, threads, [&](int d) {
     const auto drawn = perturbed_flow(maps, seed, seed, d);
     for (Eigen::Index c = 0; c < n; ++c) {
       const std::size_t i = cells[static_cast<std::size_t>(c)];
       off(c, d) = drawn->samples()[i].mu_x - best.samples()[i].mu_x;
       off(c, kDraws + d) = drawn->samples()[i].mu_y - best.samples()[i].mu_y;
     }
-  }
+  });
   const Matrix fitted = least_squares(basis, off) * (model.flow.K_v / kStream);
   Matrix covariance = Matrix::Identity(static_cast<Eigen::Index>(nuisance_count()),
                                        static_cast<Eigen::Index>(nuisance_count()));
