@@ -28,9 +28,8 @@ constexpr double kCalibrationReach = 2.5;  // deviations of the design that a ca
 // Width of designs about a finding relative to that of nulls: its parameters are known better.
 constexpr double kNarrow = 0.6;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
-constexpr double kBend = 1;         // one over the square of a second order that is expected
-constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
-constexpr double kFarOff = 100;     // deviations
+constexpr double kBend = 1;      // one over the square of a second order that is expected
+constexpr double kFarOff = 100;  // deviations
 // Ridge on the slopes of a fingerprint about estimated amplitudes (inverse of their expected
 // squared error), and the degrees of freedom that such a slope takes.
 constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
@@ -62,34 +61,6 @@ Matrix held_out_residuals(const Design& summaries, const Design& numbers, const 
 
 Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-// Random amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs if it is
-// two-sided; several components at once, none always present.
-Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
-  const auto m = static_cast<Eigen::Index>(effect.paths.size());
-  Matrix out(count, m);
-  for (int i = 0; i < count; ++i) {
-    for (Eigen::Index c = 0; c < m; ++c) {
-      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
-      const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
-      out(i, c) = (kLeastSize + (kLearnedSize - kLeastSize) * u) * (negative ? -1 : 1);
-    }
-  }
-  return out;
-}
-
-// Amplitudes about estimated ones, in antithetic pairs.
-Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
-  Matrix out(count, amplitudes.size());
-  for (int i = 0; i < count; ++i) {
-    for (Eigen::Index c = 0; c < out.cols(); ++c) {
-      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
-      out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
-    }
-  }
-  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
-  return out.cwiseMax(two_sided ? -1e9 : 0);
 }
 
 // Power of the amplitude with which the residuals grow; 1 where it is not significant.
@@ -306,7 +277,8 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::learning(const Effect& effect,
                                                           const std::string& stage,
                                                           std::uint64_t seed) const {
   const int count = options_.experiments * static_cast<int>(effect.paths.size());
-  return simulation_with(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
+  return simulation_with(effect, stage, centre_, spread_, learning_amplitudes(effect, count, seed),
+                         seed);
 }
 
 Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses& made) const {
@@ -373,8 +345,9 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
-  const Responses made = answers(effect, stage, point, kNarrow * spread_,
-                                 about(amplitudes, experiments, effect.two_sided, seed), seed);
+  const Responses made =
+      answers(effect, stage, point, kNarrow * spread_,
+              amplitudes_about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine response: the known secant slope, corrected in proportion to its noise.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
