@@ -109,11 +109,13 @@ Matrix Sensitivities::products(Eigen::Index count) const {
   const auto features = static_cast<Eigen::Index>(features_);
   const double all = taken_ > 0 ? static_cast<double>(passed_) / static_cast<double>(taken_) : 0;
   Matrix out(features, count);
+  const std::size_t first = features_ - partners_;
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto partner = partners_ - static_cast<std::size_t>(count - k);
-    for (Eigen::Index f = 0; f < features; ++f) {
-      const std::size_t at = partner * wide_ + static_cast<std::size_t>(f);
-      out(f, k) = all * shared_[at];
+    for (std::size_t f = 0; f < features_; ++f) {
+      const bool earlier = f >= first && f < first + partner;
+      const std::size_t at = earlier ? (f - first) * wide_ + first + partner : partner * wide_ + f;
+      out(static_cast<Eigen::Index>(f), k) = all * shared_[at];
     }
   }
   return out;

@@ -55,20 +55,26 @@ void add_tile(const float* rows, std::size_t used, std::size_t count, std::size_
   for (std::size_t n = 0; n < kPartners; ++n) hn::StoreU(sum[n], d, sums + n * count);
 }
 
+// All tiles of some partners but those whose features are all earlier partners: these products are
+// known already, with both in the other's place.
+template <std::size_t kPartners>
+void add_tiles(const float* rows, std::size_t used, std::size_t count, std::size_t first,
+               std::size_t partner, float* sums) {
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t f = 0; f < count; f += lanes) {
+    if (f >= first && f + lanes <= first + partner) continue;
+    add_tile<kPartners>(rows, used, count, first + partner, f, sums + partner * count + f);
+  }
+}
+
 void products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
               std::size_t partners, float* sums) {
   constexpr std::size_t kTogether = 12;
-  const std::size_t whole = partners / kTogether * kTogether;
-  for (std::size_t n = 0; n < whole; n += kTogether) {
-    for (std::size_t f = 0; f < count; f += hn::Lanes(Floats())) {
-      add_tile<kTogether>(rows, used, count, first + n, f, sums + n * count + f);
-    }
+  std::size_t n = 0;
+  for (; n + kTogether <= partners; n += kTogether) {
+    add_tiles<kTogether>(rows, used, count, first, n, sums);
   }
-  for (std::size_t n = whole; n < partners; ++n) {
-    for (std::size_t f = 0; f < count; f += hn::Lanes(Floats())) {
-      add_tile<1>(rows, used, count, first + n, f, sums + n * count + f);
-    }
-  }
+  for (; n < partners; ++n) add_tiles<1>(rows, used, count, first, n, sums);
 }
 
 void move(float* recent, std::size_t count, double* all) {

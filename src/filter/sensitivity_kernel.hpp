@@ -19,7 +19,8 @@ void pass_features(const FeatureAxis& axis, std::size_t count, const float* push
                    float* v, float* now, float* score, float* information);
 
 /// Adds the products of the `partners` numbers from `first` on with all `count` of each of the
-/// first `used` rows, `count` apart, to sums, [partner * count + feature].
+/// first `used` rows, `count` apart, to sums, [partner * count + feature]. Of two partners, only
+/// the sum with the later one as the feature is certain to be complete.
 void add_products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
                   std::size_t partners, float* sums);
 
