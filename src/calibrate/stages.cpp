@@ -70,15 +70,37 @@ std::string Stages::file(const std::string& stage) const {
 std::vector<std::vector<double>> Stages::rows(const std::string& stage, int count,
                                               const std::function<std::vector<double>(int)>& work,
                                               double cost) {
+  return std::move(rows(stage, {{stage, count, work}}, cost).front());
+}
+
+std::vector<std::vector<std::vector<double>>> Stages::rows(const std::string& title,
+                                                           const std::vector<RowsOfStage>& stages,
+                                                           double cost) {
   KeptRows kept;
-  kept.file = file(stage), kept.identity = setup_.identity;
+  kept.identity = setup_.identity;
   kept.threads = setup_.options.threads, kept.stop = setup_.options.stop;
+  std::vector<RowSet> sets;
+  int count = 0;
+  for (const RowsOfStage& one : stages) {
+    sets.push_back({file(one.stage), one.count, one.work}), count += one.count;
+  }
   kept.progress = [&](double done, const std::string& note) {
-    tell(spent_ + cost * count * done, stage + ", " + note);
+    tell(spent_ + cost * count * done, title + ", " + note);
   };
-  auto out = kept_rows(kept, count, work);
+  auto out = kept_row_sets(kept, sets);
   spent_ += cost * count;
   return out;
+}
+
+Eigen::MatrixXd Stages::matrix(const std::string& stage, Eigen::Index rows,
+                               const std::function<Eigen::MatrixXd()>& of) {
+  const auto values = [&](int) {
+    const Eigen::MatrixXd made = of();
+    return std::vector<double>(made.data(), made.data() + made.size());
+  };
+  const auto kept = this->rows(stage, 1, values, 0);
+  const auto size = static_cast<Eigen::Index>(kept.front().size());
+  return Eigen::Map<const Eigen::MatrixXd>(kept.front().data(), rows, size / rows);
 }
 
 // The progress stays below 1 where rounds exceed the expected number.

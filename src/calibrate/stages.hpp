@@ -37,6 +37,21 @@ class Stages {
                                         const std::function<std::vector<double>(int)>& work,
                                         double cost = 1);
 
+  /// Rows of several stages, computed in one loop and kept under the name of each; `title`: of all,
+  /// for the progress.
+  struct RowsOfStage {
+    std::string stage;
+    int count = 0;
+    std::function<std::vector<double>(int)> work;
+  };
+  std::vector<std::vector<std::vector<double>>> rows(const std::string& title,
+                                                     const std::vector<RowsOfStage>& stages,
+                                                     double cost = 1);
+
+  /// A matrix with so many rows, computed by `of` unless it is kept under the stage's name.
+  Eigen::MatrixXd matrix(const std::string& stage, Eigen::Index rows,
+                         const std::function<Eigen::MatrixXd()>& of);
+
   const CalibrationSetup& setup() const { return setup_; }
   Eigen::VectorXd to_scale(const std::vector<double>& values) const;
   /// Clipped to the bounds.

@@ -38,8 +38,8 @@ Features::Features(const std::vector<Effect>& effects, const std::vector<Effect>
 }
 
 void Features::find(const Kinematics& k, const StepContext& now) {
-  (*base_)(k, now, baseline_);
-  derive(k, now);
+  const StepContext water = derive(k, now);
+  sum_baseline(k, now, water);
   for (std::size_t f = 0; f < features_.size(); ++f) {
     Feature& feature = features_[f];
     std::vector<Wrench>& out = wrenches_[f];
@@ -75,8 +75,23 @@ void Features::add(const Effect& effect, std::size_t component) {
   features_.push_back(std::move(feature));
 }
 
-// The drag and its derivatives in the flow that the model's own terms perturb.
-void Features::derive(const Kinematics& k, const StepContext& now) {
+// The sum of the model's forces, which begins with the drag that is known already.
+void Features::sum_baseline(const Kinematics& k, const StepContext& now, const StepContext& water) {
+  if (drag_only_.size() != 1 || model_.forces.front().term != &face_drag()) {
+    (*base_)(k, now, baseline_);
+    return;
+  }
+  std::copy(drag_.begin(), drag_.end(), baseline_.begin());
+  for (const ActiveForce& force : model_.forces) {
+    if (force.term != &face_drag()) force.term->add(model_, k, water, force.p, baseline_);
+  }
+  for (const ActiveForce& force : model_.forces) {
+    if (force.term->transforms()) force.term->transform(model_, k, water, force.p, baseline_);
+  }
+}
+
+// The drag and its derivatives in the flow that the model's own terms perturb, which is returned.
+StepContext Features::derive(const Kinematics& k, const StepContext& now) {
   StepContext water = now;
   base_->perturb_flow(k, water);
   const bool stirred = !water.ux.empty();
@@ -106,6 +121,7 @@ void Features::derive(const Kinematics& k, const StepContext& now) {
   probe(0, 0, kTurnRate, 0, 0, kTurnRate, by_turning_);
   probe(0, 0, 0, kProbe, 0, kProbe, by_gain_);
   probe(0, 0, 0, 0, kGusty, kGusty, by_gusts_);
+  return water;
 }
 
 void Features::perturb_flow(const ForceTerm& term, const std::vector<double>& p,

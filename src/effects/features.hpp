@@ -38,7 +38,8 @@ class Features {
     std::unique_ptr<ForceSum> sum;
   };
   void add(const Effect& effect, std::size_t component);
-  void derive(const Kinematics& k, const StepContext& now);
+  StepContext derive(const Kinematics& k, const StepContext& now);
+  void sum_baseline(const Kinematics& k, const StepContext& now, const StepContext& water);
   void perturb_flow(const ForceTerm& term, const std::vector<double>& p, const Kinematics& k,
                     const StepContext& now, std::vector<Wrench>& out);
 

@@ -17,9 +17,6 @@ struct Pushes {
   static std::size_t in_lanes(std::size_t features) {
     return (features + kFeatureLanes - 1) / kFeatureLanes * kFeatureLanes;
   }
-  void clear() {
-    for (auto* of : {&x, &y, &turn}) std::fill(of->begin(), of->end(), 0.0f);
-  }
 };
 
 /// For a number of features, each an acceleration of every module: sums of score and information,
@@ -57,7 +54,8 @@ class Sensitivities {
 
  private:
   void pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x, float* v);
-  void add_rows();
+  /// The products of the first `count` rows.
+  void add_rows(std::size_t count);
   void flush();
   /// Products of every feature with the last `count`.
   Eigen::MatrixXd products(Eigen::Index count) const;

@@ -38,21 +38,64 @@ void pass(const FeatureAxis& a, float root, std::size_t count, const float* push
   }
 }
 
-void products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
-              float* sums) {
+// One tile of sums stays in registers while all rows are added, in their order.
+template <std::size_t kPartners>
+void add_tile(const float* rows, std::size_t used, std::size_t count, std::size_t first,
+              std::size_t f, float* sums) {
   const Floats d;
-  for (std::size_t f = 0; f < count; f += hn::Lanes(d)) {
-    Float of[kRowsAtOnce];
-    for (std::size_t k = 0; k < kRowsAtOnce; ++k) of[k] = hn::LoadU(d, rows + k * count + f);
-    for (std::size_t n = 0; n < partners; ++n) {
-      float* sum = sums + n * count + f;
-      Float all = hn::LoadU(d, sum);
-      for (std::size_t k = 0; k < kRowsAtOnce; ++k) {
-        all = hn::Add(all, hn::Mul(of[k], hn::Set(d, rows[k * count + first + n])));
-      }
-      hn::StoreU(all, d, sum);
+  Float sum[kPartners];
+  for (std::size_t n = 0; n < kPartners; ++n) sum[n] = hn::LoadU(d, sums + n * count);
+  for (std::size_t k = 0; k < used; ++k) {
+    const float* row = rows + k * count;
+    const Float of = hn::LoadU(d, row + f);
+    for (std::size_t n = 0; n < kPartners; ++n) {
+      sum[n] = hn::Add(sum[n], hn::Mul(of, hn::Set(d, row[first + n])));
     }
   }
+  for (std::size_t n = 0; n < kPartners; ++n) hn::StoreU(sum[n], d, sums + n * count);
+}
+
+// All tiles of some partners but those whose features are all earlier partners: these products are
+// known already, with both in the other's place.
+template <std::size_t kPartners>
+void add_tiles(const float* rows, std::size_t used, std::size_t count, std::size_t first,
+               std::size_t partner, float* sums) {
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t f = 0; f < count; f += lanes) {
+    if (f >= first && f + lanes <= first + partner) continue;
+    add_tile<kPartners>(rows, used, count, first + partner, f, sums + partner * count + f);
+  }
+}
+
+void products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
+              std::size_t partners, float* sums) {
+  constexpr std::size_t kTogether = 12;
+  std::size_t n = 0;
+  for (; n + kTogether <= partners; n += kTogether) {
+    add_tiles<kTogether>(rows, used, count, first, n, sums);
+  }
+  for (; n < partners; ++n) add_tiles<1>(rows, used, count, first, n, sums);
+}
+
+void move(float* recent, std::size_t count, double* all) {
+  const hn::CappedTag<double, kFeatureLanes / 2> d;
+  const hn::Rebind<float, decltype(d)> half;
+  for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
+    const auto sum = hn::Add(hn::LoadU(d, all + k), hn::PromoteTo(d, hn::LoadU(half, recent + k)));
+    hn::StoreU(sum, d, all + k);
+    hn::StoreU(hn::Zero(half), half, recent + k);
+  }
+}
+
+void divide(const double* values, std::size_t count, double divisor, float* out) {
+  const hn::CappedTag<double, kFeatureLanes / 2> d;
+  const hn::Rebind<float, decltype(d)> half;
+  const auto by = hn::Set(d, divisor);
+  std::size_t k = 0;
+  for (; k + hn::Lanes(d) <= count; k += hn::Lanes(d)) {
+    hn::StoreU(hn::DemoteTo(half, hn::Div(hn::LoadU(d, values + k), by)), half, out + k);
+  }
+  for (; k < count; ++k) out[k] = static_cast<float>(values[k] / divisor);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE
@@ -63,6 +106,8 @@ namespace lilytank {
 
 HWY_EXPORT(pass);
 HWY_EXPORT(products);
+HWY_EXPORT(move);
+HWY_EXPORT(divide);
 
 void pass_features(const FeatureAxis& axis, std::size_t count, const float* push, float* x,
                    float* v, float* now, float* score, float* information) {
@@ -70,9 +115,17 @@ void pass_features(const FeatureAxis& axis, std::size_t count, const float* push
   (axis, std::sqrt(axis.weight), count, push, x, v, now, score, information);
 }
 
-void add_products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
-                  float* sums) {
-  HWY_DYNAMIC_DISPATCH(products)(rows, count, first, partners, sums);
+void add_products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
+                  std::size_t partners, float* sums) {
+  HWY_DYNAMIC_DISPATCH(products)(rows, used, count, first, partners, sums);
+}
+
+void move_sums(float* recent, std::size_t count, double* all) {
+  HWY_DYNAMIC_DISPATCH(move)(recent, count, all);
+}
+
+void divide_all(const double* values, std::size_t count, double divisor, float* out) {
+  HWY_DYNAMIC_DISPATCH(divide)(values, count, divisor, out);
 }
 
 }  // namespace lilytank

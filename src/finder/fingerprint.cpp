@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lilytank/random.hpp"
+
 namespace lilytank {
 namespace {
 
@@ -9,6 +11,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double kApartShare = 0.25, kApartLeast = 0.5;  // of amplitudes, and in sizes
+constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 
 }  // namespace
 
@@ -25,6 +28,31 @@ Vector Fingerprint::moved(const Vector& amplitudes) const {
   if (local()) return moved_base;
   // Beyond the sizes at which it was measured, the shift of the parameters saturates.
   return moved_first * amplitudes * std::min(1.0, kLearnedSize / amplitudes.cwiseAbs().maxCoeff());
+}
+
+Matrix learning_amplitudes(const Effect& effect, int count, std::uint64_t seed) {
+  const auto m = static_cast<Eigen::Index>(effect.paths.size());
+  Matrix out(count, m);
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index c = 0; c < m; ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
+      out(i, c) = (kLeastSize + (kLearnedSize - kLeastSize) * u) * (negative ? -1 : 1);
+    }
+  }
+  return out;
+}
+
+Matrix amplitudes_about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
+  Matrix out(count, amplitudes.size());
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index c = 0; c < out.cols(); ++c) {
+      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
+      out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
+    }
+  }
+  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
+  return out.cwiseMax(two_sided ? -1e9 : 0);
 }
 
 Fingerprint together(const std::vector<Fingerprint>& fingerprints,

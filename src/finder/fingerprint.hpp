@@ -1,8 +1,10 @@
 // What an effect does to residuals and to calibrated parameters, by experiments with it.
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
+#include "effects/effects.hpp"
 #include "finder/response_model.hpp"
 
 namespace lilytank {
@@ -31,6 +33,13 @@ struct Fingerprint : ResponseModel {
 inline constexpr double kLearnedSize = 1.2, kLearnedSquare = 0.7;
 /// How far from found amplitudes the experiments about them are.
 Eigen::VectorXd apart(const Eigen::VectorXd& amplitudes);
+
+/// Random amplitudes between 0.4 and kLearnedSize of an effect's sizes, a row each, of both signs
+/// if it is two-sided; several components at once, none always present.
+Eigen::MatrixXd learning_amplitudes(const Effect& effect, int count, std::uint64_t seed);
+/// Amplitudes about estimated ones, a row each, in antithetic pairs.
+Eigen::MatrixXd amplitudes_about(const Eigen::VectorXd& amplitudes, int count, bool two_sided,
+                                 std::uint64_t seed);
 
 /// Of several effects at once about amplitudes (each one's, in turn), if they add up.
 Fingerprint together(const std::vector<Fingerprint>& fingerprints,

@@ -6,6 +6,7 @@
 
 #include "finder/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
+#include "lilytank/study.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {
@@ -51,6 +52,31 @@ struct Polynomials {
   }
 };
 
+// Accelerations by a velocity of the water that is a polynomial, along either axis: two of each.
+void push_flow(const Polynomials& p, const Features& features, std::size_t i, std::size_t first,
+               Pushes& pushes) {
+  const Model& model = features.model();
+  const double R = model.tank.radius;
+  const Wrench &along_x = features.by_x(i), &along_y = features.by_y(i);
+  const Wrench& turned = features.by_turning(i);
+  // The rotation of the water is half the curl of its velocity.
+  std::array<double, kTerms> u, by_u, by_v;
+  for (std::size_t t = 0; t < kTerms; ++t) {
+    u[t] = kStream * p.value[t];
+    by_u[t] = -0.5 * kStream * p.by_y[t] / R, by_v[t] = 0.5 * kStream * p.by_x[t] / R;
+  }
+  std::array<double, 2 * kTerms> sums;
+  const auto push = [&](double Wrench::*part, double inertia, std::vector<float>& to) {
+    const double x = along_x.*part, y = along_y.*part, turn = turned.*part;
+    for (std::size_t t = 0; t < kTerms; ++t) {
+      sums[2 * t] = u[t] * x + by_u[t] * turn, sums[2 * t + 1] = u[t] * y + by_v[t] * turn;
+    }
+    divide_all(sums.data(), sums.size(), inertia, &to[first]);
+  };
+  push(&Wrench::fx, model.module.mass, pushes.x), push(&Wrench::fy, model.module.mass, pushes.y);
+  push(&Wrench::torque, model.module.inertia(), pushes.turn);
+}
+
 }  // namespace
 
 std::size_t nuisance_count() {
@@ -73,21 +99,10 @@ void push_nuisances(const Features& features, const Kinematics& k, std::size_t i
   by(features.drag(i), kDrag), by(features.by_gain(i), kFlow);
   push(-kDamping * k.vx[i], -kDamping * k.vy[i], 0), push(0, 0, -kDamping * k.omega[i]);
   by(features.by_gusts(i), kGusts), by(features.by_gusts(i), kGusts * (x * x + y * y));
-  const Polynomials p(x, y);
-  const Wrench &along_x = features.by_x(i), &along_y = features.by_y(i);
-  const Wrench& turned = features.by_turning(i);
-  for (std::size_t t = 0; t < kTerms; ++t) {
-    // The rotation of the water is half the curl of its velocity.
-    const double u = kStream * p.value[t];
-    const double by_u = -0.5 * kStream * p.by_y[t] / R, by_v = 0.5 * kStream * p.by_x[t] / R;
-    push((u * along_x.fx + by_u * turned.fx) / mass, (u * along_x.fy + by_u * turned.fy) / mass,
-         (u * along_x.torque + by_u * turned.torque) / inertia);
-    push((u * along_y.fx + by_v * turned.fx) / mass, (u * along_y.fy + by_v * turned.fy) / mass,
-         (u * along_y.torque + by_v * turned.torque) / inertia);
-  }
+  push_flow(Polynomials(x, y), features, i, at, pushes);
 }
 
-Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed) {
+Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads) {
   const FlowField& best = *maps.best();
   const double R = model.tank.radius, pitch = 2 * best.extent() / best.cells();
   std::vector<std::size_t> cells;
@@ -106,14 +121,14 @@ Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t s
     basis.row(c) =
         Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(c)].value.data(), terms);
   }
-  for (int d = 0; d < kDraws; ++d) {
+  for_each_world(kDraws, threads, [&](int d) {
     const auto drawn = perturbed_flow(maps, seed, seed, d);
     for (Eigen::Index c = 0; c < n; ++c) {
       const std::size_t i = cells[static_cast<std::size_t>(c)];
       off(c, d) = drawn->samples()[i].mu_x - best.samples()[i].mu_x;
       off(c, kDraws + d) = drawn->samples()[i].mu_y - best.samples()[i].mu_y;
     }
-  }
+  });
   const Matrix fitted = least_squares(basis, off) * (model.flow.K_v / kStream);
   Matrix covariance = Matrix::Identity(static_cast<Eigen::Index>(nuisance_count()),
                                        static_cast<Eigen::Index>(nuisance_count()));

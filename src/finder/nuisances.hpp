@@ -21,7 +21,8 @@ void push_nuisances(const Features& features, const Kinematics& k, std::size_t i
 
 /// What is known of their amplitudes, in sizes, before any recording: the inverse of their
 /// covariance, [nuisance, nuisance]. Parameters are hardly known; of the flow what the balls and
-/// its further errors (flow_uncertainty.hpp) allow, by draws of both.
-Eigen::MatrixXd nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed);
+/// its further errors (flow_uncertainty.hpp) allow, by draws of both. `threads`: 0: one a core.
+Eigen::MatrixXd nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed,
+                                int threads = 0);
 
 }  // namespace lilytank

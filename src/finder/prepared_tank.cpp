@@ -143,7 +143,10 @@ ScorePlan PreparedTank::plan() const {
   }
   p.shapes = shape_catalogue(p.model, longest);
   p.nuisances_known =
-      nuisances_known(p.model, maps, derived_seed(setup.options.seed, kNuisanceSeed));
+      setup.stages.matrix("nuisances", static_cast<Eigen::Index>(nuisance_count()), [&] {
+        return nuisances_known(p.model, maps, derived_seed(setup.options.seed, kNuisanceSeed),
+                               setup.options.threads);
+      });
   p.rate = calibration.training.front().rate;
   p.modules = std::max({bodies, known, later});
   return p;

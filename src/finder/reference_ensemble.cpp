@@ -28,9 +28,8 @@ constexpr double kCalibrationReach = 2.5;  // deviations of the design that a ca
 // Width of designs about a finding relative to that of nulls: its parameters are known better.
 constexpr double kNarrow = 0.6;
 constexpr double kNeverVaries = 1e-6, kNoWeight = 1e30;
-constexpr double kBend = 1;         // one over the square of a second order that is expected
-constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
-constexpr double kFarOff = 100;     // deviations
+constexpr double kBend = 1;      // one over the square of a second order that is expected
+constexpr double kFarOff = 100;  // deviations
 // Ridge on the slopes of a fingerprint about estimated amplitudes (inverse of their expected
 // squared error), and the degrees of freedom that such a slope takes.
 constexpr double kSlopeKnown = 0.25, kSlopesFitted = 0.5;
@@ -62,34 +61,6 @@ Matrix held_out_residuals(const Design& summaries, const Design& numbers, const 
 
 Vector to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-// Random amplitudes between 0.4 and kLearnedSize of an effect's sizes, of both signs if it is
-// two-sided; several components at once, none always present.
-Matrix amplitudes_of(const Effect& effect, int count, std::uint64_t seed) {
-  const auto m = static_cast<Eigen::Index>(effect.paths.size());
-  Matrix out(count, m);
-  for (int i = 0; i < count; ++i) {
-    for (Eigen::Index c = 0; c < m; ++c) {
-      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
-      const bool negative = effect.two_sided && (m == 1 ? i % 2 == 1 : ((i >> c) & 1) == 1);
-      out(i, c) = (kLeastSize + (kLearnedSize - kLeastSize) * u) * (negative ? -1 : 1);
-    }
-  }
-  return out;
-}
-
-// Amplitudes about estimated ones, in antithetic pairs.
-Matrix about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
-  Matrix out(count, amplitudes.size());
-  for (int i = 0; i < count; ++i) {
-    for (Eigen::Index c = 0; c < out.cols(); ++c) {
-      const double u = uniform({seed, Stream::calibrate, i, static_cast<std::uint32_t>(c), 9});
-      out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
-    }
-  }
-  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
-  return out.cwiseMax(two_sided ? -1e9 : 0);
 }
 
 // Power of the amplitude with which the residuals grow; 1 where it is not significant.
@@ -129,9 +100,10 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
       centre_(centre),
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
-  const Design all =
-      simulate("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
-               spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
+  const Simulation nulls =
+      simulation("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
+                 spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
+  const Design all = design_of(nulls.points, stages.rows("nulls", {nulls.rows}).front());
   const auto p = centre.size();
   summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
   const Design numbers{summaries_.points,
@@ -140,7 +112,9 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   parameters_ = std::make_unique<ResponseSurface>(summaries_);
   scores_ = std::make_unique<ResponseSurface>(numbers);
   named_ = static_cast<Eigen::Index>(plan_.first_of_shape(0));
-  informations_ = score_informations(plan_, setup.training);
+  const auto scored = static_cast<Eigen::Index>(plan_.first_of_effect(plan_.effects.size()));
+  informations_ = stages.matrix("informations", scored,
+                                [&] { return score_informations(plan_, setup.training); });
   null_residuals_ = held_out_residuals(summaries_, numbers, prior());
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
@@ -160,10 +134,22 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   for (Eigen::Index i = 0; i < n; ++i) {
     null_residuals_.row(i) = null_residuals_.row(i).cwiseQuotient(deviation_.transpose());
   }
+  learn_effects();
+}
+
+// All effects in one loop: an effect has few experiments, and threads would wait for its last one.
+void ReferenceEnsemble::learn_effects() {
+  std::vector<Simulation> all;
+  std::vector<Stages::RowsOfStage> wanted;
   std::uint64_t number = kEffectSeed;
   for (std::size_t e = 0; e < plan_.effects.size(); ++e) {
-    fingerprints_.push_back(fingerprint(plan_.effects[e], "effect " + std::to_string(e),
-                                        derived_seed(options.seed, number++)));
+    all.push_back(learning(plan_.effects[e], "effect " + std::to_string(e),
+                           derived_seed(options_.seed, number++)));
+    wanted.push_back(all.back().rows);
+  }
+  const auto rows = stages_.rows("effects", wanted);
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    fingerprints_.push_back(fingerprint(plan_.effects[e], responses(all[e], rows[e])));
   }
 }
 
@@ -177,37 +163,35 @@ Vectors ReferenceEnsemble::vectors(const std::vector<Recording>& recordings,
           to_vector(score(plan_, recordings, details))};
 }
 
-Design ReferenceEnsemble::simulate(const std::string& stage, const Emulator& emulator,
-                                   const Vector& about, const Matrix& spread,
-                                   const Matrix& amplitudes, const Effect* effect,
-                                   std::uint64_t seed) {
+ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
+    const std::string& stage, const Emulator& emulator, const Vector& about, const Matrix& spread,
+    const Matrix& amplitudes, const Effect* effect, std::uint64_t seed) const {
   const Matrix points =
       scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
-  std::vector<ParameterInfo> bounds;
-  std::vector<double> absent;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(amplitudes.cols()); ++k) {
-    bounds.push_back(emulator_parameter(effect->paths[k]));
-    absent.push_back(effect->absent(stages_.setup().model, k));
+  Matrix values(amplitudes.rows(), amplitudes.cols());  // of the effect's parameters
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    const ParameterInfo bounds = emulator_parameter(effect->paths[c]);
+    const double absent = effect->absent(stages_.setup().model, c);
+    values.col(k) = (absent + amplitudes.col(k).array() * effect->sizes[c])
+                        .cwiseMax(bounds.low)
+                        .cwiseMin(bounds.high);
   }
-  const auto rows = stages_.rows(stage, static_cast<int>(points.rows()), [&](int i) {
-    std::vector<double> values = stages_.from_scale(points.row(i));
-    for (std::size_t k = 0; k < bounds.size(); ++k) {
-      const double amplitude = amplitudes(i, static_cast<Eigen::Index>(k));
-      values.push_back(
-          std::clamp(absent[k] + amplitude * effect->sizes[k], bounds[k].low, bounds[k].high));
-    }
+  const auto work = [this, emulator, points, values, seed](int i) {
+    std::vector<double> at = stages_.from_scale(points.row(i));
+    for (Eigen::Index k = 0; k < values.cols(); ++k) at.push_back(values(i, k));
     const auto field = perturbed_flow(maps_, derived_seed(seed, kFieldSeed), seed, i);
     const auto made =
-        emulator.record(values, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
+        emulator.record(at, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
     if (!made) return std::vector<double>{};
     const Vectors both = vectors(*made);
     std::vector<double> row(both.summary.begin(), both.summary.end());
     row.insert(row.end(), both.scores.begin(), both.scores.end());
     return row;
-  });
+  };
   Matrix where(points.rows(), points.cols() + amplitudes.cols());
   where << points, amplitudes;
-  return design_of(where, rows);
+  return {std::move(where), {stage, static_cast<int>(points.rows()), work}};
 }
 
 Prior ReferenceEnsemble::prior() const {
@@ -237,11 +221,9 @@ Vector ReferenceEnsemble::residual_at(const Vector& scores, const Vector& point)
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
-ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
-                                                        const std::string& stage,
-                                                        const Vector& about, const Matrix& spread,
-                                                        const Matrix& amplitudes,
-                                                        std::uint64_t seed) {
+ReferenceEnsemble::Simulation ReferenceEnsemble::simulation_with(
+    const Effect& effect, const std::string& stage, const Vector& about, const Matrix& spread,
+    const Matrix& amplitudes, std::uint64_t seed) const {
   const CalibrationSetup& setup = stages_.setup();
   std::vector<double> absent;
   for (std::size_t c = 0; c < effect.paths.size(); ++c) {
@@ -251,10 +233,25 @@ ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  const Design made = simulate(stage, emulator, about, spread, amplitudes, &effect, seed);
+  return simulation(stage, emulator, about, spread, amplitudes, &effect, seed);
+}
+
+ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
+                                                        const std::string& stage,
+                                                        const Vector& about, const Matrix& spread,
+                                                        const Matrix& amplitudes,
+                                                        std::uint64_t seed) {
+  const Simulation one = simulation_with(effect, stage, about, spread, amplitudes, seed);
+  return responses(one, stages_.rows(stage, {one.rows}).front());
+}
+
+ReferenceEnsemble::Responses ReferenceEnsemble::responses(
+    const Simulation& of, const std::vector<std::vector<double>>& rows) const {
+  const Design made = design_of(of.points, rows);
+  const Eigen::Index parameters = centre_.size(), amplitudes = made.points.cols() - parameters;
   const Eigen::Index n = made.points.rows();
-  Responses out{made.points.rightCols(amplitudes.cols()), made.points.leftCols(about.size()),
-                Matrix(n, deviation_.size()), Matrix(n, about.size())};
+  Responses out{made.points.rightCols(amplitudes), made.points.leftCols(parameters),
+                Matrix(n, deviation_.size()), Matrix(n, parameters)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vectors v{made.numbers.row(i).head(summary_numbers()),
                     made.numbers.row(i).tail(deviation_.size())};
@@ -276,12 +273,16 @@ double ReferenceEnsemble::displacement_misfit(const Vector& summary) const {
   return off.dot(solve_symmetric(covariance, off));
 }
 
-Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const std::string& stage,
-                                           std::uint64_t seed) {
+ReferenceEnsemble::Simulation ReferenceEnsemble::learning(const Effect& effect,
+                                                          const std::string& stage,
+                                                          std::uint64_t seed) const {
+  const int count = options_.experiments * static_cast<int>(effect.paths.size());
+  return simulation_with(effect, stage, centre_, spread_, learning_amplitudes(effect, count, seed),
+                         seed);
+}
+
+Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses& made) const {
   const auto m = static_cast<Eigen::Index>(effect.paths.size());
-  const int count = options_.experiments * static_cast<int>(m);
-  const Responses made =
-      answers(effect, stage, centre_, spread_, amplitudes_of(effect, count, seed), seed);
   Matrix x(made.amplitudes.rows(), 2 * m);
   x << made.amplitudes, made.amplitudes.array().square().matrix();
   // A ridge of the residuals' unit noise variance on the second-order terms, which are less
@@ -317,8 +318,10 @@ const Fingerprint& ReferenceEnsemble::shape_fingerprint(int s) {
   if (known != shape_fingerprints_.end()) return known->second;
   const std::uint64_t seed =
       derived_seed(options_.curve_seed, kCurveSeed + static_cast<std::uint64_t>(s));
-  return shape_fingerprints_[s] = fingerprint(effect_of(plan_.shapes[static_cast<std::size_t>(s)]),
-                                              "shape " + std::to_string(s), seed);
+  const Effect effect = effect_of(plan_.shapes[static_cast<std::size_t>(s)]);
+  const Simulation one = learning(effect, "shape " + std::to_string(s), seed);
+  const auto rows = stages_.rows(one.rows.stage, {one.rows});
+  return shape_fingerprints_[s] = fingerprint(effect, responses(one, rows.front()));
 }
 
 Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
@@ -342,8 +345,9 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
-  const Responses made = answers(effect, stage, point, kNarrow * spread_,
-                                 about(amplitudes, experiments, effect.two_sided, seed), seed);
+  const Responses made =
+      answers(effect, stage, point, kNarrow * spread_,
+              amplitudes_about(amplitudes, experiments, effect.two_sided, seed), seed);
   // An affine response: the known secant slope, corrected in proportion to its noise.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =

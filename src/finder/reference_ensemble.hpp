@@ -95,10 +95,21 @@ class ReferenceEnsemble {
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
  private:
-  /// Experiments about a point: parameters and amplitudes, summaries and scores, a row each.
-  Design simulate(const std::string& stage, const Emulator& emulator, const Eigen::VectorXd& about,
-                  const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
-                  const Effect* effect, std::uint64_t seed);
+  /// Experiments about a point: parameters and amplitudes, a row each; summaries and scores.
+  struct Simulation {
+    Eigen::MatrixXd points;
+    Stages::RowsOfStage rows;
+  };
+  Simulation simulation(const std::string& stage, const Emulator& emulator,
+                        const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
+                        const Eigen::MatrixXd& amplitudes, const Effect* effect,
+                        std::uint64_t seed) const;
+  Simulation simulation_with(const Effect& effect, const std::string& stage,
+                             const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
+                             const Eigen::MatrixXd& amplitudes, std::uint64_t seed) const;
+  /// Those that an effect's fingerprint is learned from.
+  Simulation learning(const Effect& effect, const std::string& stage, std::uint64_t seed) const;
+  void learn_effects();
   /// Experiments with an effect, calibrated without it.
   struct Responses {
     Eigen::MatrixXd amplitudes, points, residuals, moved;  ///< a row each
@@ -106,7 +117,8 @@ class ReferenceEnsemble {
   Responses answers(const Effect& effect, const std::string& stage, const Eigen::VectorXd& about,
                     const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
                     std::uint64_t seed);
-  Fingerprint fingerprint(const Effect& effect, const std::string& stage, std::uint64_t seed);
+  Responses responses(const Simulation& of, const std::vector<std::vector<double>>& rows) const;
+  Fingerprint fingerprint(const Effect& effect, const Responses& made) const;
   const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
                                        const Eigen::VectorXd& amplitudes,
                                        const Eigen::VectorXd& point, int experiments) const;

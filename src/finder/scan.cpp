@@ -104,8 +104,9 @@ StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& rec
     });
     return out;
   };
-  const std::vector<StreamPlace> cleared = ranked(plan, recordings, false),
-                                 as_drawn = ranked(plan, recordings, true);
+  std::vector<StreamPlace> cleared, as_drawn;
+  for_each_world(2, threads,
+                 [&](int i) { (i == 0 ? cleared : as_drawn) = ranked(plan, recordings, i == 1); });
   StreamPlace best;
   double least = std::numeric_limits<double>::infinity();
   const auto attempt = [&](std::vector<StreamPlace> tried, const std::vector<StreamPlace>& more) {

@@ -1,13 +1,13 @@
 #include "finder/scores.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
 #include "finder/nuisances.hpp"
 #include "finder/residual_statistics.hpp"
+#include "finder/shape_pushes.hpp"
 #include "forces/pairs.hpp"
 #include "statistics/linear.hpp"
 #include "text/words.hpp"
@@ -18,7 +18,6 @@ namespace {
 constexpr double kContactPush = 0.03;  // m/s: a prediction that was pushed by a contact
 // Prior information that amplitudes (in sizes) are 0: of nuisance effects, of joint fits.
 constexpr double kHardlyKnown = 1e-4, kJointKnown = 0.1;
-constexpr std::size_t kAlongs = 7, kTowards = 9;  // of bodies, not of gaps
 constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, before any data
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
 constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
@@ -32,26 +31,6 @@ std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) 
   if (plan.identities) parts.push_back(module_statistic(plan));
   parts.push_back(spectrum_statistic(plan)), parts.push_back(contact_statistic(plan));
   return parts;
-}
-
-// A wrench as the acceleration that it gives a module.
-Wrench accelerating(const Wrench& w, const Model& model) {
-  const double mass = model.module.mass;
-  return {w.fx / mass, w.fy / mass, w.torque / model.module.inertia()};
-}
-
-// Adds a shape's two knots to the pushes of a module. `unit`: acceleration by a force of size 1.
-void push_knots(const Shape& shape, std::size_t first, const Wrench& unit, double value,
-                double sign, Pushes& pushes) {
-  const KnotShare at = place_on(shape.curve, value);
-  const auto add = [&](int knot, double share) {
-    const std::size_t f = first + static_cast<std::size_t>(knot);
-    const double size = sign * share * shape.size;
-    pushes.x[f] += static_cast<float>(size * unit.fx);
-    pushes.y[f] += static_cast<float>(size * unit.fy);
-    pushes.turn[f] += static_cast<float>(size * unit.torque);
-  };
-  add(at.first, 1 - at.share), add(at.second, at.share);
 }
 
 std::size_t components_of(const std::vector<Effect>& effects) {
@@ -82,6 +61,7 @@ class Scorer {
         features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
         sensitivities_(features_in_all_, modules_,
                        all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
+        shapes_(plan.shapes, scored_),
         pushes_(modules_, Pushes(features_in_all_)),
         last_(modules_, -9) {}
 
@@ -152,66 +132,35 @@ class Scorer {
     }
     const StepContext now{.time = frame.time, .gusts = false, .expected = true};
     features_->find(frame.now, now);
+    slips_.resize(n);
     for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
-    push_pairs(frame);
+    shapes_.push_pairs(*model_, frame.now, pushes_);
     seen_.resize(n);
     find_touching(frame);
-    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, now, i);
+    for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, i);
     for (const auto& part : parts_) part->add(frame, seen_);
   }
 
   void push(const PredictedFrame& frame, const StepContext& now, std::size_t i) {
     Pushes& to = pushes_[i];
-    to.clear();
-    const Model& model = *model_;
-    for (std::size_t f = 0; f < features_->size(); ++f) {
-      const Wrench w = accelerating(features_->at(f, i), model);
-      const std::size_t at = f < scored_ ? f : total_ + f - scored_;
-      to.x[at] = static_cast<float>(w.fx), to.y[at] = static_cast<float>(w.fy);
-      to.turn[at] = static_cast<float>(w.torque);
-    }
     const int body = static_cast<int>(i);
-    std::array<double, kAlongs> value{};
-    std::array<Wrench, kTowards> unit{};
-    for (std::size_t v = 0; v < kAlongs; ++v) {
-      value[v] = value_along(static_cast<Along>(v), model, frame.now, now, body);
-    }
-    for (std::size_t u = 0; u < kTowards; ++u) {
-      unit[u] =
-          accelerating(unit_toward(static_cast<Toward>(u), model, frame.now, now, body), model);
-    }
-    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
-      const ForceCurve& curve = plan_.shapes[s].curve;
-      if (curve.along == Along::gap) continue;
-      push_knots(plan_.shapes[s], scored_ + s * kKnots,
-                 unit[static_cast<std::size_t>(curve.toward)],
-                 value[static_cast<std::size_t>(curve.along)], 1, to);
-    }
+    const double mass = model_->module.mass;
+    push_effects(i, &Wrench::fx, mass, to.x), push_effects(i, &Wrench::fy, mass, to.y);
+    push_effects(i, &Wrench::torque, model_->module.inertia(), to.turn);
+    slips_[i] = slip_of(*model_, frame.now, now, body);
+    shapes_.push(*model_, frame.now, now, slips_[i], body, to);
     if (plan_.nuisances_known.size() > 0) {
       push_nuisances(*features_, frame.now, i, total_ + beside_, to);
     }
   }
 
-  void push_pairs(const PredictedFrame& frame) {
-    const Model& model = *model_;
-    for (std::size_t s = 0; s < plan_.shapes.size(); ++s) {
-      const Shape& shape = plan_.shapes[s];
-      if (shape.curve.along != Along::gap) continue;
-      const std::size_t first = scored_ + s * kKnots;
-      for_near_pairs(frame.now, shape.curve.high + model.module.side, [&](const NearPair& pair) {
-        const double gap = pair.r - model.module.side;
-        Wrench unit{0, 0, 1};
-        double other = 1;
-        if (shape.curve.toward == Toward::out) {
-          unit = {pair.dx / pair.r, pair.dy / pair.r, 0}, other = -1;
-        } else if (shape.curve.toward == Toward::around) {
-          unit = {-pair.dy / pair.r, pair.dx / pair.r, 0}, other = -1;
-        }
-        unit = accelerating(unit, model);
-        push_knots(shape, first, unit, gap, other, pushes_[static_cast<std::size_t>(pair.i)]);
-        push_knots(shape, first, unit, gap, 1, pushes_[static_cast<std::size_t>(pair.j)]);
-      });
-    }
+  // Effects that are scored come first, those beside them after the shapes.
+  void push_effects(std::size_t i, double Wrench::*part, double inertia, std::vector<float>& to) {
+    std::vector<double>& forces = forces_;
+    forces.resize(features_->size());
+    for (std::size_t f = 0; f < forces.size(); ++f) forces[f] = features_->at(f, i).*part;
+    divide_all(forces.data(), scored_, inertia, to.data());
+    divide_all(forces.data() + scored_, beside_, inertia, to.data() + total_);
   }
 
   // Modules in contact with another or the wall, or that may be before the next frame at the
@@ -249,11 +198,10 @@ class Scorer {
     return model_->tank.radius - radius <= kTouch + way;
   }
 
-  Seen pass(const PredictedFrame& frame, const StepContext& now, std::size_t i) {
+  Seen pass(const PredictedFrame& frame, std::size_t i) {
     Seen out;
     out.module = static_cast<std::size_t>(frame.module[i]), out.index = i;
-    const Vec2 slip = slip_of(*model_, frame.now, now, static_cast<int>(i));
-    out.slip_x = slip.x(), out.slip_y = slip.y();
+    out.slip_x = slips_[i].x(), out.slip_y = slips_[i].y();
     const Wrench& drag = features_->drag(i);
     out.drag_x = drag.fx / model_->module.mass, out.drag_y = drag.fy / model_->module.mass;
     const bool visible = !std::isnan(frame.dx[i]);
@@ -284,7 +232,10 @@ class Scorer {
   Eigen::MatrixXd known_;
   std::size_t features_in_all_;
   Sensitivities sensitivities_;
+  ShapePushes shapes_;
   std::vector<Pushes> pushes_;
+  std::vector<double> forces_;
+  std::vector<Vec2> slips_;
   std::vector<int> last_;
   std::vector<std::uint8_t> touching_;
   const Model* model_ = nullptr;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "io/file_digest.hpp"
 #include "lilytank/state.hpp"
@@ -62,17 +64,17 @@ bool take_line(std::string_view line, Rows& rows) {
   return true;
 }
 
-void read_rows(const KeptRows& kept, std::string_view text, Rows& rows) {
-  const std::string head = head_of(kept);
+void read_rows(const std::string& file, const std::string& head, std::string_view text,
+               Rows& rows) {
   if (text.empty()) return;
   if (!text.starts_with(head)) {
-    throw InputError({kept.file, 1, 1}, "these rows are of another calculation");
+    throw InputError({file, 1, 1}, "these rows are of another calculation");
   }
   std::size_t at = head.size();
   for (int line = 2; at < text.size(); ++line) {
     const auto end = text.find('\n', at);
     if (!take_line(text.substr(at, end - at), rows)) {
-      throw InputError({kept.file, line, 1},
+      throw InputError({file, line, 1},
                        "the row was changed since it was written (its checksum does not "
                        "fit); remove the file to have its rows computed again");
     }
@@ -80,21 +82,47 @@ void read_rows(const KeptRows& kept, std::string_view text, Rows& rows) {
   }
 }
 
+// The rows of a set so far, and the log that further ones are added to.
+struct OpenRows {
+  Rows rows;
+  std::unique_ptr<RowLog> log;
+};
+
+OpenRows opened(const KeptRows& kept, const RowSet& set) {
+  OpenRows out{Rows(static_cast<std::size_t>(set.count)), nullptr};
+  if (set.file.empty()) return out;
+  const std::string head = head_of(kept), before = RowLog::rows_in(set.file);
+  read_rows(set.file, head, before, out.rows);
+  out.log = std::make_unique<RowLog>(set.file, head, before, ";\n");
+  return out;
+}
+
+// A row of a set, each by its number.
+using Place = std::pair<std::size_t, int>;
+
+std::vector<Place> missing_in(const std::vector<OpenRows>& sets) {
+  std::vector<Place> out;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (std::size_t i = 0; i < sets[s].rows.size(); ++i) {
+      if (!sets[s].rows[i]) out.emplace_back(s, static_cast<int>(i));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
                                            const std::function<std::vector<double>(int)>& work) {
-  Rows rows(static_cast<std::size_t>(count));
-  std::optional<RowLog> log;
-  if (!kept.file.empty()) {
-    const std::string before = RowLog::rows_in(kept.file);
-    read_rows(kept, before, rows);
-    log.emplace(kept.file, head_of(kept), before, ";\n");
-  }
-  std::vector<int> missing;
-  for (int i = 0; i < count; ++i) {
-    if (!rows[static_cast<std::size_t>(i)]) missing.push_back(i);
-  }
+  return std::move(kept_row_sets(kept, {{kept.file, count, work}}).front());
+}
+
+std::vector<std::vector<std::vector<double>>> kept_row_sets(const KeptRows& kept,
+                                                            const std::vector<RowSet>& sets) {
+  std::vector<OpenRows> open;
+  int count = 0;
+  for (const RowSet& set : sets) open.push_back(opened(kept, set)), count += set.count;
+  const std::vector<Place> missing = missing_in(open);
   int done = count - static_cast<int>(missing.size());
   const auto report = [&] {
     kept.report(static_cast<double>(done) / std::max(1, count),
@@ -103,20 +131,24 @@ std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
   report();
   std::mutex one_at_a_time;
   const auto one = [&](int k) {
-    const int index = missing[static_cast<std::size_t>(k)];
-    std::vector<double> row = work(index);
+    const auto& [set, index] = missing[static_cast<std::size_t>(k)];
+    std::vector<double> row = sets[set].work(index);
     for (double& v : row) v = std::isfinite(v) ? v : std::numeric_limits<double>::quiet_NaN();
-    if (log) log->append(line_of(index, row));
+    if (open[set].log) open[set].log->append(line_of(index, row));
     const std::lock_guard lock(one_at_a_time);
-    rows[static_cast<std::size_t>(index)] = std::move(row);
+    open[set].rows[static_cast<std::size_t>(index)] = std::move(row);
     ++done;
     report();
   };
   for_each_world(static_cast<int>(missing.size()), kept.threads, one, kept);
-  if (log) log->flush();
+  for (const OpenRows& of : open) {
+    if (of.log) of.log->flush();
+  }
   kept.check_stop();  // also where all rows were kept: what is made of them may take minutes
-  std::vector<std::vector<double>> out;
-  for (auto& row : rows) out.push_back(std::move(*row));
+  std::vector<std::vector<std::vector<double>>> out(sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    for (auto& row : open[s].rows) out[s].push_back(std::move(*row));
+  }
   return out;
 }
 

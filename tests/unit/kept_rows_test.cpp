@@ -38,6 +38,20 @@ TEST(KeptRows, areReadFromTheFileAndOnlyTheMissingAreDone) {
   EXPECT_TRUE(std::equal(first.begin(), first.end(), more.begin()));
 }
 
+TEST(KeptRows, ofSeveralFilesAreThoseOfEachByItself) {
+  const TemporaryDirectory here;
+  const auto other = [](int i) { return Row{-1.5 * i}; };
+  kept_rows(kept_in(here), 2, row_of);
+  std::atomic<int> done = 0;
+  const auto counted = [&](int i) { return ++done, row_of(i); };
+  const std::vector<RowSet> sets{{here.path("r.rows"), 5, counted},
+                                 {here.path("s.rows"), 3, other}};
+  const auto both = kept_row_sets(kept_in(here), sets);
+  EXPECT_EQ(done, 3);  // two are in the file
+  EXPECT_EQ(both.front(), kept_rows(kept_in(here), 5, row_of));
+  EXPECT_EQ(both.back(), (std::vector<Row>{other(0), other(1), other(2)}));
+}
+
 TEST(KeptRows, aLastRowCutByAKillIsDoneAgain) {
   const TemporaryDirectory here;
   const KeptRows kept = kept_in(here, 5, 1);
