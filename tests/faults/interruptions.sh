@@ -55,22 +55,24 @@ flip() {  # <file>: one random bit; <offset> instead of a random place
   flipped="${1##*/} at $offset"
 }
 flipped_run() {  # <file of a run>: reads it with everything that reads runs
-  local keep=$in/done name damaged
+  local name code
   fresh
-  cp -r "$keep" "$home/damaged"
-  flip "$home/damaged/$1" || { rm -rf "$home/damaged"; discard; return; }
-  for name in "${readers[@]}"; do
-    rm -rf "${out:?}"/*
-    (lily_in=$home/damaged; eval "$(declare -f c_$name | sed 's|\$in/done|$lily_in|')"
-     c_$name "$out") > /dev/null 2> "$home/err"
-    local code=$?
-    if ((code == 0)); then
-      same_bytes "$flipped, $name" "$name" && count_same
-    else
-      refusal "$flipped, $name" $code "$home/err"
-    fi
-  done
-  rm -rf "$home/damaged"
+  mv "$in/done" "$home/whole"  # captions name what was read: the damaged copy takes its place
+  cp -r "$home/whole" "$in/done"
+  if flip "$in/done/$1"; then
+    for name in "${readers[@]}"; do
+      rm -rf "${out:?}"/*
+      code=0
+      c_$name "$out" > /dev/null 2> "$home/err" || code=$?
+      if ((code == 0)); then
+        same_bytes "$flipped, $name" "$name" && count_same
+      else
+        refusal "$flipped, $name" $code "$home/err"
+      fi
+    done
+  fi
+  rm -rf "$in/done"
+  mv "$home/whole" "$in/done"
   discard
 }
 flipped_again() {  # <command> <file>: the command again on its damaged results
