@@ -39,13 +39,15 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
     }
     hashes += " " + proofs.back().hash;
   }
+  ReportProvenance origin{"lilytank prove", LILYTANK_VERSION, "", {}};
+  for (const std::string& dir : dirs) origin.command += " " + dir;
   if (out.empty()) {
-    std::cout << proof_text(proofs) << std::flush;
+    ReportDocument report = proof_report(proofs);
+    report.provenance = origin;
+    std::cout << printed(report, host) << std::flush;
     return Exit::done;
   }
   const auto lock = claim_directory(out, force, {"proof", "pooled" + hashes, proof_files()});
-  ReportProvenance origin{"lilytank prove", LILYTANK_VERSION, "", {}};
-  for (const std::string& dir : dirs) origin.command += " " + dir;
   return report_proofs(proofs, out, style, origin, host);
 }
 
