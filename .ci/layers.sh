@@ -67,7 +67,7 @@ only_in 'src/study/|src/cli/progress\.|src/python/(job|verb)\.' \
   'threads belong to src/study, src/cli/progress and src/python'
 only_in 'src/python/' '#include <pybind11' 'pybind11 belongs to src/python'
 only_in 'render/' '#include <cairo' 'Cairo belongs to render'
-only_in 'src/export/' '#include <netcdf' 'NetCDF belongs to src/export'
+only_in 'src/jobs/netcdf.cpp' '#include <netcdf' 'NetCDF belongs to src/jobs/netcdf.cpp'
 only_in 'src/cli/' '#include <cxxopts' 'cxxopts belongs to src/cli'
 only_in 'src/statistics/quantiles.cpp' '#include <boost/' 'Boost.Math belongs to src/statistics/quantiles.cpp'
 only_in 'src/io/' '#include <toml' 'TOML belongs to src/io'
@@ -92,8 +92,7 @@ home search search
 home statistics normality statistics
 home assemblies assembly_record
 home io file_digest model_parameter report run_events scenario table_layout trajectory
-home jobs run
-home export data_file
+home jobs run data_file
 home recording camera experiment recording recording_io
 home smoothing smoothing
 home tracks analysis distributions metrics motion_summary
@@ -135,7 +134,6 @@ base=(world model statistics math text)
 layer assemblies "${base[@]}"
 layer io "${base[@]}"
 layer jobs io assemblies "${base[@]}"
-layer export jobs io "${base[@]}"
 layer recording io "${base[@]}"
 layer smoothing recording "${base[@]}"
 layer tracks smoothing recording io "${base[@]}"
@@ -153,8 +151,8 @@ layer bodies finder study jobs "${base[@]}"
 base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
 layer view "${base[@]}"
 layer render view "${base[@]}"
-layer cli export render view forces "${base[@]}"
-layer python cli export render view forces "${base[@]}"
+layer cli render view forces "${base[@]}"
+layer python cli render view forces "${base[@]}"
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's
