@@ -58,7 +58,7 @@ class FrameRaster {
   Canvas page_;
 };
 
-/// The caption of a frame, for a figure whose name the caller knows.
+/// The caption of a frame, for a figure that the caller names.
 Figure frame_figure(const StoredRun& run, double time, const FrameStyle& style);
 /// "15 modules, 3 balls".
 std::string bodies_text(const StoredRun& run);

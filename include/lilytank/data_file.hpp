@@ -37,9 +37,8 @@ struct DataFile {
 
 /// Results in a directory: a group for each table (*.csv), named as the table, with a variable for
 /// each column along the dimension "row"; of a run the group "trajectory" with the dimensions
-/// "frame" and "body". A column of whole numbers without
-/// empty cells is int64, but for times; one of numbers is float64, else text. Throws
-/// InputError if there are no tables, or one is damaged.
+/// "frame" and "body". A column of whole numbers without empty cells is int64, but for times; one
+/// of numbers is float64, else text. Throws InputError if there are no tables, or one is damaged.
 DataFile data_of_results(const std::string& dir);
 
 /// The bytes of a NetCDF-4 file: a group of the file for each group, numbers deflated. Equal data

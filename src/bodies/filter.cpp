@@ -111,7 +111,7 @@ class Mover {
 
  private:
   // Fastest rate (1/s) at which the laws change velocities: bounds of the derivatives of
-  // accelerations by velocities, and of those by positions, whose square root is a frequency.
+  // accelerations by velocities, and of those by positions: the root of the latter is a frequency.
   double rate(std::size_t k, double time, double T, const Vector& z) const {
     if (model_->terms.empty()) return 0;
     double x[kMost], v[kMost], a[kMost], moved[kMost], of_x[kMost] = {}, of_v[kMost] = {};

@@ -13,9 +13,6 @@ using Vector = Eigen::VectorXd;
 // Products are summed in one frame of so many: sums of a hundred thousand are known well enough.
 constexpr int kEvery = 3;
 constexpr std::size_t kFlush = 768;  // passings whose sums are in single precision
-// Rows of products that are summed together, which keeps the sums in registers; and those whose
-// products belong to the same sum in single precision: a flush splits no such group.
-constexpr std::size_t kRowsKept = 32, kRowsOfGroup = 8;
 constexpr double kLeastLeft = 1e-3;  // share of an information that nuisances leave at least
 
 // Precision of the nuisances' amplitudes, by their products and what is known before.
@@ -36,7 +33,7 @@ Sensitivities::Sensitivities(std::size_t features, std::size_t modules, std::siz
       recent_score_(wide_),
       recent_information_(wide_),
       recent_shared_(partners * wide_),
-      rows_(kRowsKept * wide_),
+      rows_(kRowsAtOnce * wide_),
       now_(wide_) {
   for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) of->assign(wide_ * modules, 0.0f);
 }
@@ -56,22 +53,18 @@ void Sensitivities::pass_axis(const FeatureAxis& axis, bool summed, const float*
   if (!usable) return;
   if (summed) {
     taken_ += 1;
-    if (++kept_ == kRowsKept) add_rows(kept_);
+    if (++kept_ == kRowsAtOnce) add_rows();
   }
   if (++passed_ % kFlush == 0) flush();
 }
 
-void Sensitivities::add_rows(std::size_t count) {
-  if (count == 0) return;
-  add_products(rows_.data(), count, wide_, features_ - partners_, partners_, recent_shared_.data());
-  const auto begin = rows_.begin();
-  std::copy(begin + static_cast<std::ptrdiff_t>(count * wide_),
-            begin + static_cast<std::ptrdiff_t>(kept_ * wide_), begin);
-  kept_ -= count;
+void Sensitivities::add_rows() {
+  std::fill(rows_.begin() + static_cast<std::ptrdiff_t>(kept_ * wide_), rows_.end(), 0.0f);
+  add_products(rows_.data(), wide_, features_ - partners_, partners_, recent_shared_.data());
+  kept_ = 0;
 }
 
 void Sensitivities::flush() {
-  add_rows(kept_ / kRowsOfGroup * kRowsOfGroup);
   move_sums(recent_score_.data(), wide_, score_.data());
   move_sums(recent_information_.data(), wide_, information_.data());
   move_sums(recent_shared_.data(), recent_shared_.size(), shared_.data());
@@ -101,7 +94,7 @@ void Sensitivities::pass(std::size_t module, const Pushes& pushes, const Predict
 }
 
 void Sensitivities::finish() {
-  add_rows(kept_);
+  if (kept_ > 0) add_rows();
   flush();
 }
 
@@ -109,13 +102,11 @@ Matrix Sensitivities::products(Eigen::Index count) const {
   const auto features = static_cast<Eigen::Index>(features_);
   const double all = taken_ > 0 ? static_cast<double>(passed_) / static_cast<double>(taken_) : 0;
   Matrix out(features, count);
-  const std::size_t first = features_ - partners_;
   for (Eigen::Index k = 0; k < count; ++k) {
     const auto partner = partners_ - static_cast<std::size_t>(count - k);
-    for (std::size_t f = 0; f < features_; ++f) {
-      const bool earlier = f >= first && f < first + partner;
-      const std::size_t at = earlier ? (f - first) * wide_ + first + partner : partner * wide_ + f;
-      out(static_cast<Eigen::Index>(f), k) = all * shared_[at];
+    for (Eigen::Index f = 0; f < features; ++f) {
+      const std::size_t at = partner * wide_ + static_cast<std::size_t>(f);
+      out(f, k) = all * shared_[at];
     }
   }
   return out;

@@ -54,8 +54,7 @@ class Sensitivities {
 
  private:
   void pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x, float* v);
-  /// The products of the first `count` rows.
-  void add_rows(std::size_t count);
+  void add_rows();
   void flush();
   /// Products of every feature with the last `count`.
   Eigen::MatrixXd products(Eigen::Index count) const;

@@ -38,43 +38,21 @@ void pass(const FeatureAxis& a, float root, std::size_t count, const float* push
   }
 }
 
-// One tile of sums stays in registers while all rows are added, in their order.
-template <std::size_t kPartners>
-void add_tile(const float* rows, std::size_t used, std::size_t count, std::size_t first,
-              std::size_t f, float* sums) {
+void products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
+              float* sums) {
   const Floats d;
-  Float sum[kPartners];
-  for (std::size_t n = 0; n < kPartners; ++n) sum[n] = hn::LoadU(d, sums + n * count);
-  for (std::size_t k = 0; k < used; ++k) {
-    const float* row = rows + k * count;
-    const Float of = hn::LoadU(d, row + f);
-    for (std::size_t n = 0; n < kPartners; ++n) {
-      sum[n] = hn::Add(sum[n], hn::Mul(of, hn::Set(d, row[first + n])));
+  for (std::size_t f = 0; f < count; f += hn::Lanes(d)) {
+    Float of[kRowsAtOnce];
+    for (std::size_t k = 0; k < kRowsAtOnce; ++k) of[k] = hn::LoadU(d, rows + k * count + f);
+    for (std::size_t n = 0; n < partners; ++n) {
+      float* sum = sums + n * count + f;
+      Float all = hn::LoadU(d, sum);
+      for (std::size_t k = 0; k < kRowsAtOnce; ++k) {
+        all = hn::Add(all, hn::Mul(of[k], hn::Set(d, rows[k * count + first + n])));
+      }
+      hn::StoreU(all, d, sum);
     }
   }
-  for (std::size_t n = 0; n < kPartners; ++n) hn::StoreU(sum[n], d, sums + n * count);
-}
-
-// All tiles of some partners but those whose features are all earlier partners: these products are
-// known already, with both in the other's place.
-template <std::size_t kPartners>
-void add_tiles(const float* rows, std::size_t used, std::size_t count, std::size_t first,
-               std::size_t partner, float* sums) {
-  const std::size_t lanes = hn::Lanes(Floats());
-  for (std::size_t f = 0; f < count; f += lanes) {
-    if (f >= first && f + lanes <= first + partner) continue;
-    add_tile<kPartners>(rows, used, count, first + partner, f, sums + partner * count + f);
-  }
-}
-
-void products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
-              std::size_t partners, float* sums) {
-  constexpr std::size_t kTogether = 12;
-  std::size_t n = 0;
-  for (; n + kTogether <= partners; n += kTogether) {
-    add_tiles<kTogether>(rows, used, count, first, n, sums);
-  }
-  for (; n < partners; ++n) add_tiles<1>(rows, used, count, first, n, sums);
 }
 
 void move(float* recent, std::size_t count, double* all) {
@@ -115,9 +93,9 @@ void pass_features(const FeatureAxis& axis, std::size_t count, const float* push
   (axis, std::sqrt(axis.weight), count, push, x, v, now, score, information);
 }
 
-void add_products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
-                  std::size_t partners, float* sums) {
-  HWY_DYNAMIC_DISPATCH(products)(rows, used, count, first, partners, sums);
+void add_products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
+                  float* sums) {
+  HWY_DYNAMIC_DISPATCH(products)(rows, count, first, partners, sums);
 }
 
 void move_sums(float* recent, std::size_t count, double* all) {

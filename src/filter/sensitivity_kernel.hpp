@@ -6,6 +6,7 @@
 namespace lilytank {
 
 inline constexpr std::size_t kFeatureLanes = 16;  ///< of which numbers of features are multiples
+inline constexpr std::size_t kRowsAtOnce = 8;     ///< with their products summed together
 
 /// One coordinate of all features over one frame. `found`: the innovation by its variance, 0 if it
 /// does not count; `weight`: one over the variance, likewise.
@@ -18,11 +19,10 @@ struct FeatureAxis {
 void pass_features(const FeatureAxis& axis, std::size_t count, const float* push, float* x,
                    float* v, float* now, float* score, float* information);
 
-/// Adds the products of the `partners` numbers from `first` on with all `count` of each of the
-/// first `used` rows, `count` apart, to sums, [partner * count + feature]. Of two partners, only
-/// the sum with the later one as the feature is certain to be complete.
-void add_products(const float* rows, std::size_t used, std::size_t count, std::size_t first,
-                  std::size_t partners, float* sums);
+/// Adds the products of the `partners` numbers from `first` on with all `count` of each of
+/// kRowsAtOnce rows, `count` apart, to sums, [partner * count + feature].
+void add_products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
+                  float* sums);
 
 /// Adds `count` recent sums, a multiple of kFeatureLanes, to those in double precision, and sets
 /// them to 0.

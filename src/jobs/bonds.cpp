@@ -13,16 +13,11 @@ namespace {
 
 using Cells = std::vector<Cell>;
 
-bool before(const Cell& a, const Cell& b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
-}
-
 /// Whether the cells can be laid on some of the target's, turned but not mirrored.
 bool part_of(Cells shape, const Cells& target) {
   if (shape.size() > target.size()) return false;
   const auto in_target = [&](const Cell& cell) {
-    return std::any_of(target.begin(), target.end(),
-                       [&](const Cell& t) { return t.x == cell.x && t.y == cell.y; });
+    return std::find(target.begin(), target.end(), cell) != target.end();
   };
   for (int turn = 0; turn < 4; ++turn) {
     for (const Cell& at : target) {
@@ -42,15 +37,8 @@ bool part_of(Cells shape, const Cells& target) {
 class Replay {
  public:
   Replay(const Model& model, std::vector<StoredBond>& bonds) : model_(&model), bonds_(&bonds) {
-    std::set<Cells, bool (*)(const Cells&, const Cells&)> targets(
-        [](const Cells& a, const Cells& b) {
-          return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), before);
-        });
-    for (const Ruleset& rules : model.rulesets) {
-      Cells cells = rules.target;
-      std::sort(cells.begin(), cells.end(), before);
-      targets.insert(std::move(cells));
-    }
+    std::set<Cells> targets;
+    for (const Ruleset& rules : model.rulesets) targets.insert(canonical_shape(rules.target));
     if (targets.size() == 1) target_ = *targets.begin();
   }
 

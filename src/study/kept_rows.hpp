@@ -28,8 +28,8 @@ struct RowSet {
 /// damaged or of another identity; a last row cut by a kill is computed again.
 std::vector<std::vector<double>> kept_rows(const KeptRows& kept, int count,
                                            const std::function<std::vector<double>(int)>& work);
-/// The same of several files, whose rows are computed in one loop: no thread waits for the last row
-/// of each. `kept.file` does not count.
+/// The same of several files. All rows are computed in one loop: no thread waits for the last row
+/// of each file. `kept.file` does not count.
 std::vector<std::vector<std::vector<double>>> kept_row_sets(const KeptRows& kept,
                                                             const std::vector<RowSet>& sets);
 

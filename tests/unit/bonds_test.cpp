@@ -1,4 +1,4 @@
-// Statistics of connections, from events whose bonds are known.
+// Statistics of connections, from events of known bonds.
 #include "jobs/bonds.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ StoredEvent event(double time, const std::string& kind, int a, int face_a, int b
   return e;
 }
 
-// Modules whose target is a straight chain of three.
+// Modules with a straight chain of three as their target.
 Model chain_model() {
   Model model;
   model.module.count = 4;
