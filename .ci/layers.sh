@@ -145,10 +145,11 @@ base+=(io assemblies recording smoothing tracks flow)
 layer calibrate study jobs search "${base[@]}"
 layer filter "${base[@]}"
 layer effects calibrate study forces "${base[@]}"
-layer finder effects filter calibrate study jobs forces "${base[@]}"
-layer proof finder effects filter calibrate study jobs forces "${base[@]}"
+layer scores effects filter calibrate study forces "${base[@]}"
+layer finder scores effects filter calibrate study jobs forces "${base[@]}"
+layer proof finder scores effects filter calibrate study jobs forces "${base[@]}"
 layer bodies finder study jobs "${base[@]}"
-base+=(bodies proof finder effects filter calibrate optimize study search synthesis jobs)
+base+=(bodies proof finder scores effects filter calibrate optimize study search synthesis jobs)
 layer view "${base[@]}"
 layer render view "${base[@]}"
 layer cli render view forces "${base[@]}"

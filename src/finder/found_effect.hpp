@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "finder/candidate.hpp"
-#include "finder/score_plan.hpp"
-#include "finder/scores.hpp"
+#include "scores/score_plan.hpp"
+#include "scores/scores.hpp"
 
 namespace lilytank {
 

@@ -6,7 +6,7 @@
 
 #include "calibrate/design.hpp"
 #include "finder/joint.hpp"
-#include "finder/nuisances.hpp"
+#include "scores/nuisances.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 

@@ -17,7 +17,7 @@
 #include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "finder/fingerprint.hpp"
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/response_surface.hpp"
 
 namespace lilytank {

@@ -5,7 +5,7 @@
 
 #include "finder/refinement.hpp"
 #include "finder/scan.hpp"
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "statistics/largest_first.hpp"
 
 namespace lilytank {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/study.hpp"
 #include "statistics/largest_first.hpp"
 

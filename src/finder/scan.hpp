@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "finder/score_plan.hpp"
+#include "scores/score_plan.hpp"
 
 namespace lilytank {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 
-#include "finder/flow_uncertainty.hpp"
-#include "finder/scores.hpp"
+#include "flow/flow_uncertainty.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "calibrate/design.hpp"
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "forces/empirical_force.hpp"
 #include "statistics/linear.hpp"
 

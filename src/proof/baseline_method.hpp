@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "finder/score_plan.hpp"
+#include "scores/score_plan.hpp"
 
 namespace lilytank {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/emulator.hpp"
 #include "support/worlds.hpp"
 

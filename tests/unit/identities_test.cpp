@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/predictor.hpp"
 #include "support/filmed.hpp"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finder/flow_uncertainty.hpp"
-#include "finder/nuisances.hpp"
+#include "flow/flow_uncertainty.hpp"
+#include "scores/nuisances.hpp"
 #include "finder/scan.hpp"
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "finder/show.hpp"
 #include "forces/library.hpp"
 #include "lilytank/camera.hpp"

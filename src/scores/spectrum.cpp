@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "finder/residual_statistics.hpp"
+#include "scores/residual_statistics.hpp"
 #include "statistics/median.hpp"
 #include "text/number.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "finder/score_plan.hpp"
+#include "scores/score_plan.hpp"
 
 namespace lilytank {
 

@@ -1,4 +1,4 @@
-#include "finder/shape_pushes.hpp"
+#include "scores/shape_pushes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
-#include "finder/nuisances.hpp"
-#include "finder/residual_statistics.hpp"
-#include "finder/shape_pushes.hpp"
+#include "scores/nuisances.hpp"
+#include "scores/residual_statistics.hpp"
+#include "scores/shape_pushes.hpp"
 #include "forces/pairs.hpp"
 #include "statistics/linear.hpp"
 #include "text/words.hpp"

@@ -1,4 +1,4 @@
-#include "finder/flow_uncertainty.hpp"
+#include "flow/flow_uncertainty.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "finder/residual_statistics.hpp"
+#include "scores/residual_statistics.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include "finder/nuisances.hpp"
+#include "scores/nuisances.hpp"
 
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "finder/flow_uncertainty.hpp"
+#include "flow/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
 #include "statistics/linear.hpp"
