@@ -1,4 +1,5 @@
-// JSON as this program's files hold it.
+// JSON as this program's files hold it. Reading and writing are compiled once: they cost every
+// source that uses them seconds of compiling.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,15 +11,14 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they ar
 
 /// A file's content: indented, null where a number is not finite. Bytes that are not UTF-8 become
 /// U+FFFD.
-inline std::string json_text(const Json& value) {
-  return value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
+std::string json_text(const Json& value);
+/// The same on one line, without spaces.
+std::string json_line(const Json& value);
+/// The value in a text. Throws Json::exception if the text is no JSON.
+Json json_of(const std::string& text);
+/// The same, but Json::is_discarded() if the text is no JSON.
+Json json_or_discarded(const std::string& text);
 /// The number at the top level under a key; nothing if the text is no JSON object or holds none.
-inline std::optional<double> json_number_of(const std::string& text, const std::string& key) {
-  const Json all = Json::parse(text, nullptr, false);
-  if (!all.is_object() || !all.contains(key) || !all[key].is_number()) return std::nullopt;
-  return all[key].get<double>();
-}
+std::optional<double> json_number_of(const std::string& text, const std::string& key);
 
 }  // namespace lilytank

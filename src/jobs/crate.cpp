@@ -53,8 +53,7 @@ ReportProvenance provenance_in(const std::string& text) {
 
 ReportProvenance provenance_of_run(const fs::path& dir) {
   ReportProvenance out;
-  const Json summary =
-      Json::parse(read_whole((dir / run_file::summary_json).string()), nullptr, false);
+  const Json summary = json_or_discarded(read_whole((dir / run_file::summary_json).string()));
   if (!summary.is_object() || !summary.contains("program")) return out;
   const std::string program = summary["program"];
   out.command = std::string("lilytank run ") + run_file::resolved;

@@ -27,7 +27,7 @@ std::string sizes_text(const std::vector<int>& by_size) {
 
 /// Seconds as they are printed, without the rounding of a product.
 double printed(double seconds) {
-  return Json::parse(without_rounding(seconds)).get<double>();
+  return json_of(without_rounding(seconds)).get<double>();
 }
 
 std::string line(std::string name, const std::string& value) {

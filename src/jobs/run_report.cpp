@@ -46,7 +46,7 @@ ReportCard card_of(const Json& summary, const Model& model) {
       (model.ball.count > 0 ? " and " + std::to_string(model.ball.count) + " balls" : "");
   if (summary["status"] != "complete") {
     card.tone = ReportTone::fault;
-    card.verdict = "the simulation diverged at step " + summary["diverged_step"].dump();
+    card.verdict = "the simulation diverged at step " + json_line(summary["diverged_step"]);
   } else if (possible > 0) {
     card.tone = copies == possible ? ReportTone::good : ReportTone::neutral;
     card.verdict = std::to_string(copies) + " of " + std::to_string(possible) +
@@ -56,8 +56,8 @@ ReportCard card_of(const Json& summary, const Model& model) {
   }
   card.facts = {
       {"simulated", simulated},
-      {"seed", summary["seed"].dump()},
-      {"illegal assemblies", summary["illegal"].dump()},
+      {"seed", json_line(summary["seed"])},
+      {"illegal assemblies", json_line(summary["illegal"])},
       {"deepest overlap", significant(1000 * double(summary["deepest_overlap_m"]), 2) + " mm"},
       {"fingerprint", summary["fingerprint"]}};
   if (summary.contains("ended")) {
@@ -74,7 +74,7 @@ ReportCard card_of(const Json& summary, const Model& model) {
 
 ReportDocument run_report(const StoredRun& run, const std::string& dir) {
   const auto path = [&](const char* name) { return (std::filesystem::path(dir) / name).string(); };
-  const Json summary = Json::parse(read_whole(path(run_file::summary_json)));
+  const Json summary = json_of(read_whole(path(run_file::summary_json)));
   ReportDocument report;
   report.title = "Run of " + (run.scenario.title.empty() ? "a scenario" : run.scenario.title);
   report.subtitle = "identity of the scenario " + std::string(summary["scenario"]);

@@ -8,6 +8,8 @@ namespace lilytank {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
+// Singular values. A square matrix needs no QR before the rotations.
+using Rotations = Eigen::JacobiSVD<Matrix, Eigen::NoQRPreconditioner>;
 
 Matrix lower_root(const Matrix& a) {
   return a.llt().matrixL();
@@ -38,17 +40,14 @@ Matrix least_squares(const Matrix& x, const Matrix& y) {
 }
 
 Matrix floored_inverse(const Matrix& a, double least) {
-  // A square matrix needs no QR before the rotations.
-  const Eigen::JacobiSVD<Matrix, Eigen::NoQRPreconditioner> of(
-      a, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Rotations of(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector inverse = of.singularValues().cwiseMax(least).cwiseInverse();
   return of.matrixV() * inverse.asDiagonal() * of.matrixU().transpose();
 }
 
 RankedSolution solve_ranked(const Matrix& a, const Vector& b, double threshold) {
-  Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
+  Rotations solver(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   solver.setThreshold(threshold);
-  solver.compute(a);
   return {solver.solve(b), solver.rank()};
 }
 

@@ -23,8 +23,8 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y
 /// The inverse of a square `a` whose singular values below `least` are raised to it.
 Eigen::MatrixXd floored_inverse(const Eigen::MatrixXd& a, double least);
 
-/// The shortest x that makes |a x - b| least, and the rank of `a`: how many of its singular
-/// directions are larger than `threshold` times the largest.
+/// The shortest x that makes |a x - b| least, and the rank of the square matrix `a`: how many of
+/// its singular values are larger than `threshold` times the largest.
 struct RankedSolution {
   Eigen::VectorXd x;
   Eigen::Index rank = 0;

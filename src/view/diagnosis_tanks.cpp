@@ -31,7 +31,7 @@ StoredDiagnosis read_diagnosis(const std::string& dir) {
   const std::string flow = (fs::path(dir) / "flow.csv").string();
   StoredDiagnosis out;
   try {
-    const Json all = Json::parse(read_whole(file));
+    const Json all = json_of(read_whole(file));
     out.name = all.at("name").get<std::string>();
     out.verdict = all.at("verdict").get<std::string>();
     for (const Json& f : all.at("findings")) {

@@ -10,7 +10,7 @@ namespace {
 /// JSON inside of a script element, which a '<' in a name could end.
 std::string script_json(const Json& value) {
   std::string out;
-  for (const char c : value.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json_line(value)) {
     if (c == '<') {
       out += "\\u003c";
     } else {
