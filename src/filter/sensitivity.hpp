@@ -51,6 +51,8 @@ class Sensitivities {
   /// Information of every two features that nuisances leave, if all features are partners: an
   /// amplitude of the second moves the estimate of the first by it over the first's own.
   Eigen::MatrixXd informations(const Eigen::MatrixXd& known) const;
+  /// Information of every two features, if all are partners; nothing is eliminated.
+  Eigen::MatrixXd products() const { return products(static_cast<Eigen::Index>(features_)); }
 
  private:
   void pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x, float* v);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finder/fitted_model.hpp"
+#include "finder/proposal.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "text/number.hpp"
@@ -109,6 +110,7 @@ void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& o
   }
   const Judged judged = judge(tank, recordings.training, out);
   fit_findings(tank, judged, out.nothing_held_out ? recordings.training : recordings.held_out, out);
+  out.next = next_experiments(tank, judged, recordings.training, out);
   if (tank.ensemble.nearest(judged.observed.summary).at_bound) {
     out.warnings.push_back(
         "the parameters that are calibrated to these recordings lie at the edge of those of the "
@@ -196,7 +198,7 @@ bool is_insufficient(const std::vector<Shortfall>& shortfalls, const DiagnosisOp
   out.shortfalls = shortfalls;
   if (shortfalls.empty()) return false;
   if (!options.uncertified) {
-    out.verdict = Verdict::insufficient;
+    out.verdict = Verdict::insufficient, out.next = {to_meet(shortfalls)};
     return true;
   }
   for (const Shortfall& s : shortfalls) {
