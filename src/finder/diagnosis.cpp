@@ -92,6 +92,16 @@ std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, const std::vector
   return out;
 }
 
+// Alternatives that the proposals are not compared for.
+void warn_of_unpredicted(const OpenQuestion& question, Diagnosis& out) {
+  if (out.next.empty() || out.findings.empty()) return;
+  for (const std::string& name : out.findings.front().alternatives) {
+    const auto is = [&](const EffectHypothesis& one) { return one.effect.name == name; };
+    if (std::ranges::any_of(question.candidates, is)) continue;
+    out.warnings.push_back("the next experiment is chosen without regard to " + name);
+  }
+}
+
 // Verdict, model and comparison of recordings without faults.
 void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& out) {
   out.flow_csv = tank.setup.calibration.corrected_csv(*tank.maps.best());
@@ -110,7 +120,9 @@ void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& o
   }
   const Judged judged = judge(tank, recordings.training, out);
   fit_findings(tank, judged, out.nothing_held_out ? recordings.training : recordings.held_out, out);
-  out.next = next_experiments(tank, judged, recordings.training, out);
+  const OpenQuestion question = open_question(tank.ensemble.plan(), judged, out.verdict);
+  out.next = proposals(tank, question, recordings.training);
+  warn_of_unpredicted(question, out);
   if (tank.ensemble.nearest(judged.observed.summary).at_bound) {
     out.warnings.push_back(
         "the parameters that are calibrated to these recordings lie at the edge of those of the "

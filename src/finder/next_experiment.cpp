@@ -22,11 +22,10 @@ constexpr double kModuleSeconds = 15 * 60;        // simulated, summed over modu
 constexpr double kShortest = 60, kLongest = 300;  // s simulated
 constexpr double kAmplitudeKnown = 1e-4;          // prior information of an amplitude, in sizes
 
-int most_modules(const std::vector<Recording>& recordings) {
+// Of the last recording: further ones come before it.
+int usual_modules(const std::vector<Recording>& recordings) {
   int most = 1;
-  for (const Recording& one : recordings) {
-    for (const int seen : seen_by_frame(one)) most = std::max(most, seen);
-  }
+  for (const int seen : seen_by_frame(recordings.back())) most = std::max(most, seen);
   return most;
 }
 
@@ -38,7 +37,7 @@ double minutes_of(const std::vector<Recording>& recordings) {
 
 // The experiments that are compared; what they show and their minutes are still open.
 std::vector<ProposedExperiment> experiments(const RecordedSoFar& so_far) {
-  const int modules = most_modules(so_far.fitted);
+  const int modules = usual_modules(so_far.fitted);
   const Model& model = so_far.plan.model;
   const double side = model.module.side / model.tank.radius;
   std::vector<int> counts{modules};
@@ -136,8 +135,6 @@ class Comparison {
     }
   }
 
-  Matrix rate() const { return old_ / minutes_; }
-
  private:
   std::string pair_of(std::size_t a, std::size_t b) const {
     const auto name = [&](std::size_t k) { return question_.candidates[k].effect.name; };
@@ -205,9 +202,8 @@ std::vector<ProposedExperiment> propose_experiments(const RecordedSoFar& so_far,
     const auto k = static_cast<std::size_t>(i) / candidates;
     const auto truth = static_cast<std::size_t>(i) % candidates;
     if (all[k].modules == 0) return;
-    rates[k][truth] = all[k].repeats ? comparison.rate()
-                                     : information_per_minute(so_far, question, all[k], truth,
-                                                              derived_seed(seed, k));
+    rates[k][truth] =
+        information_per_minute(so_far, question, all[k], truth, derived_seed(seed, k));
   });
   std::vector<ProposedExperiment> out;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -220,7 +216,8 @@ std::vector<ProposedExperiment> propose_experiments(const RecordedSoFar& so_far,
   const auto per_minute = [](const ProposedExperiment& of) {
     return of.information / of.all_minutes();
   };
-  const double repeated = per_minute(out.front());  // the first one repeats
+  // The first one repeats, unless it diverged.
+  const double repeated = !out.empty() && out.front().repeats ? per_minute(out.front()) : NAN;
   for (ProposedExperiment& of : out) of.relative = per_minute(of) / repeated;
   std::stable_sort(out.begin(), out.end(),
                    [&](const auto& a, const auto& b) { return per_minute(a) > per_minute(b); });

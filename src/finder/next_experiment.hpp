@@ -15,6 +15,7 @@ namespace lilytank {
 struct EffectHypothesis {
   Effect effect;
   Eigen::VectorXd amplitudes;
+  double gain = 0;  ///< fall of the recordings' squared distance, EffectFit::gain
 };
 
 /// Effects of which each alone may explain the recordings, beside those that are there in any case.

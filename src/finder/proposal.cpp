@@ -13,38 +13,44 @@ namespace {
 constexpr std::size_t kMostCompared = 4;
 constexpr std::uint64_t kProposalSeed = 900, kCertainSeed = 901;
 
-// Of these fits those whose force the filter predicts.
-std::vector<EffectHypothesis> predictable(const ScorePlan& plan, const Judged& judged,
-                                          std::span<const EffectFit> fits) {
-  std::vector<EffectHypothesis> out;
-  for (const EffectFit& fit : fits) {
-    EffectHypothesis one{found_effect(plan, fit, judged.details), fit.amplitudes};
-    const bool there = one.amplitudes.size() > 0 && one.amplitudes.cwiseAbs().maxCoeff() > 0;
-    if (one.effect.mean_force && one.effect.term != nullptr && there) out.push_back(one);
-  }
-  return out;
+// Whether the filter predicts its force.
+bool predictable(const EffectHypothesis& one) {
+  return one.effect.mean_force && one.effect.term != nullptr && one.amplitudes.size() > 0 &&
+         one.amplitudes.cwiseAbs().maxCoeff() > 0;
 }
 
-OpenQuestion question_of(const ScorePlan& plan, const Judged& judged, Verdict verdict) {
-  OpenQuestion out;
-  if (verdict == Verdict::missing && !judged.selected.found.empty()) {
-    out.beside = predictable(plan, judged, std::span(judged.selected.found).subspan(1));
+std::vector<EffectHypothesis> hypotheses(const ScorePlan& plan, const Judged& judged,
+                                         std::span<const EffectFit> fits) {
+  std::vector<EffectHypothesis> out;
+  for (const EffectFit& fit : fits) {
+    out.push_back({found_effect(plan, fit, judged.details), fit.amplitudes, fit.gain});
   }
-  if (verdict == Verdict::missing || verdict == Verdict::undecided) {
-    out.candidates = predictable(plan, judged, judged.open);
-  }
-  if (out.candidates.size() > kMostCompared) out.candidates.resize(kMostCompared);
   return out;
 }
 
 }  // namespace
 
-std::vector<ProposedExperiment> next_experiments(PreparedTank& tank, const Judged& judged,
-                                                 const std::vector<Recording>& fitted,
-                                                 const Diagnosis& diagnosis) {
-  const ScorePlan& plan = tank.ensemble.plan();
-  const OpenQuestion question = question_of(plan, judged, diagnosis.verdict);
+OpenQuestion open_question(const ScorePlan& plan, const Judged& judged, Verdict verdict) {
+  OpenQuestion out;
+  if (verdict == Verdict::missing && !judged.selected.found.empty()) {
+    out.beside = hypotheses(plan, judged, std::span(judged.selected.found).subspan(1));
+  }
+  if (verdict == Verdict::missing || verdict == Verdict::undecided) {
+    out.candidates = hypotheses(plan, judged, judged.open);
+  }
+  if (!out.candidates.empty() && !predictable(out.candidates.front())) return {};
+  for (auto* all : {&out.candidates, &out.beside}) {
+    std::erase_if(*all, [](const EffectHypothesis& one) { return !predictable(one); });
+  }
+  if (out.candidates.size() > kMostCompared) out.candidates.resize(kMostCompared);
+  return out;
+}
+
+std::vector<ProposedExperiment> proposals(PreparedTank& tank, const OpenQuestion& question,
+                                          const std::vector<Recording>& fitted) {
   if (question.candidates.size() < 2) return {};
+  ScorePlan plan = tank.ensemble.plan();
+  plan.modules = std::max(plan.modules, identities_in(fitted));
   const DiagnosisOptions& options = tank.setup.options;
   RecordedSoFar so_far{plan, fitted, 0, 0, {}};
   if (tank.maps.uncertain()) {

@@ -3,16 +3,18 @@
 #include <vector>
 
 #include "finder/judgement.hpp"
-#include "lilytank/next_experiment.hpp"
+#include "finder/next_experiment.hpp"
 
 namespace lilytank {
 
-/// Experiments that distinguish the strongest finding from its alternatives, or where a residual
-/// has no name the effects that come nearest, best first; none for other verdicts, and where fewer
-/// than two of the effects have a mean force, which the filter could predict. `fitted`: the
-/// recordings that were judged. Throws Stopped.
-std::vector<ProposedExperiment> next_experiments(PreparedTank& tank, const Judged& judged,
-                                                 const std::vector<Recording>& fitted,
-                                                 const Diagnosis& diagnosis);
+/// The effects of which each alone may be the strongest finding, where the verdict leaves several,
+/// or where a residual has no name those that come nearest; without those that have no mean force,
+/// which the filter does not predict. No candidates if one of those leads.
+OpenQuestion open_question(const ScorePlan& plan, const Judged& judged, Verdict verdict);
+
+/// Experiments that distinguish its candidates, best first. `fitted`: recordings that the
+/// candidates were fitted to. Throws Stopped.
+std::vector<ProposedExperiment> proposals(PreparedTank& tank, const OpenQuestion& question,
+                                          const std::vector<Recording>& fitted);
 
 }  // namespace lilytank

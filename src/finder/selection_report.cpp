@@ -15,7 +15,6 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kSame = 4;          // gains that differ by less do not distinguish effects
 constexpr std::size_t kNearest = 3;  // effects that come nearest to a residual without a name
 
 // Words for a curve's variable, followed by its value.
@@ -152,11 +151,11 @@ void SelectionReport::add_findings() {
       const auto own = std::find_if(ranked.begin(), ranked.end(),
                                     [&](const EffectFit& one) { return one.effect == fit.effect; });
       std::set<int> rivals;
-      if (i == 0) open = {fit};
+      if (i == 0) open = {fit}, open[0].gain = own->gain;
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
         const Effect& rival = effect_in(plan, other);
-        if (own->gain - other.gain >= kSame || is_reported(rival)) continue;
+        if (own->gain - other.gain >= kSameGain || is_reported(rival)) continue;
         if (!rivals.insert(rival.family).second) continue;
         f.alternatives.push_back(rival.name), open.push_back(other);
       }

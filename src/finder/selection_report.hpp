@@ -5,6 +5,9 @@
 
 namespace lilytank {
 
+/// Gains that differ by less do not distinguish effects.
+inline constexpr double kSameGain = 4;
+
 /// Adds verdict, findings, maps, ranking, thresholds and smallest detectable sizes to `out`.
 /// `residual`: that the selection `e` explains; `false_alarms`: false-positive rate of null
 /// experiments. Returns the effects of which each alone may be the strongest finding, where these
