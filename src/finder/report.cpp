@@ -84,7 +84,8 @@ std::string next_step(const Diagnosis& d) {
       return d.next.empty() ? "record longer, then diagnose again" : proposal_of(d);
     case Verdict::insufficient:
       return "record " + to_record(d.shortfalls) +
-             "; a diagnosis of what is there (--uncertified) has unknown error rates";
+             " (next_experiment.toml); a diagnosis of what is there (--uncertified) has unknown "
+             "error rates";
     default:
       break;
   }
