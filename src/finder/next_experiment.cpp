@@ -20,6 +20,7 @@ constexpr double kPowers[] = {0.7, 1.4};          // of the pumps
 constexpr double kFullest = 0.25;                 // share of the water's surface under modules
 constexpr double kModuleSeconds = 15 * 60;        // simulated, summed over modules
 constexpr double kShortest = 60, kLongest = 300;  // s simulated
+constexpr double kLeastInformation = 0.5;         // nat: less in an hour is not proposed
 constexpr double kAmplitudeKnown = 1e-4;          // prior information of an amplitude, in sizes
 
 // Of the last recording: further ones come before it.
@@ -219,6 +220,7 @@ std::vector<ProposedExperiment> propose_experiments(const RecordedSoFar& so_far,
   // The first one repeats, unless it diverged.
   const double repeated = !out.empty() && out.front().repeats ? per_minute(out.front()) : NAN;
   for (ProposedExperiment& of : out) of.relative = per_minute(of) / repeated;
+  std::erase_if(out, [](const auto& of) { return of.information < kLeastInformation; });
   std::stable_sort(out.begin(), out.end(),
                    [&](const auto& a, const auto& b) { return per_minute(a) > per_minute(b); });
   return out;

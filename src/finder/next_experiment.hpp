@@ -39,8 +39,8 @@ struct RecordedSoFar {
 inline constexpr double kWantedInformation = 8;
 
 /// Experiments of which each distinguishes all candidates, most information per minute first; none
-/// for fewer than two candidates. The bits depend on `seed` alone, not on `threads` (0: one a
-/// core).
+/// for fewer than two candidates, and where none is expected to distinguish them within an hour.
+/// The bits depend on `seed` alone, not on `threads` (0: one a core).
 std::vector<ProposedExperiment> propose_experiments(const RecordedSoFar& so_far,
                                                     const OpenQuestion& question,
                                                     std::uint64_t seed, int threads = 0);

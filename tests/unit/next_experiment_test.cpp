@@ -51,11 +51,9 @@ TEST_F(NextExperiment, ForcesBetweenModulesNeedMoreOfThem) {
       propose_experiments({plan_, recordings_}, between("pair_attraction", "lubrication"), 1);
   EXPECT_EQ(all.front().modules, 2 * kModules);
   EXPECT_GT(all.front().relative, 1.5);
-  EXPECT_EQ(all.back().modules, 1);
-  EXPECT_NEAR(all.back().information, 0, 1e-9);
+  EXPECT_TRUE(std::ranges::none_of(all, [](const auto& one) { return one.modules == 1; }));
   EXPECT_DOUBLE_EQ(of_modules(all, kModules).relative, 1);
   EXPECT_EQ(all.front().pair, "pair_attraction or lubrication");
-  EXPECT_EQ(all.back().minutes, 60);
   for (const ProposedExperiment& one : all) {
     EXPECT_TRUE(one.information >= kWantedInformation || one.minutes == 60) << one.text();
   }
