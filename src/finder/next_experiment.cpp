@@ -64,14 +64,6 @@ std::vector<ProposedExperiment> experiments(const RecordedSoFar& so_far) {
   return out;
 }
 
-std::vector<Effect> effects_of(const OpenQuestion& question) {
-  std::vector<Effect> out;
-  for (const auto* all : {&question.candidates, &question.beside}) {
-    for (const EffectHypothesis& one : *all) out.push_back(one.effect);
-  }
-  return out;
-}
-
 Model with_hypothesis(const Model& model, const EffectHypothesis& one) {
   std::vector<double> amplitudes;
   for (std::size_t c = 0; c < one.effect.sizes.size(); ++c) {
@@ -96,7 +88,7 @@ Matrix information_per_minute(const RecordedSoFar& so_far, const OpenQuestion& q
   for (const EffectHypothesis& one : question.beside) model = with_hypothesis(model, one);
   const auto recorded = Emulator(model, {}, {shape}).record({}, seed);
   if (!recorded) return {};
-  return score_products(plan, *recorded, effects_of(question)) * (60 / seconds);
+  return score_sums(plan, *recorded, effects_of(question)).information * (60 / seconds);
 }
 
 // Where amplitudes of candidates stand among rows.
@@ -109,7 +101,7 @@ class Comparison {
   Comparison(const RecordedSoFar& so_far, const OpenQuestion& question)
       : so_far_(so_far),
         question_(question),
-        old_(score_products(so_far.plan, so_far.fitted, effects_of(question))),
+        old_(score_sums(so_far.plan, so_far.fitted, effects_of(question)).information),
         minutes_(minutes_of(so_far.fitted)) {
     for (const EffectHypothesis& one : question.candidates) {
       const Eigen::Index at = rows_.empty() ? 0 : rows_.back().first + rows_.back().count;
@@ -190,6 +182,14 @@ class Comparison {
 };
 
 }  // namespace
+
+std::vector<Effect> effects_of(const OpenQuestion& question) {
+  std::vector<Effect> out;
+  for (const auto* all : {&question.candidates, &question.beside}) {
+    for (const EffectHypothesis& one : *all) out.push_back(one.effect);
+  }
+  return out;
+}
 
 std::vector<ProposedExperiment> propose_experiments(const RecordedSoFar& so_far,
                                                     const OpenQuestion& question,

@@ -24,6 +24,9 @@ struct OpenQuestion {
   std::vector<EffectHypothesis> candidates, beside;
 };
 
+/// Its effects, the candidates first.
+std::vector<Effect> effects_of(const OpenQuestion& question);
+
 /// The recordings so far.
 struct RecordedSoFar {
   const ScorePlan& plan;

@@ -105,7 +105,7 @@ class Scorer {
   double misfit() const { return misfit_ - sensitivities_.absorbed(known_); }
 
   Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
-  Eigen::MatrixXd products() const { return sensitivities_.products(); }
+  ScoreSums sums() const { return {sensitivities_.scores(), sensitivities_.products()}; }
 
   std::vector<double> values(ScoreDetails* details) const {
     std::vector<double> values;
@@ -302,13 +302,13 @@ Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>&
   return scorer.informations();
 }
 
-Eigen::MatrixXd score_products(ScorePlan plan, const std::vector<Recording>& recordings,
-                               const std::vector<Effect>& effects) {
+ScoreSums score_sums(ScorePlan plan, const std::vector<Recording>& recordings,
+                     const std::vector<Effect>& effects) {
   plan.shapes.clear(), plan.beside.clear(), plan.effects = effects;
   for (Effect& effect : plan.effects) effect.scored = true;
   Scorer scorer(plan, true);
   scorer.run(recordings);
-  return scorer.products();
+  return scorer.sums();
 }
 
 Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations) {

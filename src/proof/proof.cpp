@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finder/fitted_model.hpp"
+#include "finder/proposal.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
@@ -345,11 +346,15 @@ class Examination {
     const OpenQuestion question = open_question(tank.ensemble.plan(), judged, d.verdict);
     if (question.candidates.size() < 2) return std::nullopt;
     const std::uint64_t seed = derived_seed(seed_, kLoopSeed + number(w));
-    return closed_loop(tank, question, recordings, [&](int modules, double minutes, int which) {
+    const auto propose = [&](const std::vector<Recording>& so_far) {
+      return proposals(tank, question, so_far);
+    };
+    const auto further = [&](int modules, double minutes, int which) {
       const auto made = film_sealed(tank_, sealed_[w], modules, 60 * minutes, 1,
                                     derived_seed(seed, static_cast<std::uint64_t>(which)));
       return made.value_or(std::vector<Recording>{});
-    });
+    };
+    return closed_loop(tank.ensemble.plan(), question, recordings, propose, further);
   }
 
   const ProofOptions& options_;
