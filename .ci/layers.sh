@@ -102,7 +102,7 @@ home study measure search_run study study_summary study_table
 home optimize optimize
 home calibrate calibration emulator response_surface recovery
 home filter predictor
-home finder diagnosis diagnosis_subject
+home finder diagnosis diagnosis_subject next_experiment
 home proof proof
 home bodies bodies
 home view view

@@ -15,7 +15,9 @@ namespace lilytank {
 struct Shortfall {
   std::string what;    ///< what is measured, its value, and the bound that it does not meet
   double minutes = 0;  ///< to record in addition, with as many bodies
-  std::string bodies;  ///< "24 balls"
+  BodyKind body = BodyKind::ball;
+  int count = 0;               ///< of these bodies
+  std::string bodies() const;  ///< "24 balls"
 };
 /// What to record in addition to meet all of them: "8 min more of 24 balls and 2 min more of 15
 /// Lilies".

@@ -12,6 +12,7 @@
 #include "lilytank/diagnosis_subject.hpp"
 #include "lilytank/experiment.hpp"
 #include "lilytank/job_control.hpp"
+#include "lilytank/next_experiment.hpp"
 #include "lilytank/report.hpp"
 
 namespace lilytank {
@@ -126,6 +127,8 @@ struct Diagnosis {
   const DiagnosisSubject* subject = &kLiliesInTank;
   /// No recording was held out: `held_out` is of those that the fit rests on.
   std::vector<Shortfall> shortfalls;  ///< why recordings are insufficient, and what to record
+  /// Further experiments for what is left open, best first; none where nothing is.
+  std::vector<ProposedExperiment> next;
   bool nothing_held_out = false;
   double seconds = 0;
   std::string overlay;  ///< missing.toml; empty where nothing was found

@@ -27,8 +27,9 @@ struct Experiment {
 };
 
 /// Reads an experiment: files override each other as those of scenarios do (later wins; recordings
-/// of a later file replace those of earlier ones), then `sets` ("path=value"). Recordings are read
-/// for which `wanted` is true (all if it is empty). Throws InputError.
+/// of a later file replace those of earlier ones, or come first if `experiment.further`), then
+/// `sets` ("path=value"). Recordings are read for which `wanted` is true (all if it is empty).
+/// Throws InputError.
 Experiment load_experiment(const std::vector<std::string>& files,
                            const std::vector<std::string>& sets = {},
                            const std::function<bool(const RecordingSource&)>& wanted = {});

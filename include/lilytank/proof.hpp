@@ -21,6 +21,8 @@ struct ProofOptions {
   /// true: pumps, inlets and the parameters that calibrations estimate are drawn from the seed.
   /// false: the built-in tank, with the parameters at which the diagnosis starts.
   bool drawn_tank = false;
+  /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
+  bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
   DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
@@ -47,6 +49,15 @@ struct ProofFinding {
   bool names(const std::string& of) const;
 };
 
+/// A group of effects and the further recordings that split it, by proposals and by repeating.
+struct ProofLoop {
+  std::vector<std::string> group;  ///< the effects that are predicted, the reported one first
+  std::vector<std::string> texts;  ///< of the proposals that were recorded
+  double minutes = 0, repeat_minutes = 0;
+  bool split = false, repeat_split = false;
+  std::string left, repeat_left;  ///< the effect that explains the recordings best in the end
+};
+
 /// One sealed experiment: its key, and what was said of it.
 struct ProofWorld {
   std::string kind;                  ///< null, named, two, unnamed
@@ -61,6 +72,7 @@ struct ProofWorld {
   /// Of those that were modelled: the share of the mismatch that the model removes on recordings
   /// that had no part in it (Diagnosis::removed).
   double removed = 0, gain = 0, gain_low = 0;  ///< gain: nat, one step ahead, and its lower bound
+  std::optional<ProofLoop> loop;               ///< of groups, where requested
   /// What simpler methods make of the same recordings: the effect that a sparse regression of
   /// differentiated positions finds strongest ("" for none), and how far the MSD is off.
   std::string regression;
@@ -95,6 +107,8 @@ std::string proof_text(std::span<const Proof> proofs);
 std::string proof_csv(const Proof& proof);
 /// One row an interval.
 std::string proof_intervals_csv(const Proof& proof);
+/// One row a group that was split, or was to be.
+std::string proof_loops_csv(const Proof& proof);
 /// A sealed experiment with something missing, as a point of a figure.
 struct ProofPoint {
   enum class Outcome { right, silent, wrong_name, other };
@@ -122,7 +136,8 @@ struct ProofFigures {
 ProofFigures proof_figures(std::span<const Proof> proofs);
 /// Names of all files that a proof may leave in its directory.
 std::vector<std::string> proof_files();
-/// A finished proof from its directory's key.txt, proof.csv and intervals.csv. Throws InputError
+/// A finished proof from its directory's key.txt, proof.csv, intervals.csv
+/// and, if there were groups to split, closed_loop.csv. Throws InputError
 /// where one is absent, damaged, or not of that key.
 Proof read_proof(const std::string& dir);
 

@@ -1,4 +1,5 @@
 // lilytank prove: is a diagnosis to be trusted?
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -65,6 +66,9 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
                "draw the tank, too: its pumps, inlets and parameters (the built-in "
                "tank)"},
               &job.drawn_tank);
+  options.add(
+      {"closed-loop", "split groups of effects by the experiments that are proposed for them"},
+      &job.closed_loop);
   options.add({"modelled", "experiments in which the effect is also fitted and shown (10)", "N"},
               &job.modelled, 0, 1000000);
   options.add({"budget", "minutes for the tank's nulls and fingerprints (10)", "MINUTES"},
@@ -101,6 +105,9 @@ void keep(const Proof& so_far, const std::filesystem::path& dir) {
   write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
   write_atomically((dir / "tank.txt").string(), so_far.tank + "\n");
   write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
+  const bool loops =
+      std::ranges::any_of(so_far.worlds, [](const auto& w) { return w.loop.has_value(); });
+  if (loops) write_atomically((dir / "closed_loop.csv").string(), proof_loops_csv(so_far));
 }
 
 }  // namespace
@@ -121,7 +128,7 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
-                          "modelled", "budget", "seed", "threads", "dry-run"},
+                          "closed-loop", "modelled", "budget", "seed", "threads", "dry-run"},
                          "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);

@@ -51,6 +51,10 @@ class Sensitivities {
   /// Information of every two features that nuisances leave, if all features are partners: an
   /// amplitude of the second moves the estimate of the first by it over the first's own.
   Eigen::MatrixXd informations(const Eigen::MatrixXd& known) const;
+  /// Scores of all features, and information of every two if all are partners; nothing is
+  /// eliminated.
+  Eigen::VectorXd scores() const { return last_scores(static_cast<Eigen::Index>(features_)); }
+  Eigen::MatrixXd products() const { return products(static_cast<Eigen::Index>(features_)); }
 
  private:
   void pass_axis(const FeatureAxis& axis, bool summed, const float* push, float* x, float* v);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "finder/fitted_model.hpp"
+#include "finder/proposal.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "text/number.hpp"
@@ -91,6 +92,16 @@ std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, const std::vector
   return out;
 }
 
+// Alternatives that the proposals are not compared for.
+void warn_of_unpredicted(const OpenQuestion& question, Diagnosis& out) {
+  if (out.next.empty() || out.findings.empty()) return;
+  for (const std::string& name : out.findings.front().alternatives) {
+    const auto is = [&](const EffectHypothesis& one) { return one.effect.name == name; };
+    if (std::ranges::any_of(question.candidates, is)) continue;
+    out.warnings.push_back("the next experiment is chosen without regard to " + name);
+  }
+}
+
 // Verdict, model and comparison of recordings without faults.
 void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& out) {
   out.flow_csv = tank.setup.calibration.corrected_csv(*tank.maps.best());
@@ -109,6 +120,9 @@ void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& o
   }
   const Judged judged = judge(tank, recordings.training, out);
   fit_findings(tank, judged, out.nothing_held_out ? recordings.training : recordings.held_out, out);
+  const OpenQuestion question = open_question(tank.ensemble.plan(), judged, out.verdict);
+  out.next = proposals(tank, question, recordings.training);
+  warn_of_unpredicted(question, out);
   if (tank.ensemble.nearest(judged.observed.summary).at_bound) {
     out.warnings.push_back(
         "the parameters that are calibrated to these recordings lie at the edge of those of the "
@@ -196,7 +210,7 @@ bool is_insufficient(const std::vector<Shortfall>& shortfalls, const DiagnosisOp
   out.shortfalls = shortfalls;
   if (shortfalls.empty()) return false;
   if (!options.uncertified) {
-    out.verdict = Verdict::insufficient;
+    out.verdict = Verdict::insufficient, out.next = {to_meet(shortfalls)};
     return true;
   }
   for (const Shortfall& s : shortfalls) {

@@ -18,6 +18,8 @@ struct Judged {
   Vectors observed;
   ScoreDetails details;
   SelectedModel selected;
+  /// Effects of which each alone may be the strongest finding (report_selection).
+  std::vector<EffectFit> open;
   std::string tag;  ///< for the names of what is kept of these recordings
 };
 

@@ -25,14 +25,6 @@ constexpr double kFirstSpread = 0.05, kLeastPointSpread = 0.015, kMostPointSprea
 constexpr double kWiderThanError = 2, kWideEnough = 1.5, kNullsWide = 2;
 constexpr std::uint64_t kEnsembleSeed = 31, kNuisanceSeed = 32, kCentreSeed = 3000;
 
-int identities_in(const std::vector<Recording>& recordings) {
-  std::set<std::int64_t> ids;
-  for (const Recording& one : recordings) {
-    for (const Track& track : one.tracks) ids.insert(track.id);
-  }
-  return static_cast<int>(ids.size());
-}
-
 // The flow maps, after which the rest of the work is known.
 FlowMaps flow_maps(DiagnosisSetup& setup, double after) {
   FlowMaps maps = setup.stages.flow_maps();
@@ -50,6 +42,14 @@ Vector range_of(const FitBounds& bounds) {
 }
 
 }  // namespace
+
+int identities_in(const std::vector<Recording>& recordings) {
+  std::set<std::int64_t> ids;
+  for (const Recording& one : recordings) {
+    for (const Track& track : one.tracks) ids.insert(track.id);
+  }
+  return static_cast<int>(ids.size());
+}
 
 PreparedTank::PreparedTank(DiagnosisSetup& diagnosis, double after)
     : setup(diagnosis),

@@ -64,6 +64,17 @@ std::string size_of(const FoundParameter& p) {
   return with_unit(value, p.unit);
 }
 
+// The best of the proposed experiments.
+std::string proposal_of(const Diagnosis& d) {
+  const ProposedExperiment& best = d.next.front();
+  return "record " + best.text() + " (next_experiment.toml): expected to distinguish " + best.pair +
+         " by " + significant(best.information, 2) + " nat" +
+         (best.repeats || !std::isfinite(best.relative)
+              ? ""
+              : ", " + significant(best.relative, 2) +
+                    " times as much per minute as more of the same");
+}
+
 std::string next_step(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::complete:
@@ -71,15 +82,17 @@ std::string next_step(const Diagnosis& d) {
     case Verdict::measurement:
       return "correct the recordings, then diagnose again";
     case Verdict::undecided:
-      return "record longer, then diagnose again";
+      return d.next.empty() ? "record longer, then diagnose again" : proposal_of(d);
     case Verdict::insufficient:
       return "record " + to_record(d.shortfalls) +
-             "; a diagnosis of what is there (--uncertified) has unknown error rates";
+             " (next_experiment.toml); a diagnosis of what is there (--uncertified) has unknown "
+             "error rates";
     default:
       break;
   }
   const DiagnosisFinding& first = d.findings.front();
   if (!first.alternatives.empty()) {
+    if (!d.next.empty()) return proposal_of(d);
     return "to distinguish " + names_of(first) + ": " +
            (first.split.empty() ? "a longer recording" : first.split);
   }
@@ -124,7 +137,7 @@ ReportCard card_of(const Diagnosis& d) {
   return card;
 }
 
-ReportSection section_of(const DiagnosisFinding& f) {
+ReportSection section_of(const DiagnosisFinding& f, bool ranked) {
   ReportSection section;
   // Faults that checks find have no z.
   section.title = f.effect + "  (" + (f.z > 0 ? "z " + digits(f.z) + ", " : "") + "depends on " +
@@ -140,7 +153,24 @@ ReportSection section_of(const DiagnosisFinding& f) {
   if (!f.alternatives.empty()) {
     section.below.push_back(
         "These data do not distinguish it from " + joined(f.alternatives, ", ") +
-        ". What would: " + (f.split.empty() ? "a longer recording" : f.split) + ".");
+        (ranked ? "."
+                : ". What would: " + (f.split.empty() ? "a longer recording" : f.split) + "."));
+  }
+  return section;
+}
+
+ReportSection next_section(const Diagnosis& d) {
+  ReportSection section;
+  section.title = "Next experiment";
+  section.above = {
+      "Expected log-likelihood ratio of the pair of effects that the experiment distinguishes "
+      "least; "
+      "information per minute is relative to more of the same recordings."};
+  section.table.head = {"experiment", "min", "nat", "pair", "per minute"};
+  for (const ProposedExperiment& one : d.next) {
+    section.table.rows.push_back(
+        {one.text(), significant(one.all_minutes(), 2), significant(one.information, 2), one.pair,
+         std::isfinite(one.relative) ? significant(one.relative, 2) : "-"});
   }
   return section;
 }
@@ -236,7 +266,9 @@ ReportDocument diagnosis_report(const Diagnosis& d) {
                     " s in all; verdict \"" + name_of(d.verdict) + "\"";
   report.card = card_of(d);
   report.warnings = d.warnings;
-  for (const DiagnosisFinding& f : d.findings) report.sections.push_back(section_of(f));
+  for (const DiagnosisFinding& f : d.findings)
+    report.sections.push_back(section_of(f, !d.next.empty()));
+  if (d.next.size() > 1) report.sections.push_back(next_section(d));
   if (!d.held_out.empty() && !d.findings.empty()) report.sections.push_back(fit_section(d));
   if (!d.parameters.empty()) report.sections.push_back(parameters_section(d));
   if (!d.ranking.empty()) {

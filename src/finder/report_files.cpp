@@ -24,6 +24,18 @@ Json finding_json(const DiagnosisFinding& f) {
   return out;
 }
 
+Json proposal_json(const ProposedExperiment& one) {
+  return {{"text", one.text()},
+          {"modules", one.modules},
+          {"lily_min", one.minutes},
+          {"balls", one.balls},
+          {"ball_min", one.ball_minutes},
+          {"pump_power", one.power},
+          {"information", one.information},
+          {"pair", one.pair},
+          {"per_minute", one.relative}};
+}
+
 std::string number(double value) {
   return significant(value, 6);
 }
@@ -78,8 +90,9 @@ std::string diagnosis_json(const Diagnosis& d) {
                                  {"unit", p.unit}});
   }
   for (const Shortfall& s : d.shortfalls) {
-    out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies}});
+    out["shortfalls"].push_back({{"what", s.what}, {"record_min", s.minutes}, {"of", s.bodies()}});
   }
+  for (const ProposedExperiment& one : d.next) out["next"].push_back(proposal_json(one));
   out["detectable"] = Json::array();
   for (const Detectable& one : d.detectable) {
     out["detectable"].push_back({{"effect", one.effect},
@@ -92,9 +105,10 @@ std::string diagnosis_json(const Diagnosis& d) {
 }
 
 std::vector<std::string> diagnosis_files() {
-  return with_figures({"diagnosis.json", "diagnosis.txt", "missing.toml", "flow.csv", "maps.csv",
-                       "ranking.csv", "fit.csv", "report.html", "view.html"},
-                      {"laws", "fit", "maps"});
+  return with_figures(
+      {"diagnosis.json", "diagnosis.txt", "missing.toml", "next_experiment.toml", "flow.csv",
+       "maps.csv", "ranking.csv", "fit.csv", "report.html", "view.html"},
+      {"laws", "fit", "maps"});
 }
 
 std::vector<std::string> write_diagnosis(const Diagnosis& d, const ReportDocument& report,
@@ -102,6 +116,9 @@ std::vector<std::string> write_diagnosis(const Diagnosis& d, const ReportDocumen
   std::vector<std::pair<std::string, std::string>> files{{"diagnosis.json", diagnosis_json(d)},
                                                          {"diagnosis.txt", report_text(report)}};
   if (!d.overlay.empty()) files.emplace_back("missing.toml", d.overlay);
+  if (!d.next.empty()) {
+    files.emplace_back("next_experiment.toml", next_experiment_toml(d.name, d.next.front()));
+  }
   if (!d.flow_csv.empty()) files.emplace_back("flow.csv", d.flow_csv);
   if (!d.maps.empty()) files.emplace_back("maps.csv", maps_csv(d));
   if (!d.ranking.empty()) files.emplace_back("ranking.csv", ranking_csv(d));

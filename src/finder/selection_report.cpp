@@ -15,7 +15,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-constexpr double kSame = 4;  // gains that differ by less do not distinguish effects
+constexpr std::size_t kNearest = 3;  // effects that come nearest to a residual without a name
 
 // Words for a curve's variable, followed by its value.
 std::string place_words(const std::string& variable) {
@@ -37,6 +37,7 @@ struct SelectionReport {
   void add_findings();
   FoundCurve curve(std::size_t s, double z) const;
   const FoundCurve* map_of(const std::string& variable) const;
+  void add_nearest();
   bool is_reported(const Effect& one) const;
   void blame_camera();
   void disown();
@@ -48,6 +49,7 @@ struct SelectionReport {
   const SelectedModel& model;
   Diagnosis& out;
   const ScorePlan& plan = ensemble.plan();
+  std::vector<EffectFit> open{};  // the strongest finding and its alternatives
 };
 
 void SelectionReport::add_ranking() {
@@ -149,11 +151,13 @@ void SelectionReport::add_findings() {
       const auto own = std::find_if(ranked.begin(), ranked.end(),
                                     [&](const EffectFit& one) { return one.effect == fit.effect; });
       std::set<int> rivals;
+      if (i == 0) open = {fit}, open[0].gain = own->gain;
       for (const EffectFit& other : ranked) {
         if (other.effect < 0 || i > 0) continue;
         const Effect& rival = effect_in(plan, other);
-        if (own->gain - other.gain >= kSame || is_reported(rival)) continue;
-        if (rivals.insert(rival.family).second) f.alternatives.push_back(rival.name);
+        if (own->gain - other.gain >= kSameGain || is_reported(rival)) continue;
+        if (!rivals.insert(rival.family).second) continue;
+        f.alternatives.push_back(rival.name), open.push_back(other);
       }
       if (!f.alternatives.empty()) f.split = effect.split;
       if (const FoundCurve* map = map_of(f.variable)) add_place(*map, f);
@@ -169,11 +173,20 @@ void SelectionReport::add_findings() {
   out.verdict = model.found.empty() ? Verdict::complete : Verdict::missing;
   blame_camera();
   if (model.found.empty() && selection.leaves_residual(model)) out.verdict = Verdict::undecided;
-  if (model.found.empty()) return;
-  if (selection.fails(model)) {
-    disown();
+  if (!model.found.empty() && selection.fails(model)) disown();
+  if (out.verdict == Verdict::undecided) {
+    add_nearest();
   } else if (out.verdict == Verdict::missing && selection.leaves_residual(model)) {
     warn_of_rest();
+  }
+}
+
+void SelectionReport::add_nearest() {
+  std::set<int> families;
+  open.clear();
+  for (const EffectFit& f : selection.effects(residual)) {
+    if (f.effect < 0 || open.size() == kNearest) continue;
+    if (families.insert(effect_in(plan, f).family).second) open.push_back(f);
   }
 }
 
@@ -221,14 +234,16 @@ void SelectionReport::blame_camera() {
 
 }  // namespace
 
-void report_selection(const ReferenceEnsemble& ensemble, const ModelSelection& selection,
-                      const Vector& residual, const SelectedModel& e, double false_alarms,
-                      Diagnosis& out) {
+std::vector<EffectFit> report_selection(const ReferenceEnsemble& ensemble,
+                                        const ModelSelection& selection, const Vector& residual,
+                                        const SelectedModel& e, double false_alarms,
+                                        Diagnosis& out) {
   out.false_alarms = false_alarms;
   SelectionReport report{ensemble, selection, residual, e, out};
   report.add_ranking();
   report.add_detectable();
   report.add_findings();
+  return report.open;
 }
 
 }  // namespace lilytank

@@ -121,7 +121,7 @@ void check_flow(const FlowEstimate& flow, const std::vector<double>& where, doub
   const auto add = [&](const std::string& what, double value, const char* bound, double needed,
                        double factor) {
     out.flow.push_back({what + ": " + percent(value) + " (" + bound + " " + percent(needed) + ")",
-                        (factor - 1) * minutes, significant(balls, 6) + " balls"});
+                        (factor - 1) * minutes, BodyKind::ball, static_cast<int>(balls)});
   };
   if (out.measured < kLeastMeasured) {
     std::vector<double> samples;
@@ -142,9 +142,14 @@ void check_flow(const FlowEstimate& flow, const std::vector<double>& where, doub
 
 }  // namespace
 
+std::string Shortfall::bodies() const {
+  return std::to_string(count) + (body == BodyKind::ball ? " balls" : " Lilies");
+}
+
 std::string to_record(const std::vector<Shortfall>& shortfalls) {
   std::map<std::string, double> minutes;  // the most of each kind
-  for (const Shortfall& s : shortfalls) minutes[s.bodies] = std::max(minutes[s.bodies], s.minutes);
+  for (const Shortfall& s : shortfalls)
+    minutes[s.bodies()] = std::max(minutes[s.bodies()], s.minutes);
   return joined(minutes, " and ", [](const auto& one) {
     return significant(std::max(one.second, 0.1), 2) + " min more of " + one.first;
   });
@@ -160,8 +165,8 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
     out.lilies.push_back(
         {"time of the Lilies, summed over modules: " + significant(lily.minutes, 2) +
              " min (at least " + significant(kLeastLilyMinutes, 2) + " min)",
-         (kLeastLilyMinutes - lily.minutes) / lily.bodies,
-         significant(lily.bodies, 6) + " Lilies"});
+         (kLeastLilyMinutes - lily.minutes) / lily.bodies, BodyKind::lily,
+         static_cast<int>(lily.bodies)});
   }
   out.flow_error = out.flow_speed = out.gust_error = NAN;
   if (flow == nullptr || out.lily_minutes <= 0) return out;

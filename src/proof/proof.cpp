@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "finder/fitted_model.hpp"
+#include "finder/proposal.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "proof/baseline_method.hpp"
+#include "proof/closed_loop.hpp"
 #include "proof/proof_files.hpp"
 #include "proof/sealed.hpp"
 #include "text/number.hpp"
@@ -18,7 +20,7 @@ namespace {
 
 constexpr int kBalls = 24;
 constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
-                        kExpectedSeed = 1u << 21, kDrawnSeed = 5;
+                        kExpectedSeed = 1u << 21, kDrawnSeed = 5, kLoopSeed = 1u << 22;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
 constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
@@ -323,6 +325,7 @@ class Examination {
     if (measured_[w]) {
       recordings = film(w).value_or(recordings);
       judged = judge_world(tank, *measured_[w], recordings, d, world);
+      if (options_.closed_loop) world.loop = split_group(tank, *judged, recordings, d, w);
     }
     if (judged && s.kind == "null") {
       report_baseline(tank, *judged, d);
@@ -333,6 +336,25 @@ class Examination {
                   d, world);
     }
     return world;
+  }
+
+  // Nothing where the strongest finding is no group, or none that the filter predicts.
+  std::optional<ProofLoop> split_group(PreparedTank& tank, const Judged& judged,
+                                       const std::vector<Recording>& recordings, const Diagnosis& d,
+                                       std::size_t w) const {
+    if (d.verdict != Verdict::missing) return std::nullopt;
+    const OpenQuestion question = open_question(tank.ensemble.plan(), judged, d.verdict);
+    if (question.candidates.size() < 2) return std::nullopt;
+    const std::uint64_t seed = derived_seed(seed_, kLoopSeed + number(w));
+    const auto propose = [&](const std::vector<Recording>& so_far) {
+      return proposals(tank, question, so_far);
+    };
+    const auto further = [&](int modules, double minutes, int which) {
+      const auto made = film_sealed(tank_, sealed_[w], modules, 60 * minutes, 1,
+                                    derived_seed(seed, static_cast<std::uint64_t>(which)));
+      return made.value_or(std::vector<Recording>{});
+    };
+    return closed_loop(tank.ensemble.plan(), question, recordings, propose, further);
   }
 
   const ProofOptions& options_;

@@ -39,6 +39,20 @@ enum WorldColumn : std::size_t {
 };
 const std::string kIntervalColumns = "world,effect,path,truth,value,low,high,holds,checksum";
 enum IntervalColumn : std::size_t { kOf, kEffect, kPath, kTruth, kValue, kLow, kHigh };
+const std::string kLoopColumns =
+    "world,key,group,proposals,minutes,split,left,repeat_minutes,repeat_split,repeat_left,checksum";
+enum LoopColumn : std::size_t {
+  kLoopOf,
+  kLoopKey,
+  kGroup,
+  kProposals,
+  kMinutes,
+  kSplit,
+  kLeft,
+  kRepeatMinutes,
+  kRepeatSplit,
+  kRepeatLeft
+};
 // Between the words of a cell, between those of one finding, and where a finding has none.
 constexpr std::string_view kAnd = " + ", kOr = " | ", kNoAlternative = "-";
 const std::string kUnnamed = "unnamed: ";
@@ -151,13 +165,30 @@ void read_intervals(const std::string& file, Proof& proof) {
   }
 }
 
-// Where worlds of a key are kept, and their intervals.
+void read_loops(const std::string& file, Proof& proof) {
+  if (!fs::exists(file)) return;
+  const std::string text = read_whole(file);
+  CsvReader rows(text, file, {kLoopColumns});
+  while (rows.next()) {
+    const auto world = static_cast<std::size_t>(
+        rows.whole(kLoopOf, 0, static_cast<std::int64_t>(proof.worlds.size()) - 1));
+    ProofLoop& loop = proof.worlds[world].loop.emplace();
+    loop.group = split(rows.text(kGroup), kOr), loop.texts = split(rows.text(kProposals), kAnd);
+    loop.minutes = rows.number(kMinutes), loop.repeat_minutes = rows.number(kRepeatMinutes);
+    loop.split = rows.whole(kSplit, 0, 1) == 1;
+    loop.repeat_split = rows.whole(kRepeatSplit, 0, 1) == 1;
+    loop.left = rows.text(kLeft), loop.repeat_left = rows.text(kRepeatLeft);
+  }
+}
+
+// Where worlds of a key are kept, their intervals and loops.
 struct KeptFiles {
-  std::string worlds, intervals;
+  std::string worlds, intervals, loops;
   KeptFiles(const std::string& dir, const std::string& hash) {
     const fs::path work = fs::path(dir) / "work";
     const std::string of = " of " + hash.substr(0, kHashDigits) + ".csv";
     worlds = (work / ("worlds" + of)).string(), intervals = (work / ("intervals" + of)).string();
+    loops = (work / ("loops" + of)).string();
   }
 };
 
@@ -200,10 +231,31 @@ std::string proof_intervals_csv(const Proof& proof) {
   return out;
 }
 
+std::string proof_loops_csv(const Proof& proof) {
+  std::string out = kLoopColumns + "\n";
+  for (std::size_t i = 0; i < proof.worlds.size(); ++i) {
+    const ProofWorld& w = proof.worlds[i];
+    if (!w.loop) continue;
+    const ProofLoop& l = *w.loop;
+    std::vector<std::string> texts;
+    for (std::string text : l.texts) {
+      std::replace(text.begin(), text.end(), ',', ';');
+      texts.push_back(text);
+    }
+    out +=
+        with_checksum(std::to_string(i) + "," + joined(w.effects, kAnd) + "," +
+                      joined(l.group, kOr) + "," + joined(texts, kAnd) + "," + shortest(l.minutes) +
+                      (l.split ? ",1," : ",0,") + l.left + "," + shortest(l.repeat_minutes) +
+                      (l.repeat_split ? ",1," : ",0,") + l.repeat_left) +
+        "\n";
+  }
+  return out;
+}
+
 std::vector<std::string> proof_files() {
-  return with_figures(
-      {"proof.txt", "proof.csv", "tank.txt", "intervals.csv", "key.txt", "report.html"},
-      {"power", "outcomes", "errors"});
+  return with_figures({"proof.txt", "proof.csv", "tank.txt", "intervals.csv", "closed_loop.csv",
+                       "key.txt", "report.html"},
+                      {"power", "outcomes", "errors"});
 }
 
 Proof read_proof(const std::string& dir) {
@@ -223,13 +275,16 @@ Proof read_proof(const std::string& dir) {
   }
   read_worlds((fs::path(dir) / "proof.csv").string(), proof);
   read_intervals((fs::path(dir) / "intervals.csv").string(), proof);
+  read_loops((fs::path(dir) / "closed_loop.csv").string(), proof);
   return proof;
 }
 
-// After a kill between the two files a world has no model, and is evaluated again.
+// After a kill before the last file a world has no model, and is evaluated again. Loops come first,
+// as a world without one would not be.
 void keep_worlds(const std::string& dir, const Proof& so_far) {
   if (dir.empty()) return;
   const KeptFiles files(dir, so_far.hash);
+  write_atomically(files.loops, proof_loops_csv(so_far));
   write_atomically(files.worlds, proof_csv(so_far));
   write_atomically(files.intervals, proof_intervals_csv(so_far));
 }
@@ -241,6 +296,7 @@ std::vector<ProofWorld> kept_worlds(const std::string& dir, const Proof& of) {
   kept.key = of.key, kept.hash = of.hash;
   read_worlds(files.worlds, kept);
   if (fs::exists(files.intervals)) read_intervals(files.intervals, kept);
+  read_loops(files.loops, kept);
   return std::move(kept.worlds);
 }
 

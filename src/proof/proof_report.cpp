@@ -133,6 +133,33 @@ void add_models(const Proof& proof, ReportDocument& report) {
   report.sections.push_back(std::move(section));
 }
 
+// Groups that proposals were to split, and repeating the recordings beside that.
+void add_loops(const Proof& proof, ReportDocument& report) {
+  ReportSection section{"Closed loop: groups of effects, split by proposed experiments"};
+  section.table.head = {"ground truth", "group",     "proposals", "min",
+                        "left",         "repeating", "min",       "left"};
+  int groups = 0, split = 0, right = 0;
+  double minutes = 0, repeated = 0;
+  const auto outcome = [](bool is_split) { return is_split ? "split" : "not split"; };
+  for (const ProofWorld& w : proof.worlds) {
+    if (!w.loop) continue;
+    const ProofLoop& l = *w.loop;
+    groups += 1, split += l.split ? 1 : 0, minutes += l.minutes, repeated += l.repeat_minutes;
+    right += l.split && std::ranges::find(w.effects, l.left) != w.effects.end() ? 1 : 0;
+    section.table.rows.push_back({key_of(w), joined(l.group, " | "),
+                                  joined(l.texts, "; ") + ": " + outcome(l.split),
+                                  significant(l.minutes, 3), l.left, outcome(l.repeat_split),
+                                  significant(l.repeat_minutes, 3), l.repeat_left});
+  }
+  if (groups == 0) return;
+  section.above = {"Split within two proposals: " + count_text(split, groups) + " (" +
+                       range_text(split, groups) + "), with the right effect left in " +
+                       count_text(right, split),
+                   "Minutes of the proposals: " + significant(minutes, 3) +
+                       "; of repeating the recordings, at least: " + significant(repeated, 3)};
+  report.sections.push_back(std::move(section));
+}
+
 // Proofs of the same tank have the same nulls.
 std::string tank_of(const Proof& proof) {
   return proof.tank.empty() ? proof.hash : proof.tank;
@@ -310,6 +337,7 @@ ReportDocument proof_report(std::span<const Proof> proofs) {
   add_worlds(all, report);
   add_baselines(all, report);
   add_models(all, report);
+  add_loops(all, report);
   add_simpler(proofs, report);
   return report;
 }

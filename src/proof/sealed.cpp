@@ -236,8 +236,8 @@ std::string key_text(const Sealed& s) {
   return out + "\n";
 }
 
-std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
-                                                  double seconds, std::uint64_t seed) {
+std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s, int modules,
+                                                  double seconds, int count, std::uint64_t seed) {
   Model model = with_steps(tank, kSealedSteps);
   model = with_parameters(model, baseline_of(model, s));
   std::vector<std::string> cameras;
@@ -249,11 +249,16 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
     cameras.insert(cameras.end(), e.effect.paths.begin(), e.effect.paths.end());
     seen.insert(seen.end(), amplitudes.begin(), amplitudes.end());
   }
-  std::vector<RecordingShape> shapes(
-      kSealedRecordings, shape_named("synthetic", BodyKind::lily, model.module.count, seconds));
+  const std::vector<RecordingShape> shapes(
+      static_cast<std::size_t>(count), shape_named("synthetic", BodyKind::lily, modules, seconds));
   EmulatorOptions options;
   options.moment_matched = false;
   return Emulator(model, cameras, shapes, options).record(seen, seed);
+}
+
+std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
+                                                  double seconds, std::uint64_t seed) {
+  return film_sealed(tank, s, tank.module.count, seconds, kSealedRecordings, seed);
 }
 
 std::map<std::string, double> truth_of(const Model& tank, const Sealed& s) {

@@ -55,7 +55,10 @@ Sealed seal(const Model& tank, const std::vector<Effect>& effects, const std::ve
             std::uint64_t seed, int world);
 /// A line of the key.
 std::string key_text(const Sealed& s);
-/// Recordings of it; nothing if a world diverged.
+/// Recordings of it, `count` of so many modules; nothing if a world diverged.
+std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s, int modules,
+                                                  double seconds, int count, std::uint64_t seed);
+/// An experiment of it: as many recordings as one has, of the tank's modules.
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,
                                                   double seconds, std::uint64_t seed);
 /// Every number of a synthetic experiment that a diagnosis may report, by path.

@@ -37,19 +37,22 @@ RecordingSource source_of(const CommandTable& table, const RecordingOptions& def
 /// other than its name hold for all recordings that do not say otherwise.
 void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experiment) {
   RecordingOptions defaults;
-  const std::vector<CommandTable>* recordings = nullptr;
+  std::vector<CommandTable> recordings;
   for (const Layer& layer : layers) {
+    bool further = false;
     for (const Assignment& field : layer.experiment) {
       if (field.path() == "name") {
         experiment.name = text_of(field, "experiment.name");
       } else {
-        assign_recording_option(field, "experiment", defaults);
+        assign_experiment_option(field, defaults, further);
       }
     }
-    if (layer.has_recordings) recordings = &layer.recordings;
+    if (!layer.has_recordings) continue;
+    if (!further) recordings.clear();
+    // First, as the last recordings are held out where none is marked: these stay the same.
+    recordings.insert(recordings.begin(), layer.recordings.begin(), layer.recordings.end());
   }
-  if (recordings == nullptr) return;
-  for (const CommandTable& table : *recordings) {
+  for (const CommandTable& table : recordings) {
     experiment.sources.push_back(source_of(table, defaults));
     take_sizes(experiment.base.model, experiment.sources.back().options);
   }

@@ -191,6 +191,11 @@ std::vector<Key> recording_keys_of(RecordingOptions& o) {
   return keys;
 }
 
+Key further_key(bool& further) {
+  return {on_off("further", "the file's recordings are added to those of earlier files"),
+          [&further](const Value& v) { further = v.on(); }};
+}
+
 }  // namespace
 
 std::string format_word(RecordingFormat format) {
@@ -213,6 +218,12 @@ void assign_recording_option(const Assignment& from, const std::string& prefix,
   act(from, prefix, recording_keys_of(options));
 }
 
+void assign_experiment_option(const Assignment& from, RecordingOptions& options, bool& further) {
+  std::vector<Key> keys = recording_keys_of(options);
+  keys.push_back(further_key(further));
+  act(from, "experiment", keys);
+}
+
 TomlKeys experiment_tables() {
   RecordingOptions options;
   TomlKeys each;
@@ -220,7 +231,10 @@ TomlKeys experiment_tables() {
   TomlKeys recording = each;
   recording.insert(recording.begin(),
                    toml_key::needed(text("file", "of the tracks; * is a wildcard")));
-  return {toml_key::table("experiment", nested(each), "holds for all recordings"),
+  bool further = false;
+  TomlKeys experiment = each;
+  experiment.push_back(further_key(further).about);
+  return {toml_key::table("experiment", nested(experiment), "holds for all recordings"),
           toml_key::tables("recording", nested(recording), "one file of tracks, or several by *")};
 }
 

@@ -15,6 +15,9 @@ namespace lilytank {
 /// InputError: unknown key, another kind, out of bounds.
 void assign_recording_option(const Assignment& from, const std::string& prefix,
                              RecordingOptions& options);
+/// Puts a value of [experiment] other than its name into the options that all recordings share, or
+/// into `further`: the file's recordings are added to those of earlier files. Throws InputError.
+void assign_experiment_option(const Assignment& from, RecordingOptions& options, bool& further);
 /// The tables of an experiment's file beside those of its scenario: [experiment], [[recording]].
 TomlKeys experiment_tables();
 /// The same for a camera; the prefix is "camera".

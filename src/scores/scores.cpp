@@ -105,6 +105,7 @@ class Scorer {
   double misfit() const { return misfit_ - sensitivities_.absorbed(known_); }
 
   Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
+  ScoreSums sums() const { return {sensitivities_.scores(), sensitivities_.products()}; }
 
   std::vector<double> values(ScoreDetails* details) const {
     std::vector<double> values;
@@ -299,6 +300,15 @@ Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>&
   Scorer scorer(plan, true);
   scorer.run(recordings);
   return scorer.informations();
+}
+
+ScoreSums score_sums(ScorePlan plan, const std::vector<Recording>& recordings,
+                     const std::vector<Effect>& effects) {
+  plan.shapes.clear(), plan.beside.clear(), plan.effects = effects;
+  for (Effect& effect : plan.effects) effect.scored = true;
+  Scorer scorer(plan, true);
+  scorer.run(recordings);
+  return scorer.sums();
 }
 
 Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations) {

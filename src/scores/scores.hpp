@@ -24,6 +24,14 @@ std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& r
 /// show only roughly. 0 where there is none.
 Eigen::MatrixXd score_informations(ScorePlan plan, const std::vector<Recording>& recordings,
                                    const std::vector<Effect>& further = {});
+/// Scores of the amplitudes of effects with a mean force and, after them, of the plan's nuisances,
+/// and the information of every two: nothing is eliminated, so those of several recordings add up.
+struct ScoreSums {
+  Eigen::VectorXd scores;
+  Eigen::MatrixXd information;
+};
+ScoreSums score_sums(ScorePlan plan, const std::vector<Recording>& recordings,
+                     const std::vector<Effect>& effects);
 /// Information of an effect's amplitude, in sizes, that it is 0 before any data: what modules
 /// hardly ever felt could else have any estimate. A score is its estimate times own / (own +
 /// this).

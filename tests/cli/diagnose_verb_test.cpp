@@ -54,6 +54,11 @@ TEST(diagnoseVerb, shortRecordingsAreInsufficient) {
   EXPECT_NE(json.find("\"verdict\": \"insufficient\""), std::string::npos) << json;
   EXPECT_NE(json.find("\"shortfalls\""), std::string::npos) << json;
   EXPECT_FALSE(lilytank.here.has("x/work/centre 1.rows"));
+  // What to record in addition is an experiment that can be simulated.
+  const Answer run =
+      lilytank("run " + kTank + " x/next_experiment.toml --set run.duration=1 --out r");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(lilytank.here.read("r/resolved.toml").find("count = 15"), std::string::npos);
   // Again, and with more in the same directory.
   EXPECT_EQ(lilytank("diagnose " + kTank + " --out x").out, a.out);
 }

@@ -103,7 +103,9 @@ TEST(Coverage, GustsMustBeKnown) {
 
 // Of each kind of body the longest.
 TEST(Coverage, WhatToRecordMeetsAllRequirements) {
-  EXPECT_EQ(to_record({{"", 2, "24 balls"}, {"", 8, "24 balls"}, {"", 0.02, "15 Lilies"}}),
+  EXPECT_EQ(to_record({{"", 2, BodyKind::ball, 24},
+                       {"", 8, BodyKind::ball, 24},
+                       {"", 0.02, BodyKind::lily, 15}}),
             "0.1 min more of 15 Lilies and 8 min more of 24 balls");
 }
 

@@ -79,6 +79,22 @@ TEST_F(Experiments, layersAndSetsAreThoseOfScenarios) {
   EXPECT_EQ(load_experiment({over, scenario}).recordings.size(), 1u);
 }
 
+// In front: where none is marked as held out, the last recordings are, and these stay the same.
+TEST_F(Experiments, furtherRecordingsAreAddedInFront) {
+  write_recording(circling(1, 90), here_.path("alone.csv"));
+  const std::string more = write(
+      "[experiment]\nname = \"three runs\"\nfurther = true\n[[recording]]\nfile = \"alone.csv\"\n",
+      "more.toml");
+  const Experiment e = load_experiment({write(whole_), more});
+  EXPECT_EQ(e.name, "three runs");
+  ASSERT_EQ(e.recordings.size(), 3u);
+  EXPECT_EQ(e.recordings[0].tracks.size(), 1u);
+  EXPECT_EQ(e.recordings[1].body, BodyKind::ball);
+  EXPECT_EQ(load_experiment({more}).recordings.size(), 1u);
+  EXPECT_EQ(complaint("[experiment]\nfurther = 1\n[[recording]]\nfile = \"alone.csv\"\n"),
+            "experiment.toml:2:11: experiment.further is \"on\" or \"off\", or true or false");
+}
+
 TEST_F(Experiments, areScenarios) {
   const Scenario s = load_scenario({write(whole_)}, {});
   EXPECT_DOUBLE_EQ(s.model.tank.radius, 0.31);
