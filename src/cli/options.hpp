@@ -95,6 +95,8 @@ class VerbOptions {
   double number(const std::string& name, double low, double high, const std::string& unit) const;
   std::int64_t whole(const std::string& name, std::int64_t low, std::int64_t high) const;
   void check_names(const Arguments& arguments);
+  /// Names a positional argument "-" kStandardInput; refuses two.
+  void name_standard_input();
   void check_switch(const std::string& name, const std::string& value) const;
   std::string verb_;
   VerbDescription description_;

@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
+#include "io/standard_input.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
@@ -20,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string default_out(const Scenario& scenario, const std::string& last_file) {
-  const std::string name =
-      scenario.title.empty() ? fs::path(last_file).stem().string() : scenario.title;
+  const std::string name = scenario.title.empty() ? stem_of(last_file) : scenario.title;
   return (fs::path("out") / (file_name_of(name, "run") + "-seed" + std::to_string(scenario.seed)))
       .string();
 }

@@ -5,6 +5,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "cli/study_verb.hpp"
+#include "io/standard_input.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
 
@@ -136,6 +137,8 @@ int study_slurm(const Arguments& arguments) {
   options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
   if (!options.parse(arguments)) return Exit::done;
   job.study = only_argument(options, "which study? write lilytank study slurm STUDY.toml");
+  if (job.study == kStandardInput)
+    options.refuse("the script names a study file; standard input has no name");
   const Study study(job.study, job.sets);
   job.program = own_path();
   job.name = study.plan().name;

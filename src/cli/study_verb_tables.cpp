@@ -6,6 +6,7 @@
 #include "cli/results.hpp"
 #include "cli/study_verb.hpp"
 #include "io/json.hpp"
+#include "io/standard_input.hpp"
 #include "lilytank/study_summary.hpp"
 #include "study/study_directory.hpp"
 #include "text/words.hpp"
@@ -36,7 +37,7 @@ std::optional<FoundStudy> found_study(VerbOptions& options, const Arguments& arg
   std::error_code ignored;
   if (fs::is_directory(found.dir, ignored)) {
     found.study = load_study(found.dir);
-  } else if (fs::exists(found.dir, ignored)) {
+  } else if (fs::exists(openable(found.dir), ignored)) {
     const StudyPlan plan = Study(found.dir, sets).plan();
     found.dir = options.out("out/" + plan.name);
     found.study = load_study(found.dir, plan);

@@ -10,6 +10,7 @@
 #include <set>
 #include <system_error>
 
+#include "io/standard_input.hpp"
 #include "io/temporary_file.hpp"
 
 namespace lilytank {
@@ -168,7 +169,7 @@ std::string read_whole(const std::string& file, const SourcePlace& asked_by) {
     const std::string message = system_problem("cannot read", file, number);
     return asked_by.file.empty() ? InputError(message) : InputError(asked_by, message);
   };
-  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor opened(::open(openable(file).c_str(), O_RDONLY | O_CLOEXEC));
   if (opened.number() < 0) throw refuse(errno);
   std::string content;
   char buffer[1 << 16];

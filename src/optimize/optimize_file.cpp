@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scenario_values.hpp"
+#include "io/standard_input.hpp"
 #include "io/toml_fields.hpp"
 #include "study/study_axis.hpp"
 #include "text/number.hpp"
@@ -51,7 +52,7 @@ class Reader {
   }
 
   void optimize(const TomlFields& fields) {
-    out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
+    out_.name = fields.has("name") ? fields.text("name") : stem_of(file_);
     check_name(out_.name, "optimize.name", fields.place("name"));
     out_.scenarios = paths(fields, "scenario");
     if (fields.has("seed")) out_.seed = static_cast<std::uint64_t>(fields.whole("seed"));
