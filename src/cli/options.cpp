@@ -99,6 +99,12 @@ void VerbOptions::add(const Option& option, double* out, double low, double high
       [=, this] { *out = number(option.name, low, high, unit); });
 }
 
+void VerbOptions::add_seed(const std::string& help, std::vector<std::string>* sets) {
+  constexpr std::int64_t kLargest = 1'000'000'000'000'000'000;
+  add({"seed", help, "N"}, cxxopts::value<std::string>(),
+      [=, this] { sets->push_back("run.seed=" + std::to_string(whole("seed", 0, kLargest))); });
+}
+
 bool VerbOptions::parse(const Arguments& arguments, const std::string& none_given) {
   if (arguments == Arguments{kDescribe}) throw description_;
   // What follows "--" are files, even if they begin with a dash.

@@ -60,6 +60,9 @@ class VerbOptions {
         [=, this] { *out = static_cast<Whole>(whole(option.name, low, high)); });
   }
 
+  /// --seed, which parse() adds to `sets` as run.seed. Comes after the option that fills `sets`.
+  void add_seed(const std::string& help, std::vector<std::string>* sets);
+
   /// Reads the arguments; false if only the help was requested, which is then printed. Throws
   /// InputError on an unknown option, a missing or unusable value and, with the message
   /// `none_given` if that is not empty, without positional arguments.

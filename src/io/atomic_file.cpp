@@ -96,6 +96,12 @@ std::string system_problem(const std::string& what, const std::string& file, int
          (number == ENOENT ? nearest_in_directory(file) : "");
 }
 
+void require_path(const std::string& path) {
+  std::error_code ignored;
+  if (path == kStandardInput || std::filesystem::exists(path, ignored)) return;
+  throw InputError(system_problem("cannot read", path, ENOENT));
+}
+
 void write_atomically(const std::string& file, std::string_view content) {
   if (is_written_through(file)) return write_through(file, content);
   const HeldSignals held;

@@ -122,6 +122,7 @@ std::string time_of(const std::vector<fs::path>& files) {
 }  // namespace
 
 std::string crate_of_results(const std::string& dir, const std::string& license) {
+  require_path(dir);
   if (!fs::is_directory(dir)) throw InputError("'" + dir + "' is not a directory of results");
   const std::vector<fs::path> files = files_in(dir);
   const ReportProvenance origin = provenance_of(dir, files);
