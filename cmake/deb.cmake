@@ -25,7 +25,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ffmpeg, fonts-dejavu-core")
 
 lilytank_deb(development liblilytank-dev libdevel "Headers and static libraries for C++20, found by CMake.")
-set(needed libeigen3-dev libhwy-dev libtomlplusplus-dev libboost-dev nlohmann-json3-dev zlib1g-dev libssl-dev libtbb-dev)
+set(needed libeigen3-dev libhwy-dev libtomlplusplus-dev libboost-dev nlohmann-json3-dev zlib1g-dev libssl-dev
+    libtbb-dev)
 if(NETCDF_FOUND)
   list(APPEND needed libnetcdf-dev)
 endif()
