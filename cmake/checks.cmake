@@ -16,9 +16,14 @@ add_test(NAME package COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR}
   -P ${PROJECT_SOURCE_DIR}/tests/package/run.cmake)
 set_tests_properties(layers style words links options package PROPERTIES LABELS tree TIMEOUT 300)
 
-# The Debian package: its files, and the libraries that it depends on.
-add_test(NAME deb COMMAND bash ${PROJECT_SOURCE_DIR}/tests/package/deb.sh ${PROJECT_BINARY_DIR})
+# The Debian packages: their files, and the libraries that they depend on.
+add_test(NAME deb COMMAND bash ${PROJECT_SOURCE_DIR}/tests/package/deb.sh ${PROJECT_BINARY_DIR}
+         ${LILYTANK_PYTHON})
 set_tests_properties(deb PROPERTIES LABELS tree SKIP_RETURN_CODE 77 TIMEOUT 300)
+
+# The recipe for conda and the Dockerfile against the build.
+add_test(NAME recipes COMMAND bash ${PROJECT_SOURCE_DIR}/tests/package/recipes.sh ${PROJECT_SOURCE_DIR})
+set_tests_properties(recipes PROPERTIES LABELS tree SKIP_RETURN_CODE 77)
 
 # "Adding a force" of docs/structure.md, followed in a copy of the tree, which is built: minutes.
 add_test(NAME new_force COMMAND bash ${PROJECT_SOURCE_DIR}/tests/new_force/run.sh ${PROJECT_SOURCE_DIR}

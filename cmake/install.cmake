@@ -1,6 +1,7 @@
 # Installs the program, headers, scenarios with the pages about them, and the package that
-# find_package(lilytank) finds.
+# find_package(lilytank) finds. Components: program, development, python (cmake/deb.cmake).
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/lilytank)
 
 install(TARGETS lilytank RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -9,7 +10,7 @@ if(NOT LILYTANK_HAS_RENDER)
   set(without_render PATTERN render.hpp EXCLUDE)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lilytank DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" ${without_render})
+        COMPONENT development FILES_MATCHING PATTERN "*.hpp" ${without_render})
 # Scenarios and pages lie as in the sources, so that links from one to another hold; scripts among them
 # can be run.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios ${PROJECT_SOURCE_DIR}/docs
@@ -20,7 +21,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank)
 install(FILES ${PROJECT_SOURCE_DIR}/bench/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/lilytank/bench)
 
-install(EXPORT lilytankTargets NAMESPACE lilytank:: DESTINATION ${package_dir})
+install(EXPORT lilytankTargets NAMESPACE lilytank:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lilytankConfig.cmake.in
   ${PROJECT_BINARY_DIR}/lilytankConfig.cmake INSTALL_DESTINATION ${package_dir}
   PATH_VARS CMAKE_INSTALL_DATADIR)
@@ -28,5 +29,6 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lilytankConfig.cmake.i
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/lilytankConfig.cmake
-              ${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake DESTINATION ${package_dir})
-install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/shell_files.cmake)
+              ${PROJECT_BINARY_DIR}/lilytankConfigVersion.cmake DESTINATION ${package_dir}
+        COMPONENT development)
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/shell_files.cmake COMPONENT program)

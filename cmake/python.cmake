@@ -13,8 +13,8 @@ set_target_properties(lilytank_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPU
 file(GLOB python_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/python/lilytank/*.py*
      ${PROJECT_SOURCE_DIR}/src/python/lilytank/py.typed)
 add_custom_command(TARGET lilytank_python POST_BUILD COMMAND ln -sfr ${python_files} ${package})
-install(TARGETS lilytank_python LIBRARY DESTINATION ${LILYTANK_PYTHON_DIR}/lilytank)
-install(FILES ${python_files} DESTINATION ${LILYTANK_PYTHON_DIR}/lilytank)
+install(TARGETS lilytank_python LIBRARY DESTINATION ${LILYTANK_PYTHON_DIR}/lilytank COMPONENT python)
+install(FILES ${python_files} DESTINATION ${LILYTANK_PYTHON_DIR}/lilytank COMPONENT python)
 
 if(LILYTANK_TESTS)
   add_test(NAME python COMMAND ${Python_EXECUTABLE} -m unittest discover -p "*_test.py"

@@ -117,10 +117,10 @@ struct OptimizationPlan {
 /// A readable optimisation: everything is checked that can be before the first world.
 class Optimization {
  public:
-  /// Reads the file; `overlays` are laid over its scenarios, `sets` ("path=value") over these.
-  /// Throws InputError.
+  /// Reads the file; `overlays` are laid over its scenarios, `sets` ("path=value") over these;
+  /// run.seed is the seed of the search. Throws InputError.
   explicit Optimization(const std::string& file, const std::vector<std::string>& overlays = {},
-                        const std::vector<std::string>& sets = {});
+                        std::vector<std::string> sets = {});
   ~Optimization();
   Optimization(Optimization&&) noexcept;
   /// What the file says, resolved.

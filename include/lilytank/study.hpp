@@ -86,8 +86,8 @@ struct StudyPlan {
 /// A study that can be run: its plan, and where the scenarios come from.
 class Study {
  public:
-  /// Reads a study file; `sets` ("path=value") are laid over every setting. Every setting is built
-  /// once, so mistakes come to light here. Throws InputError.
+  /// Reads a study file; `sets` ("path=value") are laid over every setting; run.seed is the seed of
+  /// the study. Every setting is built once, so mistakes come to light here. Throws InputError.
   explicit Study(const std::string& file, const std::vector<std::string>& sets = {});
   ~Study();
   Study(Study&&) noexcept;

@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scenario_values.hpp"
+#include "io/standard_input.hpp"
 #include "io/toml_fields.hpp"
 #include "io/units.hpp"
 #include "text/number.hpp"
@@ -97,7 +98,7 @@ class Reader {
   void experiment(const toml::table& from) {
     const TomlFields f(from, "experiment", file_, names_of(experiment_keys()));
     BodyExperiment& e = out_.experiment;
-    e.name = f.has("name") ? f.text("name") : fs::path(file_).stem().string();
+    e.name = f.has("name") ? f.text("name") : stem_of(file_);
     const std::string unsafe = "/\\\n";
     if (e.name.empty() || e.name.find_first_of(unsafe) != std::string::npos) {
       f.refuse("name",

@@ -10,6 +10,7 @@
 #include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
+#include "io/standard_input.hpp"
 #include "jobs/job_directory.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/analysis.hpp"
@@ -111,6 +112,7 @@ Recording part_of(const Recording& all, double from, double to) {
 }
 
 std::string base_name(const std::string& word) {
+  if (word == kStandardInput) return stem_of(word);
   fs::path path = fs::path(word).lexically_normal();
   if (!path.has_filename()) path = path.parent_path();
   return path.filename().string();
@@ -127,7 +129,7 @@ class Reader {
     std::error_code ignored;
     if (fs::exists(fs::path(word) / "resolved.toml", ignored)) {
       read_run(word);
-    } else if (word.ends_with(".toml")) {
+    } else if (is_toml(word)) {
       read_experiment(word);
     } else {
       read_file(word);

@@ -317,7 +317,8 @@ void check_kinetics_options(const CheckJob& job) {
 CheckInput check_input(const CheckJob& job) {
   const VerbOptions& options = job.options;
   CheckInput input;
-  input.rules = read_ruleset(options.positional().front());
+  const std::string& file = options.positional().front();
+  input.rules = parse_ruleset(read_whole(file), file);
   input.modules = job.check.modules;
   if (options.has("measure")) {
     input.scenario = scenario_for(job);

@@ -102,10 +102,12 @@ void print_help() {
     name.resize(12, ' ');
     std::cout << "  " << name << verb.summary << "\n";
   }
-  std::cout << "  help        lilytank help VERB: the options of a verb\n\n"
-               "After '--' every word is a file, even if it begins with a dash.\n"
-               "exit codes: 0 done, 1 a simulation diverged or a check found a fault, 2 bad input, "
-               "3 stopped (repeat the command to resume)\n";
+  std::cout
+      << "  help        lilytank help VERB: the options of a verb\n\n"
+         "A file '-' is standard input. After '--' every word is a file, even if it begins with a "
+         "dash.\n"
+         "exit codes: 0 done, 1 a simulation diverged or a check found a fault, 2 bad input, "
+         "3 stopped (repeat the command to resume)\n";
 }
 
 const Verb& find_verb(const std::string& name) {
@@ -152,7 +154,7 @@ bool exists(const std::string& file) {
 
 /// Whether a refusal says what it is about: an option, a place in a file, or a file in quotes.
 bool names_its_subject(const std::string& message) {
-  for (const char* begin : {"lilytank ", "--", "cannot ", "'"}) {
+  for (const char* begin : {"lilytank ", "--", "cannot ", "'", "<stdin>"}) {
     if (message.starts_with(begin)) return true;
   }
   if (exists(message.substr(0, message.find(':')))) return true;

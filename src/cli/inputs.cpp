@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/scenario_layers.hpp"
+#include "io/standard_input.hpp"
 #include "lilytank/bodies.hpp"
 #include "statistics/median.hpp"
 #include "text/number.hpp"
@@ -56,7 +57,7 @@ double way_between_poses(const Trajectory& trajectory, const std::vector<double>
 
 void refuse_point_bodies(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
-    if (!file.ends_with(".toml") || !is_body_experiment(file)) continue;
+    if (!is_toml(file) || !is_body_experiment(file)) continue;
     const Layer layer = read_layers({file}, {}).front();
     if (!has_keys_of_bodies(layer)) continue;
     SourcePlace place{file, 0, 0};

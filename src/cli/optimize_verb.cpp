@@ -103,6 +103,7 @@ int optimize_verb(const Arguments& arguments, const Host& host) {
   options.add({"overlay", "a file that overrides values of the scenarios, before --set", "FILE"},
               &overlays);
   options.add({"set", "a value for every simulation, as run.duration='1 h'", "PATH=VALUE"}, &sets);
+  options.add_seed("where the seeds of the simulations come from, instead of optimize.seed", &sets);
   options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &job.threads, 1,
               kMostThreads);

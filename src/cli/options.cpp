@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "io/standard_input.hpp"
 #include "io/units.hpp"
 #include "lilytank/error.hpp"
 #include "text/number.hpp"
@@ -98,6 +99,12 @@ void VerbOptions::add(const Option& option, double* out, double low, double high
       [=, this] { *out = number(option.name, low, high, unit); });
 }
 
+void VerbOptions::add_seed(const std::string& help, std::vector<std::string>* sets) {
+  constexpr std::int64_t kLargest = 1'000'000'000'000'000'000;
+  add({"seed", help, "N"}, cxxopts::value<std::string>(),
+      [=, this] { sets->push_back("run.seed=" + std::to_string(whole("seed", 0, kLargest))); });
+}
+
 bool VerbOptions::parse(const Arguments& arguments, const std::string& none_given) {
   if (arguments == Arguments{kDescribe}) throw description_;
   // What follows "--" are files, even if they begin with a dash.
@@ -117,6 +124,7 @@ bool VerbOptions::parse(const Arguments& arguments, const std::string& none_give
   for (const std::string& word : positional_) {
     if (word.size() > 1 && word[0] == '-') refuse("unknown option '" + word + "'");
   }
+  name_standard_input();
   if (end != arguments.end()) positional_.insert(positional_.end(), end + 1, arguments.end());
   if (has("help")) {
     std::cout << options_.help() << examples_of(verb_);
@@ -125,6 +133,16 @@ bool VerbOptions::parse(const Arguments& arguments, const std::string& none_give
   if (!none_given.empty() && positional_.empty()) refuse(none_given);
   for (const auto& store : stores_) store();
   return true;
+}
+
+void VerbOptions::name_standard_input() {
+  const auto dash = std::find(positional_.begin(), positional_.end(), "-");
+  if (dash == positional_.end()) return;
+  if (std::find(dash + 1, positional_.end(), "-") != positional_.end()) {
+    refuse("standard input is read once: write '-' for one file only");
+  }
+  *dash = kStandardInput;
+  use_standard_input();
 }
 
 void VerbOptions::check_names(const Arguments& arguments) {
@@ -220,6 +238,7 @@ void VerbOptions::spare_inputs(const std::string& option, const std::string& fil
 void VerbOptions::spare_directory(const std::string& option, const std::string& dir,
                                   const std::vector<std::string>& inputs) const {
   for (const std::string& input : inputs) {
+    if (input == kStandardInput) continue;
     const fs::path in = fs::path(input).parent_path();
     if (!same_file(dir, in.empty() ? fs::path(".") : in)) continue;
     refuse("--" + option + " '" + dir + "' holds '" + input +

@@ -60,6 +60,9 @@ class VerbOptions {
         [=, this] { *out = static_cast<Whole>(whole(option.name, low, high)); });
   }
 
+  /// --seed, which parse() adds to `sets` as run.seed. Comes after the option that fills `sets`.
+  void add_seed(const std::string& help, std::vector<std::string>* sets);
+
   /// Reads the arguments; false if only the help was requested, which is then printed. Throws
   /// InputError on an unknown option, a missing or unusable value and, with the message
   /// `none_given` if that is not empty, without positional arguments.
@@ -95,6 +98,8 @@ class VerbOptions {
   double number(const std::string& name, double low, double high, const std::string& unit) const;
   std::int64_t whole(const std::string& name, std::int64_t low, std::int64_t high) const;
   void check_names(const Arguments& arguments);
+  /// Names a positional argument "-" kStandardInput; refuses two.
+  void name_standard_input();
   void check_switch(const std::string& name, const std::string& value) const;
   std::string verb_;
   VerbDescription description_;

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/inputs.hpp"
+#include "io/standard_input.hpp"
 #include "lilytank/experiment.hpp"
 #include "recording/formats.hpp"
 #include "recording/recording_keys.hpp"
@@ -21,10 +22,6 @@ RecordingOptions with_options(const VerbOptions& options, const Model& model,
   }
   take_sizes(model, out);
   return out;
-}
-
-bool is_experiment(const std::string& file) {
-  return fs::path(file).extension() == ".toml";
 }
 
 /// Whether a file is one track of several.
@@ -65,7 +62,7 @@ std::vector<NamedRecording> named_recordings(const VerbOptions& options,
       with_options(options, load_scenario({}, options.list("set")).model, {});
   bool together = false;
   for (const std::string& file : arguments) {
-    if (is_experiment(file)) {
+    if (is_toml(file)) {
       add_experiment(file, options, out);
       together = false;
       continue;

@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
+#include "io/standard_input.hpp"
 #include "jobs/report.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/run.hpp"
@@ -20,8 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string default_out(const Scenario& scenario, const std::string& last_file) {
-  const std::string name =
-      scenario.title.empty() ? fs::path(last_file).stem().string() : scenario.title;
+  const std::string name = scenario.title.empty() ? stem_of(last_file) : scenario.title;
   return (fs::path("out") / (file_name_of(name, "run") + "-seed" + std::to_string(scenario.seed)))
       .string();
 }
@@ -111,10 +111,9 @@ int run_verb(const Arguments& arguments, const Host& host) {
                       "Simulates one tank; later scenarios overlay earlier ones.");
   RunOptions job;
   std::vector<std::string> sets;
-  std::uint64_t seed = 1;
   bool video = false, quiet = false;
   options.add({"set", "a value, as tank.radius=0.3 or run.dt='5 ms'", "PATH=VALUE"}, &sets);
-  options.add({"seed", "where all random numbers come from", "N"}, &seed, 0, 1000000000000000000);
+  options.add_seed("where all random numbers come from", &sets);
   options.add({"out", "directory of the results (default: out/<title>-seed<N>)", "DIR"});
   options.add({"video", "draw video.mp4 (35 s, 1280 x 720), yield.png and report.html"}, &video);
   FigureStyle style;
@@ -127,7 +126,6 @@ int run_verb(const Arguments& arguments, const Host& host) {
     return Exit::done;
   }
   if (!video) options.refuse_given({"figure-width", "no-titles"}, "goes with --video");
-  if (options.has("seed")) sets.push_back("run.seed=" + std::to_string(seed));
   refuse_point_bodies(options.positional());
   const Scenario scenario = load_scenario(options.positional(), sets);
   if (video) check_video(options, scenario);

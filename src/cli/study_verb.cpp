@@ -5,6 +5,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "cli/study_verb.hpp"
+#include "io/standard_input.hpp"
 #include "study/study_directory.hpp"
 #include "text/number.hpp"
 
@@ -93,6 +94,7 @@ int run_one(const Arguments& arguments, const Host& host) {
   std::vector<std::string> sets;
   bool quiet = false;
   options.add({"set", "a value for every setting, as run.duration='1 h'", "PATH=VALUE"}, &sets);
+  options.add_seed("where the seeds of the replicates come from, instead of study.seed", &sets);
   options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
   options.add({"shard",
                "do part i of n, 1/n to n/n (default: from Slurm's or Open MPI's environment, else "
@@ -133,9 +135,12 @@ int study_slurm(const Arguments& arguments) {
   options.add({"time", "time limit of a task, as Slurm takes it (default: 04:00:00)", "TIME"},
               &job.time);
   options.add({"set", "as for lilytank study", "PATH=VALUE"}, &job.sets);
+  options.add_seed("as for lilytank study", &job.sets);
   options.add({"out", "directory of the results (default: out/<name>)", "DIR"});
   if (!options.parse(arguments)) return Exit::done;
   job.study = only_argument(options, "which study? write lilytank study slurm STUDY.toml");
+  if (job.study == kStandardInput)
+    options.refuse("the script names a study file; standard input has no name");
   const Study study(job.study, job.sets);
   job.program = own_path();
   job.name = study.plan().name;

@@ -31,17 +31,16 @@ std::optional<FoundStudy> found_study(VerbOptions& options, const Arguments& arg
                "directory of the results, where a STUDY.toml is given and it is not out/<name>",
                "DIR"});
   options.add({"set", "as for lilytank study, where a STUDY.toml is given", "PATH=VALUE"}, &sets);
+  options.add_seed("as for lilytank study, where a STUDY.toml is given", &sets);
   if (!options.parse(arguments)) return std::nullopt;
   FoundStudy found{only_argument(options, kWhich), {}};
   std::error_code ignored;
   if (fs::is_directory(found.dir, ignored)) {
     found.study = load_study(found.dir);
-  } else if (fs::exists(found.dir, ignored)) {
+  } else {
     const StudyPlan plan = Study(found.dir, sets).plan();
     found.dir = options.out("out/" + plan.name);
     found.study = load_study(found.dir, plan);
-  } else {
-    options.refuse("'" + found.dir + "' is neither a directory nor a study file");
   }
   if (needs_runs && found.study.table.rows.empty()) {
     options.refuse("there are no runs in '" + found.dir + "' yet");

@@ -59,6 +59,7 @@ ViewPage page_of(const VerbOptions& options, const ViewJob& job) {
     return view_diagnosis(dir, file, job.recording, job.page);
   }
   if (!has_file(dir, run_file::resolved)) {
+    require_path(dir);
     throw InputError("'" + dir + "' is not the directory of a run, study or diagnosis");
   }
   return view_runs(words);

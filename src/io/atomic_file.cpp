@@ -10,6 +10,7 @@
 #include <set>
 #include <system_error>
 
+#include "io/standard_input.hpp"
 #include "io/temporary_file.hpp"
 
 namespace lilytank {
@@ -95,6 +96,12 @@ std::string system_problem(const std::string& what, const std::string& file, int
          (number == ENOENT ? nearest_in_directory(file) : "");
 }
 
+void require_path(const std::string& path) {
+  std::error_code ignored;
+  if (path == kStandardInput || std::filesystem::exists(path, ignored)) return;
+  throw InputError(system_problem("cannot read", path, ENOENT));
+}
+
 void write_atomically(const std::string& file, std::string_view content) {
   if (is_written_through(file)) return write_through(file, content);
   const HeldSignals held;
@@ -168,7 +175,7 @@ std::string read_whole(const std::string& file, const SourcePlace& asked_by) {
     const std::string message = system_problem("cannot read", file, number);
     return asked_by.file.empty() ? InputError(message) : InputError(asked_by, message);
   };
-  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  const Descriptor opened(::open(openable(file).c_str(), O_RDONLY | O_CLOEXEC));
   if (opened.number() < 0) throw refuse(errno);
   std::string content;
   char buffer[1 << 16];

@@ -47,6 +47,9 @@ std::vector<std::string> write_files(const std::string& dir, const NamedContents
 /// The whole content of a file. Throws InputError, at `asked_by` where that is known.
 std::string read_whole(const std::string& file, const SourcePlace& asked_by = {});
 
+/// Throws InputError, with the nearest name, if there is no file or directory of this name.
+void require_path(const std::string& path);
+
 /// Writes to an open file; 0, or errno's value.
 int write_all(int descriptor, std::string_view content);
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "io/atomic_file.hpp"
+#include "io/standard_input.hpp"
 
 namespace lilytank {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 /// zlib reads files that are not compressed as they are.
 struct LineSource::Stream {
   explicit Stream(const std::string& file) {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = ::open(openable(file).c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) throw InputError(system_problem("cannot read", file, errno));
     in = ::gzdopen(descriptor, "rb");
     if (in == nullptr) {

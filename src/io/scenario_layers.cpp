@@ -192,6 +192,16 @@ std::string Assignment::path() const {
   return joined(keys, ".");
 }
 
+std::optional<std::uint64_t> take_seed(std::vector<std::string>& sets) {
+  std::optional<std::uint64_t> seed;
+  std::erase_if(sets, [&](const std::string& set) {
+    if (trimmed(std::string_view(set).substr(0, set.find('='))) != "run.seed") return false;
+    seed = load_scenario({}, {set}).seed;
+    return true;
+  });
+  return seed;
+}
+
 std::vector<Layer> read_layers(const std::vector<std::string>& files,
                                const std::vector<std::string>& sets) {
   std::vector<Layer> layers;

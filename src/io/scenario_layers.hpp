@@ -1,6 +1,7 @@
 // Scenario files as lists of assignments, in the order in which they override each other.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -62,6 +63,10 @@ std::vector<Assignment> read_assignments(const std::vector<std::string>& texts,
 /// unreadable file, TOML syntax, circle of bases.
 std::vector<Layer> read_layers(const std::vector<std::string>& files,
                                const std::vector<std::string>& sets);
+
+/// Takes run.seed out of the texts given to --set: studies and searches derive the seeds of their
+/// runs from it. Throws InputError.
+std::optional<std::uint64_t> take_seed(std::vector<std::string>& sets);
 
 struct Scenario;
 /// What load_scenario() does once everything is read. Throws InputError.

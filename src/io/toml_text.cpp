@@ -16,6 +16,13 @@ TomlValue list_of(const toml::array& array) {
   return numbers;
 }
 
+/// Whether a place is the end of a line of ASCII characters.
+bool ends_line(std::string_view text, const SourcePlace& place) {
+  for (int line = 1; line < place.line; ++line) text.remove_prefix(text.find('\n') + 1);
+  const auto at = static_cast<std::size_t>(place.column) - 1;
+  return text.find_first_of("\r\n", 0) <= at || text.size() <= at;
+}
+
 }  // namespace
 
 SourcePlace place_of(const toml::source_region& region, const std::string& file) {
@@ -26,7 +33,12 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
   try {
     return toml::parse(std::string_view(text), std::string_view(file));
   } catch (const toml::parse_error& e) {
-    throw InputError(place_of(e.source(), file), std::string(e.description()));
+    const SourcePlace place = place_of(e.source(), file);
+    const std::string what(e.description());
+    if (what.find("string: ") != what.npos && ends_line(text, place)) {
+      throw InputError(place, "the quotation mark of this text is not closed");
+    }
+    throw InputError(place, what);
   }
 }
 

@@ -121,6 +121,7 @@ std::string time_of(const std::vector<fs::path>& files) {
 }  // namespace
 
 std::string crate_of_results(const std::string& dir, const std::string& license) {
+  require_path(dir);
   if (!fs::is_directory(dir)) throw InputError("'" + dir + "' is not a directory of results");
   const std::vector<fs::path> files = files_in(dir);
   const ReportProvenance origin = provenance_of(dir, files);
@@ -155,7 +156,10 @@ std::string crate_of_results(const std::string& dir, const std::string& license)
             {"name", name},          {"description", "Results of " + origin.command},
             {"datePublished", time}, {"conformsTo", reference(kProcess)},
             {"hasPart", parts},      {"mentions", reference("#run")}};
-  if (!license.empty()) root["license"] = license;
+  if (!license.empty()) {
+    root["license"] = reference(license);
+    described.push_back({{"@id", license}, {"@type", "CreativeWork"}, {"name", license}});
+  }
   graph.push_back(std::move(root));
   graph.push_back({{"@id", kProcess},
                    {"@type", "CreativeWork"},
@@ -164,7 +168,7 @@ std::string crate_of_results(const std::string& dir, const std::string& license)
   graph.push_back({{"@id", "#run"},
                    {"@type", "CreateAction"},
                    {"name", origin.command},
-                   {"description", origin.seed.empty() ? "" : "seed " + origin.seed},
+                   {"description", "random seed " + (origin.seed.empty() ? "none" : origin.seed)},
                    {"instrument", reference(program)},
                    {"object", inputs},
                    {"result", parts},

@@ -78,6 +78,7 @@ void check_stored_run(const std::string& dir) {
 StoredRun load_run(const std::string& dir) {
   const auto path = [&](const char* name) { return (fs::path(dir) / name).string(); };
   if (!exists(path(run_file::resolved))) {
+    require_path(dir);
     throw InputError("'" + dir + "' is not the directory of a run: it has no " +
                      std::string(run_file::resolved));
   }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "io/atomic_file.hpp"
 #include "io/table.hpp"
 #include "jobs/run_directory.hpp"
 #include "lilytank/data_file.hpp"
@@ -127,6 +128,7 @@ DataFile data_of_results(const std::string& dir) {
   out.attributes = {{"source", std::string("lilytank ") + LILYTANK_VERSION}};
   std::vector<fs::path> tables;
   const bool run = exists((fs::path(dir) / run_file::resolved).string());
+  require_path(dir);
   if (!fs::is_directory(dir)) throw InputError("'" + dir + "' is not a directory of results");
   for (const auto& entry : fs::directory_iterator(dir)) {
     const std::string name = entry.path().filename().string();

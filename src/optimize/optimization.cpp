@@ -1,4 +1,5 @@
 // The public face: everything is the Source's.
+#include "io/scenario_layers.hpp"
 #include "optimize/comparison.hpp"
 #include "optimize/race.hpp"
 #include "optimize/source.hpp"
@@ -6,8 +7,9 @@
 namespace lilytank {
 
 Optimization::Optimization(const std::string& file, const std::vector<std::string>& overlays,
-                           const std::vector<std::string>& sets) {
-  auto source = std::make_unique<Source>(read_optimize_file(file), overlays, sets);
+                           std::vector<std::string> sets) {
+  const auto seed = take_seed(sets);
+  auto source = std::make_unique<Source>(read_optimize_file(file, seed), overlays, std::move(sets));
   check_comparison(*source);
   if (source->file.race) {
     source->contestants = contestants_of(*source);

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scenario_values.hpp"
+#include "io/standard_input.hpp"
 #include "io/toml_fields.hpp"
 #include "study/study_axis.hpp"
 #include "text/number.hpp"
@@ -19,8 +20,9 @@ constexpr std::int64_t kMostEvaluations = 100'000'000;
 
 class Reader {
  public:
-  explicit Reader(const std::string& file)
-      : file_(file),
+  Reader(const std::string& file, std::optional<std::uint64_t> seed)
+      : seed_(seed),
+        file_(file),
         directory_(fs::path(file).parent_path().string()),
         root_(parse_toml(read_whole(file), file)) {}
 
@@ -51,10 +53,11 @@ class Reader {
   }
 
   void optimize(const TomlFields& fields) {
-    out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
+    out_.name = fields.has("name") ? fields.text("name") : stem_of(file_);
     check_name(out_.name, "optimize.name", fields.place("name"));
     out_.scenarios = paths(fields, "scenario");
     if (fields.has("seed")) out_.seed = static_cast<std::uint64_t>(fields.whole("seed"));
+    out_.seed = seed_.value_or(out_.seed);
     fitness(fields);
     if (fields.has("hybrid")) out_.hybrid = fields.flag("hybrid");
     out_.hybrid_place = fields.place("hybrid");
@@ -195,6 +198,7 @@ class Reader {
                                 " texts for " + std::to_string(out.overlays.size()) + " overlays");
   }
 
+  std::optional<std::uint64_t> seed_;
   std::string file_, directory_;
   toml::table root_;
   OptimizeFile out_;
@@ -255,8 +259,8 @@ TomlKeys optimize_file_keys() {
           table("compare", compare, "the optimum against other settings")};
 }
 
-OptimizeFile read_optimize_file(const std::string& file) {
-  return Reader(file).read();
+OptimizeFile read_optimize_file(const std::string& file, std::optional<std::uint64_t> seed) {
+  return Reader(file, seed).read();
 }
 
 }  // namespace lilytank

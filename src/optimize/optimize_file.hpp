@@ -65,6 +65,7 @@ struct OptimizeFile {
 /// The keys of an optimisation file.
 TomlKeys optimize_file_keys();
 /// Throws InputError: unreadable file, TOML syntax, unknown key, wrong kind, out of bounds.
-OptimizeFile read_optimize_file(const std::string& file);
+/// `seed` replaces optimize.seed.
+OptimizeFile read_optimize_file(const std::string& file, std::optional<std::uint64_t> seed = {});
 
 }  // namespace lilytank

@@ -158,10 +158,6 @@ void Optimization::Source::prepare() {
 
 void Optimization::Source::check_overrides() const {
   for (const Assignment& value : overrides_.values) {
-    if (value.path() == "run.seed") {
-      throw InputError(value.place, "each simulation has its own seed: set optimize.seed in '" +
-                                        file.hybrid_place.file + "'");
-    }
     for (const SearchAxis& axis : plan.space) {
       const bool power = axis.name == "power.0" && value.path() == "flow.pump_power";
       if (axis.name == value.path() || power) {

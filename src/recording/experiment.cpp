@@ -6,6 +6,7 @@
 #include "io/atomic_file.hpp"
 #include "io/scenario_layers.hpp"
 #include "io/scenario_values.hpp"
+#include "io/standard_input.hpp"
 #include "recording/recording_keys.hpp"
 
 namespace lilytank {
@@ -86,7 +87,7 @@ Experiment load_experiment(const std::vector<std::string>& files,
     throw InputError({files.empty() ? "" : files.back(), 0, 0},
                      "there is no [[recording]] in it: this is a scenario, not an experiment");
   }
-  if (out.name.empty()) out.name = fs::path(files.back()).stem().string();
+  if (out.name.empty()) out.name = stem_of(files.back());
   for (const RecordingSource& source : out.sources) {
     if (wanted && !wanted(source)) continue;
     check_there(source);

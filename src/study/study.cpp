@@ -90,8 +90,10 @@ std::string without_quotes(const std::string& toml) {
 
 struct Study::Source {
   Source(const std::string& path, std::vector<std::string> sets)
-      : file(read_study_file(path)), path_(path), overrides_(read_layers({}, sets).back()) {
-    plan.sets = std::move(sets);
+      : file(read_study_file(path)), path_(path) {
+    plan.sets = sets;
+    file.seed = take_seed(sets).value_or(file.seed);
+    overrides_ = read_layers({}, sets).back();
     check_overrides();
     for (std::size_t i = 0; i < file.axes.size(); ++i) {
       choices_.push_back(choices_of(file.axes[i], file, static_cast<int>(i)));
@@ -153,7 +155,7 @@ struct Study::Source {
     return with_files_of(layers, std::move(files));
   }
 
-  const StudyFile file;
+  StudyFile file;
   StudyPlan plan;
 
  private:
@@ -164,10 +166,6 @@ struct Study::Source {
   void check_overrides() const {
     for (const Assignment& value : overrides_.values) {
       const std::string name = value.path();
-      if (name == "run.seed") {
-        throw InputError(value.place,
-                         "replicates have seeds of their own: set study.seed in '" + path_ + "'");
-      }
       for (const StudyAxis& axis : file.axes) {
         if (axis.path.keys != value.keys) continue;
         throw InputError(value.place,

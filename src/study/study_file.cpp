@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/scenario_values.hpp"
+#include "io/standard_input.hpp"
 #include "io/toml_fields.hpp"
 #include "study/study_axis.hpp"
 #include "text/number.hpp"
@@ -56,7 +57,7 @@ class Reader {
 
  private:
   void study(const TomlFields& fields) {
-    out_.name = fields.has("name") ? fields.text("name") : fs::path(file_).stem().string();
+    out_.name = fields.has("name") ? fields.text("name") : stem_of(file_);
     check_name(out_.name, "study.name", fields.place("name"));
     for (const auto& [name, place] : fields.texts("scenario")) {
       const std::string path = (fs::path(directory_) / name).string();

@@ -14,6 +14,7 @@ class ErrorsTest : public testing::Test {
  protected:
   ErrorsTest() {
     lilytank_.here.write("tiny.toml", kTiny);
+    lilytank_.here.write("quote.toml", "title = \"tank\n");
     lilytank_.here.write("key.toml", "\n\n[forces.face_drag]\nK_f = 1\n");
     lilytank_.here.write("range.toml", "[tank]\n\nradius = 300\n");
     lilytank_.here.write("full.toml", "[module]\ncount = 500\n");
@@ -70,6 +71,7 @@ TEST_F(ErrorsTest, Scenarios) {
   expect({
       {"run none.toml", "cannot read 'none.toml': No such file or directory"},
       {"run key.toml", "key.toml:4:1: unknown key 'forces.face_drag.K_f' - did you mean 'K_F'?"},
+      {"run quote.toml", "quote.toml:1:14: the quotation mark of this text is not closed"},
       {"info key.toml", "key.toml:4:1: unknown key 'forces.face_drag.K_f' - did you mean 'K_F'?"},
       {"run range.toml",
        "range.toml:3:10: tank.radius = 300 m is outside 0.05 .. 5 m - if this is in mm, write "
@@ -104,7 +106,7 @@ TEST_F(ErrorsTest, Directories) {
        "'taken' holds a file 'events.csv' that is not of a run; choose another --out, or --force "
        "to "
        "replace it"},
-      {"render none", "'none' is not the directory of a run: it has no resolved.toml"},
+      {"render none", "cannot read 'none': No such file or directory"},
   });
   const Answer old = lilytank_("run tiny.toml --out old");
   EXPECT_EQ(old.code, 2);

@@ -34,7 +34,7 @@ class Program {
         "LSAN_OPTIONS=print_suppressions=0:suppressions=" + aside_.path("leaks");
     const std::string command = "cd '" + here.path() + "' && " + checks +
                                 " '" LILYTANK_PROGRAM "' " + arguments + " 2>'" +
-                                aside_.path("err") + "' </dev/null";
+                                aside_.path("err") + "' <'" + input + "'";
     Answer outcome;
     FILE* pipe = ::popen(command.c_str(), "r");
     if (pipe == nullptr) return outcome;
@@ -65,6 +65,7 @@ class Program {
   }
 
   TemporaryDirectory here;
+  std::string input = "/dev/null";  ///< the file that is its standard input
 
  private:
   TemporaryDirectory aside_;

@@ -382,7 +382,7 @@ TEST_F(StudyVerbTest, Mistakes) {
       {"study merge",
        "lilytank study merge: which study? write the directory of its results, or "
        "its STUDY.toml"},
-      {"study merge none", "lilytank study merge: 'none' is neither a directory nor a study file"},
+      {"study merge none", "cannot read 'none': No such file or directory"},
       {"study merge .", "'./study.toml' was not written by a study's run: is it a study file?"},
       {"study study.toml --force --out .",
        "'./study.toml' is not of a study's results and would be overwritten; choose another "

@@ -60,6 +60,9 @@ TEST_F(ViewVerb, AStudyIsSimulatedAgain) {
   refused("view s",
           "lilytank view: 's' holds a study; write lilytank view STUDY STUDY.toml, with the file "
           "that was run");
+  ASSERT_EQ(lilytank_("study pairs.toml --set run.duration=2 --seed 7 --quiet --out t").code, 0);
+  EXPECT_EQ(lilytank_("view t pairs.toml --quiet").code, 0) << "with the study's --seed";
+  EXPECT_EQ(lilytank_("study status pairs.toml --set run.duration=2 --seed 7 --out t").code, 0);
   refused("view s other.toml --quiet", "'s' holds the results of another study than pairs");
   refused("view s pairs.toml --quiet --run 0123456789abcdef",
           "'0123456789abcdef' is no run of the study; table.csv lists them");

@@ -38,6 +38,7 @@ shortened() {
   line=${line//FIRST.toml/scenarios/experiments/tour.toml}
   line=${line//FILE.../scenarios/experiments/lily_1.csv.gz}
   line=${line// balls.csv.gz/ scenarios/experiments/balls_1.csv.gz}
+  line=${line//\/usr\/share\/lilytank\//}
   line=${line//other.rules/scenarios/rulesets/chain5.rules}
   case $line in
     'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;

@@ -234,6 +234,14 @@ TEST(Optimize, StoppedAnywhereItEndsInTheSameFiles) {
   EXPECT_TRUE(study.plan().until_settled);
 }
 
+TEST(Optimize, ASeedReplacesThatOfTheFile) {
+  const OptimizeRig rig;
+  const Optimization what = rig.read(
+      kHead + kPart + "[compare]\nreplicates = 3\noverlays = [\"sticky.toml\"]\n", {"run.seed=77"});
+  EXPECT_EQ(what.plan().seed, 77u);
+  EXPECT_EQ(what.source().file.compare.seed, 78u);
+}
+
 // A study has no scenario twice: an overlay that says what the optimum says is left out.
 TEST(Optimize, TheOptimumIsNotComparedWithItself) {
   const OptimizeRig rig;
@@ -271,7 +279,7 @@ TEST(Optimize, OverlaysToCompareWithAreCheckedFirst) {
   expect(refused("\"crowd.toml\""), "crowd: ");
   expect(refused("\"sticky.toml\", \"glued.toml\""),
          "optimize.toml:9:12: overlays 'sticky' and 'glued' make one and the same scenario");
-  expect(refused("\"sticky.toml\"", {"run.seed=3"}), "each simulation has its own seed");
+  expect(refused("\"sticky.toml\"", {"run.seed=x"}), "run.seed is a whole number, not text");
   EXPECT_EQ(refused("\"sticky.toml\""), "(accepted)");
 }
 

@@ -128,9 +128,9 @@ TEST_F(StudyFileTest, SetsLieOnTopOfEverySetting) {
   const std::string axis = "[[axis]]\npath = \"module.count\"\nvalues = [4, 6]\n";
   EXPECT_EQ(refusal(kStudyHead + axis, {"module.count=5"}),
             "--set module.count=5: 'module.count' is an axis of the study, see study.toml:4:1");
-  EXPECT_EQ(refusal(kStudyHead, {"run.seed=5"}),
-            "--set run.seed=5: replicates have seeds of their own: set study.seed in "
-            "'study.toml'");
+  EXPECT_EQ(this->study(kStudyHead, {"run.seed=5"}).plan().seed, 5u) << "that of the study";
+  EXPECT_EQ(refusal(kStudyHead, {"run.seed=-5"}),
+            "--set run.seed=-5: run.seed = -5 is outside 0 .. 1e+18");
   EXPECT_EQ(refusal(kStudyHead, {"module.cuont=5"}),
             "--set module.cuont=5: unknown key 'module.cuont' - did you mean 'count'?");
 }

@@ -1,0 +1,26 @@
+// Standard input as a file that can be opened more than once.
+#pragma once
+#include <string>
+
+namespace lilytank {
+
+/// The name of standard input in messages and reports. Relative paths inside it start from the
+/// working directory.
+inline const std::string kStandardInput = "<stdin>";
+
+/// From now on kStandardInput names standard input, which is read when it is first opened.
+void use_standard_input();
+
+/// The path that opens `file`: `file` itself, but for standard input that of its contents, stored
+/// in memory. Throws InputError with the system's reason.
+std::string openable(const std::string& file);
+
+/// The name of a job that its file does not name: the file's without folder and ending, "stdin" for
+/// kStandardInput.
+std::string stem_of(const std::string& file);
+
+/// Whether a file holds TOML: by its name, and for kStandardInput by its first line that is neither
+/// empty nor a comment, a [table] or `key = value`.
+bool is_toml(const std::string& file);
+
+}  // namespace lilytank
