@@ -57,7 +57,7 @@ class FaceDrag final : public ForceTerm {
         block.omega[i] = static_cast<float>(k.omega[first + i] - now.turning[first + i]);
       }
       settings.draw.body = static_cast<std::uint32_t>(first);
-      face_drag_sums(settings, block, sums);
+      face_drag_sums(settings, block, now.kept, sums);
       for (int i = 0; i < count; ++i) {
         Wrench& w = out[first + i];
         w.fx += scale * static_cast<double>(sums.fx[i]);

@@ -59,6 +59,12 @@ struct DragSums {
 /// Moment-matched gusts: the wrench is normal with the exact mean and covariance (over the three
 /// nodes of each face that integrate degree five over its segments exactly) and is made of numbers
 /// 0, 1 and 2.
-void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out);
+///
+/// `kept`: where these numbers are kept, or null.
+void face_drag_sums(const DragSettings& settings, const DragBlock& block, KeptGusts* kept,
+                    DragSums& out);
+
+/// How many numbers a module takes.
+int gust_numbers(Gusts gusts, int segments);
 
 }  // namespace lilytank

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "forces/face_drag_kernel.hpp"
+#include "forces/library.hpp"
+
 namespace lilytank {
 
 ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
@@ -9,6 +12,8 @@ ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
   for (const ActiveForce& force : forces) {
     if (force.term->perturbs_flow()) stirring_.push_back(&force);
     if (force.term->transforms()) transforming_.push_back(&force);
+    if (force.term == &face_drag() && model.steps_per_tick > 1)
+      gusts_ = {model.module.count, gust_numbers(model.flow.gusts, static_cast<int>(force.p[1]))};
   }
   if (stirring_.empty()) return;
   std::stable_partition(stirring_.begin(), stirring_.end(),
@@ -32,6 +37,7 @@ void ForceSum::perturb_flow(const Kinematics& k, StepContext& now) {
 
 void ForceSum::operator()(const Kinematics& k, StepContext now, std::span<Wrench> out) {
   std::fill(out.begin(), out.end(), Wrench{});
+  now.kept = &gusts_;
   perturb_flow(k, now);
   for (const ActiveForce& force : *forces_) force.term->add(*model_, k, now, force.p, out);
   for (const ActiveForce* force : transforming_)

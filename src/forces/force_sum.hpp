@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "forces/kept_gusts.hpp"
 #include "lilytank/force.hpp"
 #include "lilytank/model.hpp"
 
@@ -26,6 +27,7 @@ class ForceSum {
   std::vector<const ActiveForce*> stirring_, transforming_;
   // [bodies] added to the water's velocity, m/s, and rotation, rad/s.
   std::vector<double> stirred_x_, stirred_y_, stirred_turning_;
+  KeptGusts gusts_;
 };
 
 }  // namespace lilytank

@@ -57,9 +57,10 @@ double bulk_number(Draw draw, int body, int k) {
   const auto bits = random_bits(draw);
   const int lot = k % 6 / 2;
   const double length = std::sqrt(-2 * std::log(((bits[lot] >> 8) + 0.5) * 0x1p-24));
-  const unsigned way = (bits[lot] & 0xff) << 8 | (bits[3] >> (8 * lot) & 0xff);
-  const double angle = ((way & 0x3fff) - 8191.5) * kPi / 32768 + (way >> 14) * kPi / 2;
-  return length * (k % 2 == 0 ? std::cos(angle) : std::sin(angle));
+  const unsigned place = (bits[3] >> (8 * lot) & 0xff) << 8 | (bits[lot] & 0xff);
+  const double angle = (place - 32767.5) * kPi / 131072, sign = bits[3] >> (31 - lot) & 1 ? -1 : 1;
+  const bool swapped = (bits[3] >> (28 - lot) & 1) != 0;
+  return sign * length * ((k % 2 == 1) != swapped ? std::sin(angle) : std::cos(angle));
 }
 
 // The polynomials' errors, 1e-5 each, and float32's rounding of u near 1, where the length is the
