@@ -130,21 +130,27 @@ HWY_INLINE Gust gust_of(const Water& u, const FaceFrame& f) {
   return {hn::Add(hn::Mul(x, f.xx), hn::Mul(y, f.yy)), hn::Mul(f.xy, hn::Sub(y, x)), hn::Mul(x, y)};
 }
 
-/// The water at places along a face (m from its middle).
-HWY_INLINE void water_along(const Task& task, const FaceFrame& f, const float* places, int count,
-                            Water* out) {
-  Spots spots;
+/// Notes places along a face (m from its middle) as points `first` and on.
+HWY_INLINE void locate_along(const Task& task, const FaceFrame& f, const float* places, int count,
+                             int first, Spots& spots) {
   const auto locate_all = [&](auto inside) {
     for (int k = 0; k < count; ++k) {
       const Float way = hn::Set(Floats(), places[k] * task.field.per_metre);
       const Float gx = hn::Sub(f.gx, hn::Mul(way, f.ny)), gy = hn::Add(f.gy, hn::Mul(way, f.nx));
-      locate<inside>(task.field, gx, gy, k, spots);
+      locate<inside>(task.field, gx, gy, first + k, spots);
     }
   };
   if (task.inside)
     locate_all(std::true_type());
   else
     locate_all(std::false_type());
+}
+
+/// The water at places along a face.
+HWY_INLINE void water_along(const Task& task, const FaceFrame& f, const float* places, int count,
+                            Water* out) {
+  Spots spots;
+  locate_along(task, f, places, count, 0, spots);
   read(task.field, spots, count, out);
 }
 

@@ -102,19 +102,39 @@ HWY_INLINE SegmentMoments segment_moments(const Moments& m, const Tangential& f)
   return s;
 }
 
-HWY_INLINE void add_mean(const SegmentMoments& s, Float at, Float weight, FaceSum& sum) {
-  const Float square = hn::Mul(weight, s.square);
-  sum.n = hn::Sub(sum.n, square);
-  sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
-  sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
+/// Sums over a face's nodes: the outer two have one weight and lie as far on either side of the
+/// middle.
+struct NodeSums {
+  NodeSums(const DragSettings& settings, Float open)
+      : outer(hn::Mul(hn::Set(Floats(), settings.weights[2]), open)),
+        middle(hn::Mul(hn::Set(Floats(), settings.weights[1]), open)),
+        way(hn::Set(Floats(), settings.nodes[2])) {}
+
+  Float outer, middle, way;
+
+  HWY_INLINE Float outside(Float a, Float c) const { return hn::Mul(outer, hn::Add(a, c)); }
+  /// Weighted by place.
+  HWY_INLINE Float by_place(Float a, Float c) const {
+    return hn::Mul(hn::Mul(outer, way), hn::Sub(c, a));
+  }
+  HWY_INLINE Float all(Float a, Float b, Float c) const {
+    return hn::Add(outside(a, c), hn::Mul(middle, b));
+  }
+};
+
+HWY_INLINE FaceSum mean_of(const NodeSums& w, const SegmentMoments (&s)[3]) {
+  return {hn::Neg(w.all(s[0].square, s[1].square, s[2].square)), w.all(s[0].t, s[1].t, s[2].t),
+          hn::Neg(w.by_place(s[0].square, s[2].square))};
 }
 
-HWY_INLINE void add_covariance(const SegmentMoments& s, Float at, Float weight, FaceCovariance& c) {
-  const Float nn = hn::Mul(weight, s.nn), nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
-  c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
-  c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
-  c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
-  c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
+HWY_INLINE FaceCovariance covariance_of(const NodeSums& w, const SegmentMoments (&s)[3]) {
+  const Float nn = w.outside(s[0].nn, s[2].nn);
+  return {hn::Add(nn, hn::Mul(w.middle, s[1].nn)),
+          w.by_place(s[0].nn, s[2].nn),
+          hn::Mul(nn, hn::Mul(w.way, w.way)),
+          w.all(s[0].nt, s[1].nt, s[2].nt),
+          w.by_place(s[0].nt, s[2].nt),
+          w.all(s[0].tt, s[1].tt, s[2].tt)};
 }
 
 // In stages over the three nodes of all faces, whose chains the processor can then overlap. Of an
@@ -122,38 +142,38 @@ HWY_INLINE void add_covariance(const SegmentMoments& s, Float at, Float weight, 
 template <FlowAt kAt, bool kDrawn>
 HWY_INLINE void matched_faces(const Task& task, const Modules& m, WrenchSum& out) {
   const Floats d;
-  const Float zero = hn::Zero(d);
   const float* places = task.settings.nodes;
-  FaceFrame frames[4];
+  const FaceFrame frames[4] = {face_frame(task, m, 0), face_frame(task, m, 1),
+                               face_frame(task, m, 2), face_frame(task, m, 3)};
+  Water water[12];
+  if (kAt == FlowAt::points) {
+    Spots spots;
+    for (int face = 0; face < 4; ++face)
+      locate_along(task, frames[face], places, 3, 3 * face, spots);
+    read(task.field, spots, 12, water);
+  }
   Normal against[12];  // -n.w
   Tangential along[12];
-  for (int face = 0; face < 4; ++face) {
-    const FaceFrame& f = frames[face] = face_frame(task, m, face);
-    Water water[3] = {task.centre, task.centre, task.centre};
-    if (kAt == FlowAt::points) water_along(task, f, places, 3, water);
-    for (int k = 0; k < 3; ++k) {
-      const Gust gust = gust_of(water[k], f);
-      Normal& a = against[3 * face + k];
-      a = {hn::Sub(f.normal_speed(hn::Set(d, places[k])), f.mean_n(water[k])), gust.variance,
-           inverse_root(gust.variance)};
-      along[3 * face + k] = tangential_of(task, f, water[k], gust, a);
-    }
+  for (int i = 0; i < 12; ++i) {
+    const FaceFrame& f = frames[i / 3];
+    const Water& u = kAt == FlowAt::points ? water[i] : task.centre;
+    const Gust gust = gust_of(u, f);
+    const Float speed = f.normal_speed(hn::Set(d, places[i % 3]));
+    against[i] = {hn::Sub(speed, f.mean_n(u)), gust.variance, inverse_root(gust.variance)};
+    along[i] = tangential_of(task, f, u, gust, against[i]);
   }
   Moments moments[12];
   positive_moments(against, moments);
   Spread spread;
   spread.clear();
   for (int face = 0; face < 4; ++face) {
-    FaceSum sum{zero, zero, zero};
-    FaceCovariance c{zero, zero, zero, zero, zero, zero};
-    for (int k = 0; k < 3; ++k) {
-      const Float weight = hn::Mul(hn::Set(d, task.settings.weights[k]), frames[face].open);
-      const SegmentMoments s = segment_moments(moments[3 * face + k], along[3 * face + k]);
-      add_mean(s, hn::Set(d, places[k]), weight, sum);
-      if (kDrawn) add_covariance(s, hn::Set(d, places[k]), weight, c);
-    }
-    add_face(frames[face], sum, task.half, out);
-    if (kDrawn) spread.add(face, c, task.half);
+    const int i = 3 * face;
+    const SegmentMoments s[3] = {segment_moments(moments[i], along[i]),
+                                 segment_moments(moments[i + 1], along[i + 1]),
+                                 segment_moments(moments[i + 2], along[i + 2])};
+    const NodeSums sums(task.settings, frames[face].open);
+    add_face(frames[face], mean_of(sums, s), task.half, out);
+    if (kDrawn) spread.add(face, covariance_of(sums, s), task.half);
   }
   if (kDrawn) spread.draw(task, m, out);
 }

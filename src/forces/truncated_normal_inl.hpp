@@ -25,17 +25,6 @@ HWY_INLINE Float inverse_root(Float v) {
   return hn::Mul(y, poly<3>(hn::Mul(hn::Mul(v, y), y), kRoot));
 }
 
-/// A polynomial with fewer steps in its longest chain than Horner's.
-HWY_INLINE Float short_poly(Float x, const float (&c)[6]) {
-  const Floats d;
-  const auto pair = [&](int k) {
-    return hn::Add(hn::Set(d, c[k]), hn::Mul(x, hn::Set(d, c[k + 1])));
-  };
-  const Float square = hn::Mul(x, x);
-  return hn::Add(hn::Add(pair(0), hn::Mul(square, pair(2))),
-                 hn::Mul(hn::Mul(square, square), pair(4)));
-}
-
 /// Standard normal density at x, absolute error under 1e-7: 2 to the power of -x^2 / (2 ln 2).
 HWY_INLINE Float normal_density(Float x) {
   // Minimax for 2^-f / sqrt(2 pi), |f| <= 1/2.

@@ -48,7 +48,7 @@ class Philox {
       if (round < 3)
         key_[2 * round - 1] = k0, key_[2 * round] = k1;
       else
-        k0_[round - 3] = hn::Set(Wide(), k0), k1_[round - 3] = hn::Set(Wide(), k1);
+        k0_[round - 3] = k0, k1_[round - 3] = k1;
     }
   }
 
@@ -83,8 +83,8 @@ class Philox {
   HWY_INLINE Blocks operator()(const Body& body, const Index& index) const {
     Chain a = start(body.low, index), b = start(body.high, index);
     for (int round = 0; round < 7; ++round) {
-      go_on(a, k0_[round], k1_[round]);
-      go_on(b, k0_[round], k1_[round]);
+      go_on(a, all(k0_[round]), all(k1_[round]));
+      go_on(b, all(k0_[round]), all(k1_[round]));
     }
     return {a, b};
   }
@@ -93,10 +93,10 @@ class Philox {
     Chain a = start(body[0].low, index[0]), b = start(body[0].high, index[0]);
     Chain c = start(body[1].low, index[1]), e = start(body[1].high, index[1]);
     for (int round = 0; round < 7; ++round) {
-      go_on(a, k0_[round], k1_[round]);
-      go_on(b, k0_[round], k1_[round]);
-      go_on(c, k0_[round], k1_[round]);
-      go_on(e, k0_[round], k1_[round]);
+      go_on(a, all(k0_[round]), all(k1_[round]));
+      go_on(b, all(k0_[round]), all(k1_[round]));
+      go_on(c, all(k0_[round]), all(k1_[round]));
+      go_on(e, all(k0_[round]), all(k1_[round]));
     }
     out[0] = {a, b}, out[1] = {c, e};
   }
@@ -111,9 +111,12 @@ class Philox {
     return hn::MulEven(hn::BitCast(Words(), a), hn::BitCast(Words(), hn::Set(Wide(), b)));
   }
 
+  static HWY_INLINE WideWord all(std::uint32_t v) {
+    return hn::BitCast(Wide(), hn::Set(Words(), v));
+  }
+
   // The state after three rounds.
   static HWY_INLINE Chain start(WideWord body, const Index& index) {
-    const auto all = [](std::uint32_t v) { return hn::BitCast(Wide(), hn::Set(Words(), v)); };
     Chain c;
     c.c1 = times(hn::Xor(hn::ShiftRight<32>(body), all(index.second)), kM1);
     c.c0 = hn::Xor(hn::ShiftRight<32>(c.c1), all(index.c0));
@@ -129,7 +132,7 @@ class Philox {
   }
 
   std::uint32_t index_, body_, last_, of_body_, c1_, key_[5];
-  WideWord k0_[7], k1_[7];  // of rounds 3 to 9
+  std::uint32_t k0_[7], k1_[7];  // of rounds 3 to 9
 };
 
 // Word k of each block.
@@ -151,7 +154,18 @@ HWY_INLINE Float poly(Float x, const float (&coefficients)[kDegree + 1]) {
   return sum;
 }
 
-// The root of -2 ln u, u = v / 2^24 in (0, 1); relative error of the logarithm under 1e-5: no
+// A polynomial with fewer steps in its longest chain than Horner's.
+HWY_INLINE Float short_poly(Float x, const float (&c)[6]) {
+  const Floats d;
+  const auto pair = [&](int k) {
+    return hn::Add(hn::Set(d, c[k]), hn::Mul(x, hn::Set(d, c[k + 1])));
+  };
+  const Float square = hn::Mul(x, x);
+  return hn::Add(hn::Add(pair(0), hn::Mul(square, pair(2))),
+                 hn::Mul(hn::Mul(square, square), pair(4)));
+}
+
+// The root of -2 ln u, u = v / 2^19 in (0, 1); relative error of the logarithm under 1e-5: no
 // sample that fits on a disk could tell. ln(1 + f) / f is a minimax polynomial on [sqrt(1/2) - 1,
 // sqrt(2) - 1].
 HWY_INLINE Float length_of(Float v) {
@@ -160,12 +174,12 @@ HWY_INLINE Float length_of(Float v) {
   const Floats d;
   const Words w;
   const Whole s;
-  const Word root_half = hn::Set(w, 0x3f3504f3u), octaves = hn::Set(w, 24u << 23);
+  const Word root_half = hn::Set(w, 0x3f3504f3u), octaves = hn::Set(w, 19u << 23);
   const Word bits = hn::Sub(hn::BitCast(w, v), hn::Add(root_half, octaves));
   const Float e = hn::ConvertTo(d, hn::ShiftRight<23>(hn::BitCast(s, bits)));
   const Word mantissa = hn::Add(hn::And(bits, hn::Set(w, 0x7fffffu)), root_half);
   const Float f = hn::Sub(hn::BitCast(d, mantissa), hn::Set(d, 1.0f));
-  return hn::Sqrt(hn::Add(hn::Mul(e, hn::Set(d, -1.38629436f)), hn::Mul(f, poly<5>(f, kLog))));
+  return hn::Sqrt(hn::Add(hn::Mul(e, hn::Set(d, -1.38629436f)), hn::Mul(f, short_poly(f, kLog))));
 }
 
 // Lane by lane, by the sign bit of `sign` alone: as floats, -0 and NaN would depend on the set.
@@ -175,13 +189,11 @@ HWY_INLINE Float where_signed(Float sign, Float yes, Float no) {
                                                       hn::BitCast(s, no)));
 }
 
-// Box and Muller: pair j of a block, see bulk_normals(). `rest` is word 3.
-template <int j>
-HWY_INLINE void store_pair(Word bits, Word rest, float* out) {
+// Box and Muller: the pair of a word, see bulk_normals().
+HWY_INLINE void store_pair(Word bits, float* out) {
   // Minimax on an eighth of a turn either way, errors under 1e-5. The place is an odd number of
-  // 2^17ths of a turn.
-  static constexpr float kUnit = static_cast<float>(3.14159265358979 / 131072),
-                         kTwo = kUnit * kUnit;
+  // 2^14ths of a turn.
+  static constexpr float kUnit = static_cast<float>(3.14159265358979 / 4096), kTwo = kUnit * kUnit;
   static constexpr float kSine[3] = {0.999998569f * kUnit, -0.166624802f * kUnit * kTwo,
                                      0.00815163557f * kUnit * kTwo * kTwo};
   static constexpr float kCosine[3] = {0.999990035f, -0.49970814f * kTwo,
@@ -190,26 +202,22 @@ HWY_INLINE void store_pair(Word bits, Word rest, float* out) {
   const Words w;
   const Whole s;
   const auto number = [&](Word v) { return hn::ConvertTo(d, hn::BitCast(s, v)); };
-  const Float length = length_of(hn::Add(number(hn::ShiftRight<8>(bits)), hn::Set(d, 0.5f)));
-  const Word upper = j == 0 ? hn::ShiftLeft<8>(rest) : j == 1 ? rest : hn::ShiftRight<8>(rest);
-  const Word place = hn::Or(hn::And(bits, hn::Set(w, 0xffu)), hn::And(upper, hn::Set(w, 0xff00u)));
-  const Float t = hn::Sub(number(place), hn::Set(d, 32767.5f));
+  const Float length = length_of(hn::Add(number(hn::ShiftRight<13>(bits)), hn::Set(d, 0.5f)));
+  const Float t = hn::Sub(number(hn::And(bits, hn::Set(w, 0x7ffu))), hn::Set(d, 1023.5f));
   const Float q = hn::Mul(t, t);
   const Float sine = hn::Mul(t, poly<2>(q, kSine)), cosine = poly<2>(q, kCosine);
-  const Float way = hn::CopySignToAbs(length, hn::BitCast(d, hn::ShiftLeft<j>(rest)));
-  const Float swap = hn::BitCast(d, hn::ShiftLeft<3 + j>(rest));
-  const Float x = where_signed(swap, sine, cosine);
-  const Float y = where_signed(swap, cosine, sine);
-  hn::Store(hn::Mul(way, x), d, out + 2 * j * kBulkBodies);
-  hn::Store(hn::Mul(way, y), d, out + (2 * j + 1) * kBulkBodies);
+  const Float way = hn::CopySignToAbs(length, hn::BitCast(d, hn::ShiftLeft<19>(bits)));
+  const Float swap = hn::BitCast(d, hn::ShiftLeft<20>(bits));
+  hn::Store(hn::Mul(way, where_signed(swap, sine, cosine)), d, out);
+  hn::Store(hn::Mul(way, where_signed(swap, cosine, sine)), d, out + kBulkBodies);
 }
 
-// The first `count` (up to six) numbers of a block.
+// The first `count` numbers of a block.
 HWY_INLINE void store_numbers(const Blocks& block, int count, float* out) {
-  const Word rest = word_of<3>(block);
-  store_pair<0>(word_of<0>(block), rest, out);
-  if (count > 2) store_pair<1>(word_of<1>(block), rest, out);
-  if (count > 4) store_pair<2>(word_of<2>(block), rest, out);
+  store_pair(word_of<0>(block), out);
+  if (count > 2) store_pair(word_of<1>(block), out + 2 * kBulkBodies);
+  if (count > 4) store_pair(word_of<2>(block), out + 4 * kBulkBodies);
+  if (count > 6) store_pair(word_of<3>(block), out + 6 * kBulkBodies);
 }
 
 // A call for few numbers is faster if only what these need is loaded.
@@ -220,27 +228,28 @@ static HWY_NOINLINE void store_last(const Blocks& block, int count, float* out) 
 // bulk_normals().
 HWY_INLINE void normals_of_all(const std::uint32_t counter[4], const std::uint32_t key[2],
                                int count, float* out) {
-  constexpr int kEach = 6 * kBulkBodies;
+  constexpr int kNumbers = 8, kEach = kNumbers * kBulkBodies;  // of a block
   const int lanes = static_cast<int>(hn::Lanes(Floats()));
   const Philox philox(counter, key);
   Blocks blocks[2];
   if (lanes == kBulkBodies) {
     const auto body = philox.body(0);
-    for (int done = 0, block = 0; done < count; done += 12, block += 2, out += 2 * kEach) {
-      if (count - done <= 6) {
+    for (int done = 0, block = 0; done < count;
+         done += 2 * kNumbers, block += 2, out += 2 * kEach) {
+      if (count - done <= kNumbers) {
         store_last(philox(body, philox.index(block)), count - done, out);
         return;
       }
       philox.both({body, body}, {philox.index(block), philox.index(block + 1)}, blocks);
-      store_numbers(blocks[0], 6, out);
-      store_numbers(blocks[1], count - done - 6, out + kEach);
+      store_numbers(blocks[0], kNumbers, out);
+      store_numbers(blocks[1], count - done - kNumbers, out + kEach);
     }
     return;
   }
   for (int i = 0; i < kBulkBodies; i += 2 * lanes) {
     const auto body = philox.body(i), next = philox.body(i + lanes);
     float* to = out + i;
-    for (int done = 0, block = 0; done < count; done += 6, ++block, to += kEach) {
+    for (int done = 0, block = 0; done < count; done += kNumbers, ++block, to += kEach) {
       const auto index = philox.index(block);
       philox.both({body, next}, {index, index}, blocks);
       store_numbers(blocks[0], count - done, to);
