@@ -219,6 +219,13 @@ DragSettings::DragSettings(const Model& model, int segments_, const StepContext&
   if (gusts == Gusts::moment_matched) set_nodes(second, fourth);
 }
 
+void DragSettings::set_moment(const Model& model, const StepContext& now) {
+  field = &field_now(model, now);
+  K_v = static_cast<float>(model.flow.K_v * now.gain),
+  gust_gain = static_cast<float>(now.gust_gain);
+  draw = {now.seed, Stream::gust, now.gust, 0, 0};
+}
+
 void DragSettings::set_nodes(double second, double fourth) {
   const double square = second > 0 ? fourth / second : 0;
   const double beside = square > 0 ? 0.5 * second / square : 0, way = std::sqrt(square);
