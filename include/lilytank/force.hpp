@@ -14,6 +14,7 @@
 namespace lilytank {
 
 class FlowField;
+class KeptGusts;
 struct Model;
 
 /// What a parameter measures: how synthetic experiments draw other values of it.
@@ -86,6 +87,8 @@ struct StepContext {
   std::span<const double> ux, uy;
   /// [bodies] What it adds to the water's rotation about each body, rad/s; empty where ux is.
   std::span<const double> turning;
+  /// The gusts' random numbers, where the steps of a tick share them; null: drawn in each step.
+  KeptGusts* kept = nullptr;
 };
 
 /// The flow field of the step: StepContext::field, or the model's.

@@ -16,7 +16,8 @@
 namespace lilytank {
 
 /// One simulation. A World may move between threads but not be shared by them; any number of
-/// Worlds may share a Model. No allocation after the first step.
+/// Worlds may share a Model. No allocation after the first step; scratch
+/// memory belongs to the thread.
 class World {
  public:
   /// Begins from initial_state(model, seed). `model` must outlive the World. Throws InputError if
@@ -38,11 +39,18 @@ class World {
   /// does nothing further, once a number is not finite, a body exceeds 20 m/s, or the
   /// contacts of one step take more work than is allowed (kStalled). Never throws.
   RunStatus step();
+  /// What the last step returned; ok before the first.
+  RunStatus status() const;
 
   /// The model given at the start.
   const Model& model() const;
-  /// The state after the last step: a copy is a checkpoint.
+  /// The state after the last step: a copy is a checkpoint. Poses and twists are float32 numbers.
   const State& state() const;
+  /// The same at no cost, but poses and twists may be those of an earlier step: for what modules
+  /// say and hold.
+  const State& firmware() const;
+  /// Steps of dt since the start: state().step, at no cost.
+  std::int64_t steps() const;
   /// Simulated time since step 0, s: step * dt.
   double time() const;
   /// Poses and twists of all bodies at the end of the last step. The spans follow the
@@ -54,6 +62,25 @@ class World {
   const Divergence& divergence() const;
   /// Since this World was made or last set to another state.
   const Tallies& tallies() const;
+
+ private:
+  friend class Batch;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Steps many Worlds side by side: several times as fast as one after another, with the same
+/// results. Holds scratch memory only, so the Worlds may be others in every step.
+class Batch {
+ public:
+  Batch();
+  Batch(Batch&&) noexcept;
+  Batch& operator=(Batch&&) noexcept;
+  ~Batch();
+
+  /// Calls step() of every World, whatever their models, seeds and times. A World that diverged
+  /// rests. Never throws.
+  void step(std::span<World* const> worlds);
 
  private:
   struct Impl;

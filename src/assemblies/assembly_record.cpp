@@ -91,7 +91,7 @@ void AssemblyRecord::count(const World& world) {
   copies_ = 0;
   std::vector<std::uint8_t> done(complete_.size(), 0);
   for (std::size_t i = 0; i < done.size(); ++i)
-    if (done[i] == 0) count_assembly(world.state(), static_cast<int>(i), done);
+    if (done[i] == 0) count_assembly(world.firmware(), static_cast<int>(i), done);
 }
 
 // Counts, and compares with the count before: what is new and illegal, what was completed.
@@ -134,8 +134,8 @@ bool AssemblyRecord::count_firings(const World& world) {
 
 void AssemblyRecord::observe(const World& world) {
   // A ruleset comes into force at the start of a step: this step's firings are its own.
-  bool changed = ruleset_ != world.state().ruleset;
-  if (changed) start_table(world.state().ruleset, ruleset_ >= 0);
+  bool changed = ruleset_ != world.firmware().ruleset;
+  if (changed) start_table(world.firmware().ruleset, ruleset_ >= 0);
   changed = count_firings(world) || changed;
   if (changed) recount(world);
 }

@@ -13,9 +13,9 @@ class Controller {
  public:
   explicit Controller(const Model& model);
   /// One tick: commands that are due, faces that come on again, docking, exchange by the model's
-  /// clock. Changes `state` and `assemblies`, appends to `events`, adds to `tallies`.
-  void tick(State& state, Assemblies& assemblies, Motion& motion, std::vector<Event>& events,
-            Tallies& tallies);
+  /// clock. Changes `state`, `assemblies` and `bodies`, appends to `events`, adds to `tallies`.
+  void tick(State& state, Assemblies& assemblies, Bodies& bodies, Motion& motion, Movers& movers,
+            std::vector<Event>& events, Tallies& tallies);
 
  private:
   const Model* model_;

@@ -34,13 +34,14 @@ Docking::Docking(const Model& model)
 // Whether the faces that look most at each other are in reach: centres within the capture distance,
 // normals anti-parallel within the capture angle. With reaches well below the side no other two
 // faces of the two modules can be.
-bool Docking::meet(const Assemblies& bodies, int i, int j, Candidate& found) const {
-  const double dx = bodies.x[j] - bodies.x[i], dy = bodies.y[j] - bodies.y[i];
+bool Docking::meet(const Bodies& b, int i, int j, Candidate& found) const {
+  const auto wide = [](float v) { return static_cast<double>(v); };
+  const double dx = wide(b.x[j]) - wide(b.x[i]), dy = wide(b.y[j]) - wide(b.y[i]);
   const auto looking = [](double x, double y) {
     if (std::fabs(x) >= std::fabs(y)) return x >= 0 ? 0 : 2;
     return y >= 0 ? 1 : 3;
   };
-  const Rot ri{bodies.c[i], bodies.s[i]}, rj{bodies.c[j], bodies.s[j]};
+  const Rot ri{wide(b.c[i]), wide(b.s[i])}, rj{wide(b.c[j]), wide(b.s[j])};
   const Vec2 to_j = unrotate(ri, {dx, dy}), to_i = unrotate(rj, {-dx, -dy});
   const int fi = looking(to_j.x(), to_j.y()), fj = looking(to_i.x(), to_i.y());
   const Rot ni = compose(ri, quarter(fi)), nj = compose(rj, quarter(fj));
@@ -65,10 +66,10 @@ void Docking::look_around(Tick& tick) {
   std::fill(peer_.begin(), peer_.end(), std::uint8_t{0});
   candidates_.clear();
   const double near = 2 * half_side_ + reach_;
-  for (const auto& [i, j] : tick.motion.near_pairs(tick.assemblies, near)) {
+  for (const auto& [i, j] : tick.motion.near_pairs(tick.bodies, near)) {
     if (hold_each_other(tick.state, i, j)) continue;  // their other faces cannot meet
     Candidate pair;
-    if (!meet(tick.assemblies, i, j, pair)) continue;
+    if (!meet(tick.bodies, i, j, pair)) continue;
     const Face& a = face_of(tick.state, pair.a);
     const Face& b = face_of(tick.state, pair.b);
     peer_[4 * i + pair.a.face] = peer_[4 * j + pair.b.face] = 1;
@@ -125,11 +126,14 @@ bool Docking::join(Tick& tick, Connector a, Connector b) {
   const int slot_a = tick.state.assembly[a.module], slot_b = tick.state.assembly[b.module];
   saved_slots_.clear();
   saved_members_.clear();
+  tick.fetch();
   if (slot_a != slot_b) save(tick, slot_a), save(tick, slot_b);
   hold(tick.state, a, b);
   if (merge(tick.model, tick.state, tick.assemblies, a.module, a.face, b.module, b.face)) {
+    tick.commit();
     if (slot_a == slot_b) return true;
-    if (tick.motion.settle(tick.state, tick.assemblies, std::min(slot_a, slot_b))) return true;
+    if (tick.movers.settle(tick.motion, tick.bodies, tick.assemblies, std::min(slot_a, slot_b)))
+      return true;
   }
   restore(tick);
   for (const Connector& at : {a, b}) {
@@ -137,6 +141,7 @@ bool Docking::join(Tick& tick, Connector a, Connector b) {
     face_of(tick.state, at).off_ticks = kRetryTicks;
   }
   derive(tick.model, tick.state, tick.assemblies);
+  tick.commit();
   return false;
 }
 
@@ -147,7 +152,7 @@ void Docking::latch(Tick& tick, Connector a, Connector b) {
   };
   // A latch made a moment ago may have moved them or taken a face.
   Candidate now;
-  if (!free(a) || !free(b) || !meet(tick.assemblies, a.module, b.module, now)) return;
+  if (!free(a) || !free(b) || !meet(tick.bodies, a.module, b.module, now)) return;
   if (now.a.face != a.face || now.b.face != b.face) return;
   if (fails(tick, a, Fault::latch)) {
     for (const Connector& at : {a, b}) {

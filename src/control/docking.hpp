@@ -34,7 +34,7 @@ class Docking {
     std::int32_t body = 0, assembly = 0, cell_x = 0, cell_y = 0, turn = 0;
   };
 
-  bool meet(const Assemblies& bodies, int i, int j, Candidate& found) const;
+  bool meet(const Bodies& bodies, int i, int j, Candidate& found) const;
   void look_around(Tick& tick);
   void add_candidate(const Candidate& candidate);
   void come_on(Tick& tick);

@@ -62,7 +62,9 @@ void hold(State& state, Connector a, Connector b) {
 void release(Tick& tick, Connector a, Connector b) {
   set_face(tick.state, a, {}, FaceStatus::off);
   set_face(tick.state, b, {}, FaceStatus::off);
+  tick.fetch();
   split(tick.model, tick.state, tick.assemblies, a.module);
+  tick.commit();
 }
 
 }  // namespace lilytank

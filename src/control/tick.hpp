@@ -15,11 +15,17 @@ struct Tick {
   const Model& model;
   State& state;
   Assemblies& assemblies;
+  Bodies& bodies;  ///< poses and twists as they are
   Motion& motion;
+  Movers& movers;
   std::vector<Event>& events;
   Tallies& tallies;
   std::int64_t number;  ///< ticks since the start
 
+  /// Brings poses and twists of `state` and `assemblies` up to date: before assemblies change.
+  void fetch() { bodies.save(state, assemblies); }
+  /// Takes over those of `state`: after assemblies changed.
+  void commit() { bodies.load(state, assemblies); }
   bool on(int module) const { return state.firmware[module].power == Power::on; }
 };
 

@@ -3,22 +3,34 @@
 #include <cmath>
 
 #include "face_drag_kernel.hpp"
+#include "float_bodies.hpp"
 #include "library.hpp"
 #include "lilytank/model.hpp"
 
 namespace lilytank {
 namespace {
 
-// Bodies [first, first + count) as the kernel takes them; lanes beyond stay at rest in the centre.
-void load_block(const Kinematics& k, int first, int count, bool shadowing, DragBlock& block) {
+// A block's modules as the kernel takes them; lanes beyond stay at rest in the centre.
+struct Lanes {
+  alignas(64) float x[kBulkBodies], y[kBulkBodies], c[kBulkBodies], s[kBulkBodies];
+  alignas(64) float vx[kBulkBodies], vy[kBulkBodies], omega[kBulkBodies];
+  alignas(16) std::uint8_t covered[kBulkBodies];
+  DragBlock block() const { return {x, y, c, s, vx, vy, omega, covered}; }
+};
+
+void load_block(const Kinematics& k, int first, int count, bool shadowing, Lanes& lanes) {
   const auto load = [&](std::span<const double> from, float* to) {
     for (int i = 0; i < count; ++i) to[i] = static_cast<float>(from[first + i]);
     std::fill(to + count, to + kBulkBodies, 0.0f);
   };
-  load(k.x, block.x), load(k.y, block.y), load(k.c, block.c), load(k.s, block.s);
-  load(k.vx, block.vx), load(k.vy, block.vy), load(k.omega, block.omega);
-  std::fill_n(block.covered, kBulkBodies, std::uint8_t{0});
-  if (shadowing) std::copy_n(&k.covered[first], count, block.covered);
+  load(k.x, lanes.x), load(k.y, lanes.y), load(k.c, lanes.c), load(k.s, lanes.s);
+  load(k.vx, lanes.vx), load(k.vy, lanes.vy), load(k.omega, lanes.omega);
+  std::fill_n(lanes.covered, kBulkBodies, std::uint8_t{0});
+  if (shadowing) std::copy_n(&k.covered[first], count, lanes.covered);
+}
+
+double drag_scale(const Model& model, std::span<const double> p, int segments) {
+  return p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
 }
 
 class FaceDrag final : public ForceTerm {
@@ -43,11 +55,10 @@ class FaceDrag final : public ForceTerm {
            std::span<const double> p, std::span<Wrench> out) const override {
     const int segments = static_cast<int>(p[1]);
     DragSettings settings(model, segments, now);
-    const double scale =
-        p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
+    const double scale = drag_scale(model, p, segments);
     for (int first = 0; first < k.modules; first += kBulkBodies) {
       const int count = std::min(kBulkBodies, k.modules - first);
-      DragBlock block;
+      Lanes block;
       DragSums sums;
       load_block(k, first, count, model.module.shadowing, block);
       // Water that moves and turns faster is a module that does so slower.
@@ -57,7 +68,7 @@ class FaceDrag final : public ForceTerm {
         block.omega[i] = static_cast<float>(k.omega[first + i] - now.turning[first + i]);
       }
       settings.draw.body = static_cast<std::uint32_t>(first);
-      face_drag_sums(settings, block, sums);
+      face_drag_sums(settings, block.block(), now.kept, sums);
       for (int i = 0; i < count; ++i) {
         Wrench& w = out[first + i];
         w.fx += scale * static_cast<double>(sums.fx[i]);
@@ -69,6 +80,26 @@ class FaceDrag final : public ForceTerm {
 };
 
 }  // namespace
+
+void add_face_drag(const Model& model, const FloatBodies& b, const StepContext& now,
+                   std::span<const double> p, DragSettings& settings) {
+  settings.set_moment(model, now);
+  const auto scale = static_cast<float>(drag_scale(model, p, settings.segments));
+  static constexpr std::uint8_t kOpen[kBulkBodies] = {};
+  for (int i = 0; i < b.modules; i += kBulkBodies) {
+    DragSums sums;
+    settings.draw.body = static_cast<std::uint32_t>(i);
+    face_drag_sums(settings,
+                   {b.x + i, b.y + i, b.c + i, b.s + i, b.vx + i, b.vy + i, b.omega + i,
+                    model.module.shadowing ? b.covered + i : kOpen},
+                   now.kept, sums);
+    const int count = std::min(kBulkBodies, b.modules - i);
+    for (int k = 0; k < count; ++k) {
+      b.fx[i + k] += scale * sums.fx[k], b.fy[i + k] += scale * sums.fy[k];
+      b.torque[i + k] += scale * sums.torque[k];
+    }
+  }
+}
 
 const ForceTerm& face_drag() {
   static const FaceDrag term;

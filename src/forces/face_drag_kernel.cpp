@@ -1,6 +1,9 @@
 #include "face_drag_kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "forces/kept_gusts.hpp"
 
 // Compiled once for each instruction set, as bulk_normals.cpp is, with the same bits from each. A
 // lane is a module, so nothing is ever summed across lanes.
@@ -23,10 +26,10 @@ struct Drift {
   Float un, wt;
 };
 
-HWY_INLINE Drift drift_of(const Task& task, const FaceFrame& f, const Water& u) {
-  const Float ux = hn::Mul(task.K_v, hn::Add(u.mu_x, hn::Mul(u.sigma_x, task.number(0))));
-  const Float uy = hn::Mul(task.K_v, hn::Add(u.mu_y, hn::Mul(u.sigma_y, task.number(1))));
-  return {f.along_n(ux, uy), hn::Sub(f.along_t(ux, uy), f.vt)};
+HWY_INLINE Drift drift_of(const Task& task, const FaceFrame& f, Water u) {
+  u.mu_x = hn::Add(u.mu_x, hn::Mul(u.sigma_x, task.gust_x));
+  u.mu_y = hn::Add(u.mu_y, hn::Mul(u.sigma_y, task.gust_y));
+  return {f.mean_n(u), hn::Sub(f.mean_t(u), f.vt)};
 }
 
 HWY_INLINE void add_segment(const FaceFrame& f, const Drift& drift, Float at, FaceSum& sum) {
@@ -37,32 +40,44 @@ HWY_INLINE void add_segment(const FaceFrame& f, const Drift& drift, Float at, Fa
   sum.t = hn::Add(sum.t, hn::Mul(a, drift.wt));
 }
 
-// Gusts per drag point.
+// Gusts per drag point. In stages over the points: each is a short chain, of which the processor
+// overlaps many.
 template <FlowAt kAt>
 HWY_INLINE FaceSum point_face(const Task& task, const FaceFrame& f, int face) {
+  constexpr bool kOne = kAt == FlowAt::centre;  // the same water at all points
   const Floats d;
-  const int segments = task.settings.segments;
+  const int segments = task.settings.segments, waters = kOne ? 1 : segments;
+  Water water[kMostSegments];
+  if (kOne)
+    water[0] = task.centre;
+  else
+    water_along(task, f, task.settings.places, segments, water);
+  Gust gust[kMostSegments];
+  Float inverse[kMostSegments];
+  for (int k = 0; k < waters; ++k) {
+    gust[k] = gust_of(water[k], f);
+    inverse[k] = inverse_root(gust[k].variance);
+  }
   FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Float spread = hn::Zero(d);
-  Water water[kMostSegments];
-  water_along<kAt>(task, f, task.settings.places, segments, water);
   for (int k = 0; k < segments; ++k) {
-    const Water& u = water[k];
-    const Gust gust = gust_of(u, f);
-    const Float z = task.number(face * segments + k), at = hn::Set(d, task.settings.places[k]);
-    const Float un = hn::Add(f.along_n(u.mu_x, u.mu_y), hn::Mul(gust.deviation, z));
-    const Float ut = hn::Add(f.along_t(u.mu_x, u.mu_y), hn::Mul(gust.slant, z));
-    const Float against = hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, un));
-    const Float a = hn::Max(against, hn::Zero(d));
-    const Float square = hn::Mul(a, a), rest = hn::Mul(a, gust.rest);
+    const int i = kOne ? 0 : k;
+    const Float z = hn::Mul(task.number(face * segments + k), inverse[i]);
+    const Float at = hn::Set(d, task.settings.places[k]);
+    const Float un = hn::Add(f.mean_n(water[i]), hn::Mul(gust[i].variance, z));
+    const Float ut = hn::Add(f.mean_t(water[i]), hn::Mul(gust[i].covariance, z));
+    const Float a = hn::Max(hn::Sub(f.normal_speed(at), un), hn::Zero(d));
+    const Float square = hn::Mul(a, a);
+    const Float rest = hn::Mul(hn::Mul(gust[i].product, inverse[i]), inverse[i]);
     sum.n = hn::Sub(sum.n, square);
     sum.moment = hn::Sub(sum.moment, hn::Mul(at, square));
-    sum.t = hn::Add(sum.t, hn::Mul(a, hn::Sub(hn::Mul(task.K_v, ut), f.vt)));
-    spread = hn::Add(spread, hn::Mul(rest, rest));
+    sum.t = hn::Add(sum.t, hn::Mul(a, hn::Sub(ut, f.vt)));
+    spread = hn::Add(spread, hn::Mul(rest, square));
   }
   const Float deviation = hn::Mul(spread, inverse_root(spread));
+  const Float gain = hn::Mul(task.gust_K_v, task.gust_K_v);
   const Float z = task.number(4 * segments + face);
-  sum.t = hn::Add(sum.t, hn::Mul(hn::Mul(task.K_v, deviation), z));
+  sum.t = hn::Add(sum.t, hn::Mul(hn::Mul(gain, deviation), z));
   return sum;
 }
 
@@ -71,7 +86,7 @@ HWY_INLINE FaceSum module_face(const Task& task, const FaceFrame& f) {
   const Floats d;
   FaceSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Water water[kMostSegments];
-  water_along<FlowAt::points>(task, f, task.settings.places, task.settings.segments, water);
+  water_along(task, f, task.settings.places, task.settings.segments, water);
   for (int k = 0; k < task.settings.segments; ++k) {
     const Drift drift = drift_of(task, f, water[k]);
     add_segment(f, drift, hn::Set(d, task.settings.places[k]), sum);
@@ -105,34 +120,33 @@ HWY_INLINE FaceSum uniform_face(const Task& task, const FaceFrame& f) {
           hn::IfThenElse(mixed, each.moment, sum.moment)};
 }
 
-template <Gusts kGusts, FlowAt kAt, bool kDrawn = true>
-HWY_INLINE void sum_faces(const Task& task, const Modules& m, WrenchSum& out) {
-  Spread spread;
-  if (kGusts == Gusts::moment_matched && kDrawn) spread.clear();
+template <Gusts kGusts, FlowAt kAt>
+HWY_INLINE void sum_faces(Task& task, const Modules& m, WrenchSum& out) {
+  if (kGusts == Gusts::per_module) {
+    const Float gain = hn::Set(Floats(), task.settings.gust_gain);
+    task.gust_x = hn::Mul(gain, task.number(0)), task.gust_y = hn::Mul(gain, task.number(1));
+  }
   for (int face = 0; face < 4; ++face) {
     const FaceFrame f = face_frame(task, m, face);
     FaceSum sum;
     if (kGusts == Gusts::per_point)
       sum = point_face<kAt>(task, f, face);
-    else if (kGusts == Gusts::per_module)
-      sum = kAt == FlowAt::centre ? uniform_face(task, f) : module_face(task, f);
     else
-      sum = matched_face<kAt, kDrawn>(task, f, face, spread);
+      sum = kAt == FlowAt::centre ? uniform_face(task, f) : module_face(task, f);
     add_face(f, sum, task.half, out);
   }
-  if (kGusts == Gusts::moment_matched && kDrawn) spread.draw(task, m, out);
 }
 
 template <FlowAt kAt>
-void sum_modules(const Task& task, const Modules& m, WrenchSum& out) {
+void sum_modules(Task& task, const Modules& m, WrenchSum& out) {
   if (!task.settings.gusty || task.settings.gusts == Gusts::per_module)
     sum_faces<Gusts::per_module, kAt>(task, m, out);
   else if (task.settings.gusts == Gusts::per_point)
     sum_faces<Gusts::per_point, kAt>(task, m, out);
   else if (task.settings.expected)
-    sum_faces<Gusts::moment_matched, kAt, false>(task, m, out);
+    matched_faces<kAt, false>(task, m, out);
   else
-    sum_faces<Gusts::moment_matched, kAt>(task, m, out);
+    matched_faces<kAt, true>(task, m, out);
 }
 
 }  // namespace
@@ -148,13 +162,15 @@ void drag(const DragSettings& settings, const DragBlock& block, const float* z, 
                     hn::Load(d, block.omega + i)};
     Task task(settings, field, block.covered + i, z + i);
     WrenchSum sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const Float gx = field.cells_of(m.x), gy = field.cells_of(m.y);
     if (settings.at == FlowAt::centre) {
       Spots spots;
-      locate(field, field.cells_of(m.x), field.cells_of(m.y), 0, spots);
+      locate(field, gx, gy, 0, spots);
       read(field, spots, 1, &task.centre);
-      calm(settings, 1, &task.centre);
       sum_modules<FlowAt::centre>(task, m, sum);
     } else {
+      // Nearly always. 1.5: more than the way to a corner, with room for rounding.
+      task.inside = field.surrounds(gx, gy, 1.5f * settings.half * field.per_metre);
       sum_modules<FlowAt::points>(task, m, sum);
     }
     hn::Store(sum.fx, d, out.fx + i), hn::Store(sum.fy, d, out.fy + i);
@@ -170,21 +186,16 @@ namespace lilytank {
 
 HWY_EXPORT(drag);
 
-namespace {
-
-// How many numbers a module takes.
-int numbers(const DragSettings& s) {
-  switch (s.gusts) {
+int gust_numbers(Gusts gusts, int segments) {
+  switch (gusts) {
     case Gusts::per_point:
-      return 4 * s.segments + 4;
+      return 4 * segments + 4;
     case Gusts::per_module:
       return 2;
     default:
       return 4;
   }
 }
-
-}  // namespace
 
 DragSettings::DragSettings(const Model& model, int segments_, const StepContext& now)
     : field(&field_now(model, now)),
@@ -208,6 +219,13 @@ DragSettings::DragSettings(const Model& model, int segments_, const StepContext&
   if (gusts == Gusts::moment_matched) set_nodes(second, fourth);
 }
 
+void DragSettings::set_moment(const Model& model, const StepContext& now) {
+  field = &field_now(model, now);
+  K_v = static_cast<float>(model.flow.K_v * now.gain),
+  gust_gain = static_cast<float>(now.gust_gain);
+  draw = {now.seed, Stream::gust, now.gust, 0, 0};
+}
+
 void DragSettings::set_nodes(double second, double fourth) {
   const double square = second > 0 ? fourth / second : 0;
   const double beside = square > 0 ? 0.5 * second / square : 0, way = std::sqrt(square);
@@ -216,12 +234,18 @@ void DragSettings::set_nodes(double second, double fourth) {
   weights[1] = static_cast<float>(segments - 2 * beside);
 }
 
-void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out) {
-  alignas(64) float z[(4 * kMostSegments + 4) * kBulkBodies];
+void face_drag_sums(const DragSettings& settings, const DragBlock& block, KeptGusts* kept,
+                    DragSums& out) {
+  alignas(64) float buffer[(4 * kMostSegments + 4) * kBulkBodies];
+  const float* z = buffer;
   if (settings.gusty && !settings.expected) {
-    bulk_normals(settings.draw, numbers(settings), z);
+    const int count = gust_numbers(settings.gusts, settings.segments);
+    if (kept != nullptr)
+      z = kept->normals(settings.draw, count, buffer);
+    else
+      bulk_normals(settings.draw, count, buffer);
   } else {
-    std::fill(z, z + 4 * kBulkBodies, 0.0f);
+    std::fill(buffer, buffer + 4 * kBulkBodies, 0.0f);
   }
   HWY_DYNAMIC_DISPATCH(drag)(settings, block, z, out);
 }

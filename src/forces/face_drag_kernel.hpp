@@ -13,6 +13,8 @@ constexpr int kMostSegments = 24;
 /// What is the same for all modules in a step.
 struct DragSettings {
   DragSettings(const Model& model, int segments_, const StepContext& now);
+  /// Takes over what changes from step to step.
+  void set_moment(const Model& model, const StepContext& now);
 
   const FlowField* field;
   Gusts gusts;
@@ -36,11 +38,11 @@ struct DragSettings {
   void set_nodes(double second, double fourth);
 };
 
-/// Poses and twists of up to sixteen modules (m, m/s, rad/s); `covered` as in Kinematics.
+/// Poses and twists of sixteen modules (m, m/s, rad/s), in arrays aligned to 64 bytes; `covered`
+/// as in Kinematics.
 struct DragBlock {
-  alignas(64) float x[kBulkBodies], y[kBulkBodies], c[kBulkBodies], s[kBulkBodies];
-  alignas(64) float vx[kBulkBodies], vy[kBulkBodies], omega[kBulkBodies];
-  alignas(16) std::uint8_t covered[kBulkBodies];
+  const float *x, *y, *c, *s, *vx, *vy, *omega;
+  const std::uint8_t* covered;
 };
 
 /// Sums over a module's segments of max(0, -n.w) w, w = u(p) - v_p (m^2/s^2), and of its torque
@@ -59,6 +61,12 @@ struct DragSums {
 /// Moment-matched gusts: the wrench is normal with the exact mean and covariance (over the three
 /// nodes of each face that integrate degree five over its segments exactly) and is made of numbers
 /// 0, 1 and 2.
-void face_drag_sums(const DragSettings& settings, const DragBlock& block, DragSums& out);
+///
+/// `kept`: where these numbers are kept, or null.
+void face_drag_sums(const DragSettings& settings, const DragBlock& block, KeptGusts* kept,
+                    DragSums& out);
+
+/// How many numbers a module takes.
+int gust_numbers(Gusts gusts, int segments);
 
 }  // namespace lilytank

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "face_drag_kernel.hpp"
 #include "flow_lookup_inl.hpp"
 #include "truncated_normal_inl.hpp"
@@ -30,14 +32,18 @@ struct Task {
         covered(covered_),
         numbers(numbers_),
         K_v(hn::Set(Floats(), settings_.K_v)),
+        gust_K_v(hn::Set(Floats(), settings_.K_v * settings_.gust_gain)),
         half(hn::Set(Floats(), settings_.half)) {}
 
   const DragSettings& settings;
   const Lookup& field;
   const std::uint8_t* covered;
   const float* numbers;  ///< of these lanes, kBulkBodies apart
+  bool inside = false;   ///< the field surrounds all points, see Lookup
   Water centre;          ///< at the modules' centres, where FlowAt says so
-  Float K_v, half;
+  Float K_v, gust_K_v;   ///< factors on the field's mean and deviation
+  Float half;
+  Float gust_x, gust_y;  ///< the module's one gust, in deviations
 
   HWY_INLINE Float number(int k) const { return hn::Load(Floats(), numbers + k * kBulkBodies); }
 };
@@ -48,12 +54,21 @@ struct FaceFrame {
   Float vn, vt, omega;  ///< m/s along n and t; rad/s
   Float gx, gy;         ///< the middle, in cells
   Float open;           ///< 1, or 0 where a neighbour covers it
+  Float wx, wy;         ///< K_v n
+  Float xx, xy, yy;     ///< products of gust_K_v n_x and gust_K_v n_y
 
   HWY_INLINE Float along_n(Float x, Float y) const {
     return hn::Add(hn::Mul(x, nx), hn::Mul(y, ny));
   }
   HWY_INLINE Float along_t(Float x, Float y) const {
     return hn::Sub(hn::Mul(y, nx), hn::Mul(x, ny));
+  }
+  /// The mean flow along n and t, K_v included.
+  HWY_INLINE Float mean_n(const Water& u) const {
+    return hn::Add(hn::Mul(u.mu_x, wx), hn::Mul(u.mu_y, wy));
+  }
+  HWY_INLINE Float mean_t(const Water& u) const {
+    return hn::Sub(hn::Mul(u.mu_y, wx), hn::Mul(u.mu_x, wy));
   }
   /// Speed of the place `at` along n.
   HWY_INLINE Float normal_speed(Float at) const { return hn::Sub(vn, hn::Mul(omega, at)); }
@@ -79,6 +94,9 @@ HWY_INLINE FaceFrame face_frame(const Task& task, const Modules& m, int face) {
   f.gx = task.field.cells_of(hn::Add(m.x, hn::Mul(task.half, f.nx)));
   f.gy = task.field.cells_of(hn::Add(m.y, hn::Mul(task.half, f.ny)));
   f.open = open_of(task.covered, face);
+  f.wx = hn::Mul(task.K_v, f.nx), f.wy = hn::Mul(task.K_v, f.ny);
+  const Float x = hn::Mul(task.gust_K_v, f.nx), y = hn::Mul(task.gust_K_v, f.ny);
+  f.xx = hn::Mul(x, x), f.xy = hn::Mul(x, y), f.yy = hn::Mul(y, y);
   return f;
 }
 
@@ -99,48 +117,41 @@ HWY_INLINE void add_face(const FaceFrame& f, FaceSum sum, Float half, WrenchSum&
   out.torque = hn::Add(out.torque, hn::Sub(hn::Mul(half, sum.t), sum.moment));
 }
 
-/// Gusts in a face's frame, before K_v: those along n are deviation z, those along t are slant z +
-/// rest z', z and z' independent standard normals.
+/// Covariance of the gusts along n and t at a point, K_v included except in `product`: given the
+/// one along n, the one along t has the mean covariance / variance times it, and the variance
+/// gust_K_v^4 product / variance.
 struct Gust {
-  Float deviation, slant, rest, inverse;  ///< m/s; inverse = 1 / deviation, large where that is 0
+  Float variance, covariance;  ///< m^2/s^2
+  Float product;               ///< of the variances along x and y, m^4/s^4
 };
 
 HWY_INLINE Gust gust_of(const Water& u, const FaceFrame& f) {
-  const Float p = hn::Mul(u.sigma_x, f.nx), q = hn::Mul(u.sigma_y, f.ny);
-  const Float p_t = hn::Mul(u.sigma_x, f.ny), q_t = hn::Mul(u.sigma_y, f.nx);
-  const Float variance = hn::Add(hn::Mul(p, p), hn::Mul(q, q));
-  const Float covariance = hn::Sub(hn::Mul(q, q_t), hn::Mul(p, p_t));
-  const Float inverse = inverse_root(variance);
-  return {hn::Mul(variance, inverse), hn::Mul(covariance, inverse),
-          hn::Mul(hn::Mul(u.sigma_x, u.sigma_y), inverse), inverse};
+  const Float x = hn::Mul(u.sigma_x, u.sigma_x), y = hn::Mul(u.sigma_y, u.sigma_y);
+  return {hn::Add(hn::Mul(x, f.xx), hn::Mul(y, f.yy)), hn::Mul(f.xy, hn::Sub(y, x)), hn::Mul(x, y)};
 }
 
-/// Leaves the field's deviation at the share that it has now.
-HWY_INLINE void calm(const DragSettings& settings, int count, Water* water) {
-  if (settings.gust_gain == 1) return;
-  const Float gain = hn::Set(Floats(), settings.gust_gain);
-  for (int k = 0; k < count; ++k) {
-    water[k].sigma_x = hn::Mul(water[k].sigma_x, gain);
-    water[k].sigma_y = hn::Mul(water[k].sigma_y, gain);
-  }
+/// Notes places along a face (m from its middle) as points `first` and on.
+HWY_INLINE void locate_along(const Task& task, const FaceFrame& f, const float* places, int count,
+                             int first, Spots& spots) {
+  const auto locate_all = [&](auto inside) {
+    for (int k = 0; k < count; ++k) {
+      const Float way = hn::Set(Floats(), places[k] * task.field.per_metre);
+      const Float gx = hn::Sub(f.gx, hn::Mul(way, f.ny)), gy = hn::Add(f.gy, hn::Mul(way, f.nx));
+      locate<inside>(task.field, gx, gy, first + k, spots);
+    }
+  };
+  if (task.inside)
+    locate_all(std::true_type());
+  else
+    locate_all(std::false_type());
 }
 
-/// The water at places along a face (m from its middle).
-template <FlowAt kAt>
+/// The water at places along a face.
 HWY_INLINE void water_along(const Task& task, const FaceFrame& f, const float* places, int count,
                             Water* out) {
-  if (kAt == FlowAt::centre) {
-    for (int k = 0; k < count; ++k) out[k] = task.centre;
-    return;
-  }
   Spots spots;
-  for (int k = 0; k < count; ++k) {
-    const Float way = hn::Set(Floats(), places[k] * task.field.per_metre);
-    const Float gx = hn::Sub(f.gx, hn::Mul(way, f.ny)), gy = hn::Add(f.gy, hn::Mul(way, f.nx));
-    locate(task.field, gx, gy, k, spots);
-  }
+  locate_along(task, f, places, count, 0, spots);
   read(task.field, spots, count, out);
-  calm(task.settings, count, out);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE

@@ -66,13 +66,29 @@ struct Spread {
   }
 };
 
+/// Of f_t = a (A - b a + rho z) at a node.
+struct Tangential {
+  Float A, b, rho_2;
+};
+
+HWY_INLINE Tangential tangential_of(const Task& task, const FaceFrame& f, const Water& u,
+                                    const Gust& gust, const Normal& a) {
+  Tangential t;
+  t.b = hn::Mul(hn::Mul(gust.covariance, a.inverse), a.inverse);
+  t.A = hn::Add(hn::Sub(f.mean_t(u), f.vt), hn::Mul(t.b, a.mean));
+  const Float scaled = hn::Mul(hn::Mul(task.gust_K_v, task.gust_K_v), a.inverse);
+  t.rho_2 = hn::Mul(hn::Mul(gust.product, scaled), scaled);
+  return t;
+}
+
 /// Means of f_n = -a^2 and f_t = a (A - b a + rho z), a = max(0, -n.w), and their covariances.
 struct SegmentMoments {
   Float square;  ///< E[a^2]
   Float t, nn, nt, tt;
 };
 
-HWY_INLINE SegmentMoments segment_moments(const Moments& m, Float A, Float b, Float rho) {
+HWY_INLINE SegmentMoments segment_moments(const Moments& m, const Tangential& f) {
+  const Float A = f.A, b = f.b;
   SegmentMoments s;
   s.square = m.m2;
   s.t = hn::Sub(hn::Mul(A, m.m1), hn::Mul(b, m.m2));
@@ -81,70 +97,85 @@ HWY_INLINE SegmentMoments segment_moments(const Moments& m, Float A, Float b, Fl
   s.nt = hn::Sub(hn::Mul(m.m2, s.t), third);
   const Float second = hn::Sub(hn::Mul(A, m.m2), hn::Mul(b, m.m3));
   const Float all = hn::Sub(hn::Mul(A, second), hn::Mul(b, third));  // E[f_t^2] without z
-  const Float own = hn::Mul(hn::Mul(rho, rho), m.m2);
+  const Float own = hn::Mul(f.rho_2, m.m2);
   s.tt = at_least_zero(hn::Add(hn::Sub(all, hn::Mul(s.t, s.t)), own));
   return s;
 }
 
-/// What is known at a node before its moments are taken.
-struct Node {
-  Float mean, deviation, inverse;  ///< of -n.w
-  Float wt, b, rho;                ///< f_t = a (wt + b mean - b a + rho z)
+/// Sums over a face's nodes: the outer two have one weight and lie as far on either side of the
+/// middle.
+struct NodeSums {
+  NodeSums(const DragSettings& settings, Float open)
+      : outer(hn::Mul(hn::Set(Floats(), settings.weights[2]), open)),
+        middle(hn::Mul(hn::Set(Floats(), settings.weights[1]), open)),
+        way(hn::Set(Floats(), settings.nodes[2])) {}
+
+  Float outer, middle, way;
+
+  HWY_INLINE Float outside(Float a, Float c) const { return hn::Mul(outer, hn::Add(a, c)); }
+  /// Weighted by place.
+  HWY_INLINE Float by_place(Float a, Float c) const {
+    return hn::Mul(hn::Mul(outer, way), hn::Sub(c, a));
+  }
+  HWY_INLINE Float all(Float a, Float b, Float c) const {
+    return hn::Add(outside(a, c), hn::Mul(middle, b));
+  }
 };
 
-HWY_INLINE Node node_of(const Task& task, const FaceFrame& f, const Water& u, Float at,
-                        Float per_K) {
-  const Gust gust = gust_of(u, f);
-  Node n;
-  n.mean = hn::Sub(f.normal_speed(at), hn::Mul(task.K_v, f.along_n(u.mu_x, u.mu_y)));
-  n.deviation = hn::Mul(task.K_v, gust.deviation), n.inverse = hn::Mul(gust.inverse, per_K);
-  n.wt = hn::Sub(hn::Mul(task.K_v, f.along_t(u.mu_x, u.mu_y)), f.vt);
-  n.b = hn::Mul(gust.slant, gust.inverse), n.rho = hn::Mul(task.K_v, gust.rest);
-  return n;
+HWY_INLINE FaceSum mean_of(const NodeSums& w, const SegmentMoments (&s)[3]) {
+  return {hn::Neg(w.all(s[0].square, s[1].square, s[2].square)), w.all(s[0].t, s[1].t, s[2].t),
+          hn::Neg(w.by_place(s[0].square, s[2].square))};
 }
 
-HWY_INLINE void add_mean(const SegmentMoments& s, Float at, Float weight, FaceSum& sum) {
-  const Float square = hn::Mul(weight, s.square);
-  sum.n = hn::Sub(sum.n, square);
-  sum.moment = hn::Sub(sum.moment, hn::Mul(square, at));
-  sum.t = hn::Add(sum.t, hn::Mul(weight, s.t));
+HWY_INLINE FaceCovariance covariance_of(const NodeSums& w, const SegmentMoments (&s)[3]) {
+  const Float nn = w.outside(s[0].nn, s[2].nn);
+  return {hn::Add(nn, hn::Mul(w.middle, s[1].nn)),
+          w.by_place(s[0].nn, s[2].nn),
+          hn::Mul(nn, hn::Mul(w.way, w.way)),
+          w.all(s[0].nt, s[1].nt, s[2].nt),
+          w.by_place(s[0].nt, s[2].nt),
+          w.all(s[0].tt, s[1].tt, s[2].tt)};
 }
 
-HWY_INLINE void add_covariance(const SegmentMoments& s, Float at, Float weight, FaceCovariance& c) {
-  const Float nn = hn::Mul(weight, s.nn), nt = hn::Mul(weight, s.nt), nn_s = hn::Mul(nn, at);
-  c.nn = hn::Add(c.nn, nn), c.nn_s = hn::Add(c.nn_s, nn_s);
-  c.nn_ss = hn::Add(c.nn_ss, hn::Mul(nn_s, at));
-  c.nt = hn::Add(c.nt, nt), c.nt_s = hn::Add(c.nt_s, hn::Mul(nt, at));
-  c.tt = hn::Add(c.tt, hn::Mul(weight, s.tt));
-}
-
-// In stages over the three nodes, whose chains the processor can then overlap. Of an expected drag
-// nothing is drawn, so its covariance is not asked for.
+// In stages over the three nodes of all faces, whose chains the processor can then overlap. Of an
+// expected drag nothing is drawn, so its covariance is not computed.
 template <FlowAt kAt, bool kDrawn>
-HWY_INLINE FaceSum matched_face(const Task& task, const FaceFrame& f, int face, Spread& spread) {
+HWY_INLINE void matched_faces(const Task& task, const Modules& m, WrenchSum& out) {
   const Floats d;
-  const Float zero = hn::Zero(d);
-  FaceSum sum{zero, zero, zero};
-  FaceCovariance c{zero, zero, zero, zero, zero, zero};
   const float* places = task.settings.nodes;
-  const Float per_K = hn::Div(hn::Set(d, 1.0f), hn::Max(task.K_v, hn::Set(d, 1e-6f)));
-  Water water[3];
-  water_along<kAt>(task, f, places, 3, water);
-  Node node[3];
-  for (int k = 0; k < 3; ++k) node[k] = node_of(task, f, water[k], hn::Set(d, places[k]), per_K);
-  Moments moments[3];
-  for (int k = 0; k < 3; ++k)
-    moments[k] = positive_moments(node[k].mean, node[k].deviation, node[k].inverse);
-  for (int k = 0; k < 3; ++k) {
-    const Node& n = node[k];
-    const Float A = hn::Add(n.wt, hn::Mul(n.b, n.mean));
-    const Float weight = hn::Mul(hn::Set(d, task.settings.weights[k]), f.open);
-    const SegmentMoments s = segment_moments(moments[k], A, n.b, n.rho);
-    add_mean(s, hn::Set(d, places[k]), weight, sum);
-    if (kDrawn) add_covariance(s, hn::Set(d, places[k]), weight, c);
+  const FaceFrame frames[4] = {face_frame(task, m, 0), face_frame(task, m, 1),
+                               face_frame(task, m, 2), face_frame(task, m, 3)};
+  Water water[12];
+  if (kAt == FlowAt::points) {
+    Spots spots;
+    for (int face = 0; face < 4; ++face)
+      locate_along(task, frames[face], places, 3, 3 * face, spots);
+    read(task.field, spots, 12, water);
   }
-  if (kDrawn) spread.add(face, c, task.half);
-  return sum;
+  Normal against[12];  // -n.w
+  Tangential along[12];
+  for (int i = 0; i < 12; ++i) {
+    const FaceFrame& f = frames[i / 3];
+    const Water& u = kAt == FlowAt::points ? water[i] : task.centre;
+    const Gust gust = gust_of(u, f);
+    const Float speed = f.normal_speed(hn::Set(d, places[i % 3]));
+    against[i] = {hn::Sub(speed, f.mean_n(u)), gust.variance, inverse_root(gust.variance)};
+    along[i] = tangential_of(task, f, u, gust, against[i]);
+  }
+  Moments moments[12];
+  positive_moments(against, moments);
+  Spread spread;
+  spread.clear();
+  for (int face = 0; face < 4; ++face) {
+    const int i = 3 * face;
+    const SegmentMoments s[3] = {segment_moments(moments[i], along[i]),
+                                 segment_moments(moments[i + 1], along[i + 1]),
+                                 segment_moments(moments[i + 2], along[i + 2])};
+    const NodeSums sums(task.settings, frames[face].open);
+    add_face(frames[face], mean_of(sums, s), task.half, out);
+    if (kDrawn) spread.add(face, covariance_of(sums, s), task.half);
+  }
+  if (kDrawn) spread.draw(task, m, out);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE

@@ -40,21 +40,36 @@ struct Lookup {
     return hn::Sub(hn::Mul(hn::Add(metres, hn::Set(d, extent)), hn::Set(d, per_metre)),
                    hn::Set(d, 0.5f));
   }
+  /// Whether all points within `reach` cells of these (in cells) lie between the outermost cell
+  /// centres of a bilinear field.
+  HWY_INLINE bool surrounds(Float gx, Float gy, float reach) const {
+    const Floats d;
+    const Float first = hn::Set(d, reach), last = hn::Set(d, static_cast<float>(cells - 1) - reach);
+    const Float least = hn::Min(gx, gy), most = hn::Max(gx, gy);
+    return !nearest && hn::AllTrue(d, hn::And(hn::Ge(least, first), hn::Lt(most, last)));
+  }
 };
 
 /// Points to be read, up to kMostPoints for each lane: where a point's row begins (bytes), and its
 /// place between cell centres.
 constexpr int kMostPoints = 24;
 struct Spots {
-  alignas(64) std::int32_t offset[kMostPoints][16];
-  Float tx[kMostPoints], ty[kMostPoints];
+  alignas(64) std::int32_t offset[kMostPoints][kBulkBodies];
+  alignas(64) float tx[kMostPoints][kBulkBodies], ty[kMostPoints][kBulkBodies];
 };
 
+// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, (a + ty c) + tx (b + ty e) from the
+// row of its cell.
+#if HWY_MAX_BYTES >= 32
+// Wider vectors would need more shuffles.
+using Eight = hn::CappedTag<float, 8>;
+using EightFloats = hn::Vec<Eight>;
+
 // In-block 4 x 4 transposition: lane 4b + i of vector j goes to lane 4b + j of vector i.
-HWY_INLINE void transpose(Float& a, Float& b, Float& c, Float& e) {
-  const Floats d;
-  const Wide w;
-  const auto wide = [&](Float v) { return hn::BitCast(w, v); };
+HWY_INLINE void transpose(EightFloats& a, EightFloats& b, EightFloats& c, EightFloats& e) {
+  const Eight d;
+  const hn::RepartitionToWide<Eight> w;
+  const auto wide = [&](EightFloats v) { return hn::BitCast(w, v); };
   const auto l0 = wide(hn::InterleaveLower(d, a, b)), u0 = wide(hn::InterleaveUpper(d, a, b));
   const auto l1 = wide(hn::InterleaveLower(d, c, e)), u1 = wide(hn::InterleaveUpper(d, c, e));
   a = hn::BitCast(d, hn::InterleaveLower(w, l0, l1));
@@ -63,79 +78,53 @@ HWY_INLINE void transpose(Float& a, Float& b, Float& c, Float& e) {
   e = hn::BitCast(d, hn::InterleaveUpper(w, u0, u1));
 }
 
-// Four floats (mu_x, mu_y, sigma_x, sigma_y) for each point, (a + ty c) + tx (b + ty e) from the
-// row of its cell.
-#if HWY_MAX_BYTES == 64
-HWY_INLINE Float spread(Float v, const std::int32_t (&lanes)[16]) {
-  return hn::TableLookupLanes(v, hn::SetTableIndices(Floats(), lanes));
-}
-
-// Points j, 4 + j, 8 + j and 12 + j, one in each block of the result.
-template <int j>
-HWY_INLINE Float read_four(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
-  alignas(64) static constexpr std::int32_t kFirst[16] = {
-      j, j, j, j, j, j, j, j, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4, j + 4};
-  alignas(64) static constexpr std::int32_t kSecond[16] = {
-      j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,  j + 8,
-      j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12, j + 12};
-  alignas(64) static constexpr std::int32_t kAll[16] = {j,      j,      j,      j,     j + 4, j + 4,
-                                                        j + 4,  j + 4,  j + 8,  j + 8, j + 8, j + 8,
-                                                        j + 12, j + 12, j + 12, j + 12};
-  const Floats d;
-  const hn::Half<Floats> half;
-  const auto row = [&](int k) { return reinterpret_cast<const float*>(rows + offset[k]); };
-  // [a b] + ty [c e] of two points.
-  const auto along_y = [&](int p, int q, Float y) {
-    const auto low = hn::Combine(d, hn::Load(half, row(q)), hn::Load(half, row(p)));
-    const auto high = hn::Combine(d, hn::Load(half, row(q) + 8), hn::Load(half, row(p) + 8));
-    return hn::Add(low, hn::Mul(high, y));
-  };
-  const Float one = along_y(j, j + 4, spread(ty, kFirst));
-  const Float two = along_y(j + 8, j + 12, spread(ty, kSecond));
-  const Float even{_mm512_shuffle_f32x4(one.raw, two.raw, 0x88)};
-  const Float odd{_mm512_shuffle_f32x4(one.raw, two.raw, 0xDD)};
-  return hn::Add(even, hn::Mul(odd, spread(tx, kAll)));
-}
-
-HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
-  Float a = read_four<0>(rows, offset, tx, ty), b = read_four<1>(rows, offset, tx, ty);
-  Float c = read_four<2>(rows, offset, tx, ty), e = read_four<3>(rows, offset, tx, ty);
-  transpose(a, b, c, e);
-  return {a, b, c, e};
-}
-#elif HWY_MAX_BYTES == 32
 // Points j and 4 + j, one in each block of the result.
 template <int j>
-HWY_INLINE Float read_two(const char* rows, const std::int32_t* offset, Float tx, const float* ty) {
-  const Floats d;
+HWY_INLINE EightFloats read_two(const char* rows, const std::int32_t* offset, EightFloats tx,
+                                const float* ty) {
+  const Eight d;
   // [a b] + ty [c e] of a point.
   const auto along_y = [&](int p) {
     const float* row = reinterpret_cast<const float*>(rows + offset[p]);
     return hn::Add(hn::Load(d, row), hn::Mul(hn::Load(d, row + 8), hn::Set(d, ty[p])));
   };
-  const Float one = along_y(j), two = along_y(j + 4);
-  const Float even = hn::ConcatLowerLower(d, two, one), odd = hn::ConcatUpperUpper(d, two, one);
+  const auto one = along_y(j), two = along_y(j + 4);
+  const auto even = hn::ConcatLowerLower(d, two, one), odd = hn::ConcatUpperUpper(d, two, one);
   return hn::Add(even, hn::Mul(odd, hn::Broadcast<j>(tx)));
 }
 
-HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
-  alignas(32) float y[8];
-  hn::Store(ty, Floats(), y);
-  Float a = read_two<0>(rows, offset, tx, y), b = read_two<1>(rows, offset, tx, y);
-  Float c = read_two<2>(rows, offset, tx, y), e = read_two<3>(rows, offset, tx, y);
-  transpose(a, b, c, e);
-  return {a, b, c, e};
+struct EightWaters {
+  EightFloats v[4];
+};
+HWY_INLINE EightWaters read_eight(const char* rows, const std::int32_t* offset, const float* tx,
+                                  const float* ty) {
+  const auto x = hn::Load(Eight(), tx);
+  EightWaters u{{read_two<0>(rows, offset, x, ty), read_two<1>(rows, offset, x, ty),
+                 read_two<2>(rows, offset, x, ty), read_two<3>(rows, offset, x, ty)}};
+  transpose(u.v[0], u.v[1], u.v[2], u.v[3]);
+  return u;
+}
+
+HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, const float* tx,
+                           const float* ty) {
+  const EightWaters u = read_eight(rows, offset, tx, ty);
+#if HWY_MAX_BYTES == 32
+  return {u.v[0], u.v[1], u.v[2], u.v[3]};
+#else
+  const EightWaters w = read_eight(rows, offset + 8, tx + 8, ty + 8);
+  const auto both = [&](int k) { return hn::Combine(Floats(), w.v[k], u.v[k]); };
+  return {both(0), both(1), both(2), both(3)};
+#endif
 }
 #else
-HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float tx, Float ty) {
+HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, const float* tx,
+                           const float* ty) {
   const Floats d;
   const hn::CappedTag<float, 4> four;
-  constexpr int kLanes = HWY_MIN(HWY_MAX_BYTES / 4, 16);
-  alignas(64) float x[kLanes], y[kLanes], out[4 * kLanes];
-  hn::Store(tx, d, x), hn::Store(ty, d, y);
+  alignas(64) float out[4 * kBulkBodies];
   for (int i = 0; i < static_cast<int>(hn::Lanes(d)); ++i) {
     const float* row = reinterpret_cast<const float*>(rows + offset[i]);
-    const auto wx = hn::Set(four, x[i]), wy = hn::Set(four, y[i]);
+    const auto wx = hn::Set(four, tx[i]), wy = hn::Set(four, ty[i]);
     const auto low = hn::Add(hn::Load(four, row), hn::Mul(hn::Load(four, row + 8), wy));
     const auto high = hn::Add(hn::Load(four, row + 4), hn::Mul(hn::Load(four, row + 12), wy));
     hn::Store(hn::Add(low, hn::Mul(high, wx)), four, out + 4 * i);
@@ -146,26 +135,32 @@ HWY_INLINE Water read_rows(const char* rows, const std::int32_t* offset, Float t
 }
 #endif
 
-/// Notes point k, given in cells.
+/// Notes point k, given in cells. `kInside`: all lanes' points are known to lie between the
+/// outermost cell centres of a bilinear field.
+template <bool kInside = false>
 HWY_INLINE void locate(const Lookup& field, Float gx, Float gy, int k, Spots& spots) {
   const Floats d;
   const Whole w;
-  const Float last = hn::Set(d, static_cast<float>(field.cells - 1));
-  const Float most = hn::Set(d, static_cast<float>(field.cells - 2));
-  gx = hn::Min(hn::Max(gx, hn::Zero(d)), last), gy = hn::Min(hn::Max(gy, hn::Zero(d)), last);
-  if (field.nearest) {
-    const Float half = hn::Set(d, 0.5f);
-    gx = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gx, half)));
-    gy = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gy, half)));
+  Float x = gx, y = gy;
+  if (!kInside) {
+    const Float last = hn::Set(d, static_cast<float>(field.cells - 1));
+    const Float most = hn::Set(d, static_cast<float>(field.cells - 2));
+    gx = hn::Min(hn::Max(gx, hn::Zero(d)), last), gy = hn::Min(hn::Max(gy, hn::Zero(d)), last);
+    if (field.nearest) {
+      const Float half = hn::Set(d, 0.5f);
+      gx = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gx, half)));
+      gy = hn::ConvertTo(d, hn::ConvertTo(w, hn::Add(gy, half)));
+    }
+    x = hn::Min(gx, most), y = hn::Min(gy, most);
   }
-  const Float ix = hn::Floor(hn::Min(gx, most)), iy = hn::Floor(hn::Min(gy, most));
+  const Float ix = hn::Floor(x), iy = hn::Floor(y);
   const Float row = hn::Add(hn::Mul(iy, hn::Set(d, static_cast<float>(field.cells))), ix);
   // Whole numbers below 2^23 are the low bits of their sum with it: rounding to integers would look
   // after overflows as well.
   const Float unit = hn::Set(d, 8388608.0f);
   const auto whole = hn::Sub(hn::BitCast(w, hn::Add(row, unit)), hn::BitCast(w, unit));
   hn::Store(hn::ShiftLeft<6>(whole), w, spots.offset[k]);
-  spots.tx[k] = hn::Sub(gx, ix), spots.ty[k] = hn::Sub(gy, iy);
+  hn::Store(hn::Sub(gx, ix), d, spots.tx[k]), hn::Store(hn::Sub(gy, iy), d, spots.ty[k]);
 }
 
 /// The field at the first `count` points noted. Finding all places first and then reading all rows

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "float_bodies.hpp"
 #include "library.hpp"
 #include "lilytank/model.hpp"
 #include "math/bulk_random.hpp"
@@ -46,6 +47,20 @@ class StochasticForce final : public ForceTerm {
 };
 
 }  // namespace
+
+void add_stochastic_force(const Model& model, const FloatBodies& b, const StepContext& now,
+                          std::span<const double> p) {
+  if (!now.gusts) return;
+  const auto sigma =
+      static_cast<float>(p[0] * std::sqrt(static_cast<double>(model.steps_per_tick)));
+  alignas(64) float z[2 * kBulkBodies];
+  for (int i = 0; i < b.count; i += kBulkBodies) {
+    bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(i), 0}, 2, z);
+    for (int k = 0; k < kBulkBodies; ++k) {
+      b.fx[i + k] += sigma * z[k], b.fy[i + k] += sigma * z[kBulkBodies + k];
+    }
+  }
+}
 
 const ForceTerm& stochastic_force() {
   static const StochasticForce term;

@@ -75,8 +75,8 @@ class Job {
       record_.observe(world_);
       if (files_) files_->observe(world_, record_);
     }
-    first_step_ = world_.state().step;
-    while (!over_ && world_.state().step < steps_ && result_.status == RunStatus::ok) {
+    first_step_ = world_.steps();
+    while (!over_ && world_.steps() < steps_ && result_.status == RunStatus::ok) {
       if (options_->stop_requested()) {
         save(false);
         throw Stopped("stopped at " + without_rounding(world_.time()) + " s of " +
@@ -85,7 +85,7 @@ class Job {
       result_.status = world_.step();
       record_.observe(world_);
       if (files_) files_->observe(world_, record_);
-      if (!world_.events().empty()) last_event_ = world_.state().step;
+      if (!world_.events().empty()) last_event_ = world_.steps();
       over_ = over(*scenario_, world_, record_, last_event_);
       look_at_clock();  // after every step: one may take seconds
     }
@@ -95,7 +95,7 @@ class Job {
   }
 
   void look_at_clock() {
-    const auto done = static_cast<double>(world_.state().step);
+    const auto done = static_cast<double>(world_.steps());
     const auto total = static_cast<double>(std::max<std::int64_t>(1, steps_));
     if (options_->progress && report_watch_.due(kBetweenReports)) {
       const double simulated = (done - static_cast<double>(first_step_)) * scenario_->model.dt;
@@ -104,7 +104,7 @@ class Job {
       options_->report(done / total, note);
     }
     // Not at the last step: what comes after it belongs to the checkpoint of the finished run.
-    const bool more = !over_ && world_.state().step < steps_;
+    const bool more = !over_ && world_.steps() < steps_;
     if (more && save_watch_.due(options_->checkpoint_seconds)) save(false);
   }
 

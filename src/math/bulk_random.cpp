@@ -18,11 +18,10 @@ void normals(const std::uint32_t counter[4], const std::uint32_t key[2], int cou
 void words(const std::uint32_t counter[4], const std::uint32_t key[2], std::uint32_t* out) {
   const Words w;
   const int lanes = static_cast<int>(hn::Lanes(w));
-  for (int i = 0; i < kBulkBodies; i += lanes) {
-    Blocks set = counters(counter, static_cast<std::uint32_t>(i), 0);
-    philox<1>(&set, key);
-    hn::Store(word_of<0>(set), w, out + i);
-  }
+  const Philox philox(counter, key);
+  const auto index = philox.index(0);
+  for (int i = 0; i < kBulkBodies; i += lanes)
+    hn::Store(word_of<0>(philox(philox.body(i), index)), w, out + i);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE

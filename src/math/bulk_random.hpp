@@ -11,11 +11,12 @@ namespace lilytank {
 constexpr int kBulkBodies = 16;
 
 /// `count` standard normals, float32, for each of the bodies draw.body + 0 .. 15: number k of body
-/// i is out[16 k + i]; there must be room for an even count. All are independent. Numbers 6b .. 6b
-/// + 5 are three pairs from the Philox block with index draw.index + b, whose words w are cut into
-/// three lots of 40 bits: lot j takes 24 bits for the length, the upper ones of w[j], and 16 for
-/// the direction, the lowest byte of w[j] above byte j of w[3]. Box and Muller; lengths reach 5.9.
-/// `out` must be aligned to 64 bytes.
+/// i is out[16 k + i]; there must be room for an even count. All are independent. Numbers 8b .. 8b
+/// + 7 are four pairs from the Philox block with index draw.index + b, one from each word. Box and
+/// Muller: the upper 19 bits are the length, bit 12 the sign of both numbers, bit 11 swaps them,
+/// and the lower 11 say where in the quarter turn about 0. Lengths reach 5.27; the law's
+/// distribution function differs from a normal one's by 2e-8 at most, the fourth moment by 1e-5 of
+/// it. `out` must be aligned to 64 bytes.
 void bulk_normals(const Draw& draw, int count, float* out);
 
 /// The first word of random_bits() for each of the bodies draw.body + 0 .. 15; `out` must be

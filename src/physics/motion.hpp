@@ -1,4 +1,5 @@
-// Moves assemblies over one step without letting anything overlap, tunnel or leave the tank.
+// Moves the bodies of many worlds over one step without letting anything overlap, tunnel or leave
+// the tank.
 #pragma once
 #include <memory>
 #include <span>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "bodies.hpp"
 #include "lilytank/event.hpp"
 #include "lilytank/state.hpp"
 
@@ -18,35 +20,56 @@ constexpr double kOverlapLimit = 0.5e-3;
 /// modules takes a fortieth of it.
 constexpr std::int64_t kMostWork = 400'000'000;
 
-/// The contact solver with its scratch memory.
+/// One world's part of the motion, with its scratch memory.
 class Motion {
  public:
   explicit Motion(const Model& model, std::int64_t most_work = kMostWork);
   ~Motion();
   Motion(Motion&&) noexcept;
 
-  /// Solves contacts for the velocities in `state`, then moves every assembly by dt. On entry
-  /// the poses in `assemblies` must be those of `state` (its twists may be older); on return poses
-  /// and twists in both are those at the end of the step. Deterministic; keeps nothing from call to
-  /// call but near_pairs()'s search. A state in which something moves at more than 100 m/s, or is
-  /// not finite, is left alone.
-  ///
-  /// Returns -1, or a slot of the island whose contacts took the step's work beyond `most_work`:
-  /// then bodies stay where they were before the step, or before the slice of it that took so much.
-  int advance(State& state, Assemblies& assemblies, Tallies& tallies);
-
-  /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction
-  /// of kOverlapLimit, changing positions only. Returns false and leaves `state` as it was where
-  /// that fails, or once latches took a quarter of the step's work. Used after a latch pulled two
-  /// modules onto their lattice.
-  bool settle(State& state, Assemblies& assemblies, int slot);
-
-  /// Pairs (i < j, ascending) of modules whose centres are closer than `distance`, for latches.
-  /// The span is valid until the next call. The search serves advance() as well, so poses must not
-  /// change in between other than by settle().
-  std::span<const std::pair<int, int>> near_pairs(const Assemblies& assemblies, double distance);
+  /// Pairs (i < j, ascending) of modules whose centres are closer than `distance` (m), for latches;
+  /// a pair that misses it by a few micrometres may be among them. Valid until the next call.
+  std::span<const std::pair<int, int>> near_pairs(const Bodies& bodies, double distance);
   /// Forgets the search: poses are others.
   void forget();
+
+  struct Impl;
+
+ private:
+  friend class Movers;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A world on its way through a step.
+struct InMotion {
+  Motion* motion;
+  Bodies* bodies;
+  const Assemblies* assemblies;
+  Tallies* tallies;
+  float linear = 0, angular = 0;  ///< shares of the twists lost at the end of the step
+  /// Result: -1, or a slot of the island whose contacts took more work than allowed. The bodies
+  /// then stay where they were before the step, or before the slice of it that took so much.
+  int stalled = -1;
+};
+
+/// Moves worlds side by side. Holds scratch memory, nothing from call to call.
+class Movers {
+ public:
+  Movers();
+  ~Movers();
+  Movers(Movers&&) noexcept;
+  Movers& operator=(Movers&&) noexcept;
+
+  /// Solves contacts for the velocities of the bodies, then moves everything by dt and damps it. A
+  /// world's result depends on nothing but that world. One in which something moves at more than
+  /// 100 m/s, or is not finite, is left alone.
+  void advance(std::span<InMotion> worlds);
+
+  /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction of
+  /// kOverlapLimit, changing positions only. Returns false, with poses of no use, where that fails,
+  /// or once latches took a quarter of the step's work. Used after a latch pulled two modules onto
+  /// their lattice.
+  bool settle(Motion& motion, Bodies& bodies, const Assemblies& assemblies, int slot);
 
  private:
   struct Impl;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 // Compiled once for each instruction set, with the same result from each.
 #undef HWY_TARGET_INCLUDE
@@ -40,29 +39,6 @@ HWY_INLINE hn::Mask<Floats> near(const float* xs, const float* ys, int k, float 
   const auto dx = hn::Sub(hn::LoadU(d, xs + k), hn::Set(d, x));
   const auto dy = hn::Sub(hn::LoadU(d, ys + k), hn::Set(d, y));
   return hn::Lt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Set(d, reach2));
-}
-
-HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
-#if HWY_MAX_BYTES == 64
-  return mask.raw;
-#else
-  std::uint8_t part[8] = {};
-  hn::StoreMaskBits(Floats(), mask, part);
-  std::uint64_t word = 0;
-  std::memcpy(&word, part, sizeof word);
-  return word;
-#endif
-}
-
-// Bits of the bodies near each of up to 64, those beyond the last included.
-void all_bits(const float* x, const float* y, float reach2, int bodies, std::uint64_t* bits) {
-  const Floats d;
-  const int lanes = static_cast<int>(hn::Lanes(d));
-  for (int i = 0; i < bodies; ++i) {
-    std::uint64_t sum = 0;
-    for (int k = 0; k < bodies; k += lanes) sum |= bits_of(near(x, y, k, x[i], y[i], reach2)) << k;
-    bits[i] = sum;
-  }
 }
 
 // Appends those of [first, last) that are near body i, without i itself; returns the new end. Up to
@@ -135,7 +111,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lilytank {
 
-HWY_EXPORT(all_bits);
 HWY_EXPORT(scan_all);
 HWY_EXPORT(longest_way2);
 
@@ -149,10 +124,6 @@ Neighbours::Neighbours(int bodies, double extent)
     : bodies_(bodies), extent_(static_cast<float>(extent)) {
   const auto n = static_cast<std::size_t>(bodies);
   x_.assign(n + kWidest, 0), y_.assign(n + kWidest, 0);
-  if (bodies <= kFew) {
-    bits_.assign(n, 0);
-    return;
-  }
   then_x_ = cell_x_ = x_, then_y_ = cell_y_ = y_, id_.assign(n + kWidest, -1);
   begin_.assign(n + 1, 0), above_.assign(n, 0), column_.assign(n, 0), row_.assign(n, 0);
   who_.assign(48 * n + 4 * kWidest, 0);  // enough for packed modules
@@ -182,19 +153,12 @@ void Neighbours::sort_into_cells() {
   }
 }
 
-void Neighbours::search(std::span<const double> x, std::span<const double> y, double distance) {
+void Neighbours::search(const float* x, const float* y, double distance) {
   distance_ = distance;
   const float reach = static_cast<float>(distance) + kRounding;
   reach2_ = reach * reach;
-  for (int i = 0; i < bodies_; ++i)
-    x_[i] = static_cast<float>(x[i]), y_[i] = static_cast<float>(y[i]);
-  if (bodies_ > kFew) {
-    if (!lists_serve()) make_lists();
-    return;
-  }
-  HWY_DYNAMIC_DISPATCH(all_bits)(x_.data(), y_.data(), reach2_, bodies_, bits_.data());
-  const std::uint64_t real = bodies_ < 64 ? (std::uint64_t{1} << bodies_) - 1 : ~std::uint64_t{0};
-  for (int i = 0; i < bodies_; ++i) bits_[i] &= real & ~(std::uint64_t{1} << i);
+  std::copy(x, x + bodies_, x_.begin()), std::copy(y, y + bodies_, y_.begin());
+  if (!lists_serve()) make_lists();
 }
 
 // True if no two bodies can have come within the distance that is asked since the lists were made.

@@ -1,6 +1,5 @@
 // Which bodies are near which: one search a step, for latches and contacts alike.
 #pragma once
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,46 +8,33 @@ namespace lilytank {
 
 struct NeighbourQuery;
 
-/// For every body, the bodies whose centres are nearer than a distance: bits for few bodies, lists
-/// for many, with the same result. Lists are found on a uniform grid, for a distance that is larger
-/// by a margin, and serve all searches until bodies have moved by that margin; what is asked of
-/// them is tested anew, so no result depends on the age of a list. Float32 and vector code; a pair
-/// that misses the distance by a few micrometres may be reported too, so users test what they need
-/// for themselves.
+/// For every body, the bodies whose centres are nearer than a distance. Lists are found on a
+/// uniform grid, for a distance that is larger by a margin, and serve all searches until bodies
+/// have moved by that margin; what is asked of them is tested anew, so no result depends on the age
+/// of a list. Float32 and vector code; a pair that misses the distance by a few micrometres may be
+/// reported too, so users test what they need for themselves.
 class Neighbours {
  public:
-  static constexpr int kFew = 64;  ///< up to so many bodies the grid does not pay
-
   /// For `bodies` bodies within a square of half-width `extent` (m; those outside count as at its
   /// rim).
   Neighbours(int bodies, double extent);
 
   /// Takes the centres of a moment (m, one for each body).
-  void search(std::span<const double> x, std::span<const double> y, double distance);
+  void search(const float* x, const float* y, double distance);
   /// Calls use(j) for the bodies j > i near body i, ascending.
   template <class Use>
   void above(int i, Use&& use) const {
-    if (bodies_ <= kFew)
-      each_bit(bits_[i] >> i >> 1 << i << 1, use);
-    else
-      each_listed(i, above_[i], use);
+    each_listed(i, above_[i], use);
   }
   /// The same for all bodies near body i, without i itself.
   template <class Use>
   void around(int i, Use&& use) const {
-    if (bodies_ <= kFew)
-      each_bit(bits_[i], use);
-    else
-      each_listed(i, begin_[i], use);
+    each_listed(i, begin_[i], use);
   }
   /// The distance of the last search, m.
   double distance() const { return distance_; }
 
  private:
-  template <class Use>
-  static void each_bit(std::uint64_t bits, Use&& use) {
-    for (; bits != 0; bits &= bits - 1) use(std::countr_zero(bits));
-  }
   // Those listed for body i from place k on that are near it now.
   template <class Use>
   void each_listed(int i, int k, Use& use) const {
@@ -68,10 +54,9 @@ class Neighbours {
   int bodies_;
   float extent_;
   double distance_ = 0;
-  float reach2_ = 0;                 // m^2, of the last search, rounding allowed for
-  std::vector<float> x_, y_;         // in order of bodies, padded by one vector
-  std::vector<std::uint64_t> bits_;  // [i] bit j: body j is near body i
-  // For many bodies: lists, and the places for which they were made.
+  float reach2_ = 0;          // m^2, of the last search, rounding allowed for
+  std::vector<float> x_, y_;  // in order of bodies, padded by one vector
+  // Lists, and the places for which they were made.
   float listed_ = -1;                     // m, distance of the lists; negative: there are none
   std::vector<float> then_x_, then_y_;    // in order of bodies
   std::vector<int> begin_, who_, above_;  // near body i: who_[begin_[i], begin_[i + 1]), ascending;

@@ -20,6 +20,23 @@ inline Rot small_turn(double angle) {
   return {c, angle * s};
 }
 
+/// Turns (c, s), float32, by an angle of any size that one slice allows; length kept at 1.
+inline void small_turn(float& c, float& s, float angle) {
+  float a = angle;
+  int doublings = 0;
+  for (; a * a > 0.0625f && doublings < 8; ++doublings) a *= 0.5f;
+  const float q = a * a;
+  float ts = a * (1.0f - (1.0f / 6) * q * (1.0f - (1.0f / 20) * q * (1.0f - (1.0f / 42) * q)));
+  float tc = 1.0f - 0.5f * q * (1.0f - (1.0f / 12) * q * (1.0f - (1.0f / 30) * q));
+  for (int k = 0; k < doublings; ++k) {
+    const float twice = 2.0f * ts, half = tc;
+    tc = 1.0f - twice * ts, ts = twice * half;
+  }
+  const float nc = c * tc - s * ts, ns = c * ts + s * tc;
+  const float scale = 1.5f - 0.5f * (nc * nc + ns * ns);
+  c = nc * scale, s = ns * scale;
+}
+
 /// `r` turned by a small angle in radians, length kept at 1.
 inline Rot turned_by(Rot r, double angle) {
   return renormalised(compose(r, small_turn(angle)));

@@ -26,13 +26,13 @@ WorldRun run_world(const Scenario& scenario, std::uint64_t seed, EarlyEnd early,
     reported = world.time();
   };
   bool left = false;
-  while (world.state().step < steps && row.status == RunStatus::ok && !left) {
+  while (world.steps() < steps && row.status == RunStatus::ok && !left) {
     control.check_stop();
     row.status = world.step();
     record.observe(world);
     // Looked at where something happened: what stands changes with events only.
     left = !world.events().empty() && over(early, world, record);
-    if (world.state().step % kStepsPerLook == 0) report();
+    if (world.steps() % kStepsPerLook == 0) report();
   }
   report();
   out.simulated = world.time();

@@ -9,38 +9,51 @@
 
 namespace lilytank {
 namespace {
-constexpr double kFastest = 20;  // m/s; beyond it a world counts as diverged
+constexpr float kFastest = 20;  // m/s; beyond it a world counts as diverged
 }
 
 struct World::Impl {
   const Model* model;
-  State state;
-  Assemblies assemblies;
+  mutable State state;            // poses and twists are those of `bodies` unless `stale`
+  mutable Assemblies assemblies;  // the same
+  mutable bool stale = false;
+  Bodies bodies;
   Motion motion;
   Controller controller;
-  std::vector<Wrench> wrenches;
   ForceSum forces;
   std::vector<Event> events;
   Kinematics kinematics;
-  Decay decay;
-  double linear_to_angular = 1;  // decay.linear / decay.angular
+  float linear = 0, angular = 0;  // shares of twists lost at the end of a step
   RunStatus status = RunStatus::ok;
   Divergence divergence;
   Tallies tallies;
 
   Impl(const Model& m, State s)
-      : model(&m), state(std::move(s)), motion(m), controller(m), wrenches(m.bodies()), forces(m) {
+      : model(&m), state(std::move(s)), bodies(m), motion(m), controller(m), forces(m) {
     assemblies.resize(m);
     derive(m, state, assemblies);
-    tallies.deepest_overlap = deepest_overlap(m, assemblies);
+    take_over();
     events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
     kinematics = {assemblies.x,  assemblies.y,     assemblies.c,       assemblies.s,  assemblies.vx,
                   assemblies.vy, assemblies.omega, assemblies.covered, m.module.count};
+    Decay decay;
     for (const ActiveForce& force : m.forces) {
       const Decay d = force.term->decay(force.p, m.dt);
       decay.linear *= d.linear, decay.angular *= d.angular;
     }
-    linear_to_angular = decay.linear / decay.angular;
+    linear = static_cast<float>(1 - decay.linear), angular = static_cast<float>(1 - decay.angular);
+  }
+
+  // The state was set from outside: rounds it to float32.
+  void take_over() {
+    bodies.load(state, assemblies);
+    stale = true;
+    fetch();
+    tallies.deepest_overlap = deepest_overlap(*model, assemblies);
+  }
+  void fetch() const {
+    if (stale) bodies.save(state, assemblies);
+    stale = false;
   }
 
   StepContext now() const {
@@ -54,80 +67,57 @@ struct World::Impl {
             .expected = model->expected,
             .field = field};
   }
+  FloatBodies float_bodies() {
+    const Bodies& b = bodies;
+    return {b.x,       b.y,  b.c,  b.s,      b.vx,      b.vy,   b.omega,
+            b.covered, b.fx, b.fy, b.torque, b.modules, b.count};
+  }
 
-  void kick();
-  Wrench sum_of_members(int slot) const;
-  void damp();
-  bool healthy() const;
+  bool begin_step(Movers& movers);
+  void end_step(int stalled);
+  bool kick();
   void blame();
 };
 
-// Members' wrenches become their assembly's change of twist.
-void World::Impl::kick() {
-  const double dt = model->dt;
-  for (const int slot : assemblies.live) {
-    Wrench sum = wrenches[slot];
-    if (assemblies.next[slot] >= 0) sum = sum_of_members(slot);
-    const double per_mass = dt * assemblies.inverse_mass[slot];
-    state.vx[slot] += per_mass * sum.fx;
-    state.vy[slot] += per_mass * sum.fy;
-    // Balls do not turn: their inverse inertia is 0.
-    state.omega[slot] += dt * assemblies.inverse_inertia[slot] * sum.torque;
-  }
-}
-
-// About the assembly's centre of mass.
-Wrench World::Impl::sum_of_members(int slot) const {
-  Wrench sum;
-  for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
-    const Wrench& w = wrenches[i];
-    const double dx = assemblies.x[i] - state.x[slot], dy = assemblies.y[i] - state.y[slot];
-    sum.fx += w.fx, sum.fy += w.fy;
-    sum.torque += w.torque + (dx * w.fy - dy * w.fx);
-  }
-  return sum;
-}
-
-// Multiplies `values` and leaves a copy.
-void scale(std::vector<double>& values, double factor, std::vector<double>& copy) {
-  double* __restrict to = copy.data();
-  double* __restrict v = values.data();
-  const std::size_t n = values.size();
-  for (std::size_t i = 0; i < n; ++i) to[i] = v[i] = v[i] * factor;
-}
-
-// Every member is damped as if alone; the assembly keeps the sum of their momenta.
-void World::Impl::damp() {
-  scale(state.vx, decay.linear, assemblies.vx);
-  scale(state.vy, decay.linear, assemblies.vy);
-  for (const int slot : assemblies.groups) {
-    const double own = assemblies.own_inertia[slot] * assemblies.inverse_inertia[slot];
-    // Below, this is multiplied by decay.angular as all others are.
-    state.omega[slot] *= own + (1 - own) * linear_to_angular;
-  }
-  scale(state.omega, decay.angular, assemblies.omega);
-  for (const int slot : assemblies.groups) {
-    const double vx = state.vx[slot], vy = state.vy[slot], omega = state.omega[slot];
-    for (int i = assemblies.first[slot]; i >= 0; i = assemblies.next[i]) {
-      assemblies.vx[i] = vx - omega * (assemblies.y[i] - state.y[slot]);
-      assemblies.vy[i] = vy + omega * (assemblies.x[i] - state.x[slot]);
-      assemblies.omega[i] = omega;
+// Members' wrenches become their assembly's change of twist, about its centre of mass. False if
+// something is too fast, or not a number.
+bool World::Impl::kick() {
+  const auto dt = static_cast<float>(model->dt);
+  Bodies& b = bodies;
+  const bool good = kick_all(b, dt, kFastest);
+  bool groups_good = true;
+  for (Compound& g : b.groups) {
+    float fx = 0, fy = 0, torque = 0;
+    for (int i = g.slot; i >= 0; i = assemblies.next[i]) {
+      const float u = b.fx[i], v = b.fy[i];
+      fx += u, fy += v, torque += b.torque[i] + (b.arm_x[i] * v - b.arm_y[i] * u);
     }
+    g.vx += dt * g.inv_mass * fx, g.vy += dt * g.inv_mass * fy;
+    g.omega += dt * g.inv_inertia * torque;
+    const float rim = g.omega * g.reach;
+    groups_good = groups_good && g.vx * g.vx + g.vy * g.vy + rim * rim <= kFastest * kFastest;
+    b.turn_members(g, assemblies);
   }
-}
-
-// Written so that a NaN fails it.
-bool World::Impl::healthy() const {
-  for (const int slot : assemblies.live) {
-    const double speed2 = state.vx[slot] * state.vx[slot] + state.vy[slot] * state.vy[slot];
-    const double rim = state.omega[slot] * assemblies.reach[slot];
-    if (!(speed2 + rim * rim <= kFastest * kFastest)) return false;
+  if (good) return groups_good;
+  // A member alone could be faster than its assembly.
+  for (int i = 0; i < b.count; ++i) {
+    if (b.group_of(b.slot[static_cast<std::size_t>(i)]) != nullptr) continue;
+    const float rim = b.omega[i] * b.size[i];
+    if (!(b.vx[i] * b.vx[i] + b.vy[i] * b.vy[i] + rim * rim <= kFastest * kFastest)) return false;
   }
-  return true;
+  return groups_good;
 }
 
 // The worst body and the term with the largest force on it, from the wrenches of this step.
 void World::Impl::blame() {
+  fetch();
+  // Where the forces were: the kick left the twists before it here.
+  for (int i = 0; i < bodies.count; ++i) {
+    assemblies.vx[i] = static_cast<double>(bodies.to_x[i]);
+    assemblies.vy[i] = static_cast<double>(bodies.to_y[i]);
+    assemblies.omega[i] = static_cast<double>(bodies.to_c[i]);
+  }
+  std::vector<Wrench> wrenches(static_cast<std::size_t>(model->bodies()));
   StepContext moment = now();
   forces.perturb_flow(kinematics, moment);
   const auto badness = [&](int slot) {
@@ -166,39 +156,88 @@ void World::go_on_from(const State& state) {
   w.motion.forget();
   w.events.clear();
   w.status = RunStatus::ok, w.divergence = {}, w.tallies = {};
+  w.take_over();
+}
+
+// Forces, controllers and velocities; false if there is nothing to move.
+bool World::Impl::begin_step(Movers& movers) {
+  if (status != RunStatus::ok) return false;
+  events.clear();
+  if (forces.needs_doubles()) fetch();
+  forces(float_bodies(), kinematics, now());
+  if (state.step % model->steps_per_tick == 0)
+    controller.tick(state, assemblies, bodies, motion, movers, events, tallies);
+  stale = true;
+  if (kick()) return true;
+  blame();
+  status = RunStatus::diverged;
+  return false;
+}
+
+// `stalled`: as InMotion::stalled.
+void World::Impl::end_step(int stalled) {
+  if (stalled >= 0) {
+    divergence = {state.step, stalled, kStalled, static_cast<double>(kMostWork)};
+    status = RunStatus::diverged;
+    return;
+  }
+  ++state.step;
+}
+
+struct Batch::Impl {
+  Movers movers;
+  std::vector<World::Impl*> going;
+  std::vector<InMotion> moving;
+
+  void add(World::Impl& w) {
+    if (!w.begin_step(movers)) return;
+    going.push_back(&w);
+    moving.push_back({&w.motion, &w.bodies, &w.assemblies, &w.tallies, w.linear, w.angular});
+  }
+};
+
+Batch::Batch() : impl_(std::make_unique<Impl>()) {}
+Batch::Batch(Batch&&) noexcept = default;
+Batch& Batch::operator=(Batch&&) noexcept = default;
+Batch::~Batch() = default;
+
+void Batch::step(std::span<World* const> worlds) {
+  Impl& b = *impl_;
+  b.going.clear(), b.moving.clear();
+  for (World* world : worlds) b.add(*world->impl_);
+  b.movers.advance(b.moving);
+  for (std::size_t i = 0; i < b.going.size(); ++i) b.going[i]->end_step(b.moving[i].stalled);
 }
 
 RunStatus World::step() {
-  Impl& w = *impl_;
-  if (w.status != RunStatus::ok) return w.status;
-  w.events.clear();
-  w.forces(w.kinematics, w.now(), w.wrenches);
-  if (w.state.step % w.model->steps_per_tick == 0)
-    w.controller.tick(w.state, w.assemblies, w.motion, w.events, w.tallies);
-  w.kick();
-  if (!w.healthy()) {
-    w.blame();
-    return w.status = RunStatus::diverged;
-  }
-  if (const int slot = w.motion.advance(w.state, w.assemblies, w.tallies); slot >= 0) {
-    w.divergence = {w.state.step, slot, kStalled, static_cast<double>(kMostWork)};
-    return w.status = RunStatus::diverged;
-  }
-  w.damp();
-  ++w.state.step;
-  return w.status;
+  static thread_local Batch alone;  // scratch memory, which need not be every world's own
+  World* one = this;
+  alone.step({&one, 1});
+  return impl_->status;
+}
+
+RunStatus World::status() const {
+  return impl_->status;
 }
 
 const Model& World::model() const {
   return *impl_->model;
 }
 const State& World::state() const {
+  impl_->fetch();
   return impl_->state;
+}
+const State& World::firmware() const {
+  return impl_->state;
+}
+std::int64_t World::steps() const {
+  return impl_->state.step;
 }
 double World::time() const {
   return impl_->state.step * impl_->model->dt;
 }
 const Kinematics& World::kinematics() const {
+  impl_->fetch();
   return impl_->kinematics;
 }
 std::span<const Event> World::events() const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "forces/force_sum.hpp"
 #include "math/bulk_random.hpp"
 #include "support/face_drag_reference.hpp"
 #include "support/moving_bodies.hpp"
@@ -170,6 +171,51 @@ TEST(FaceDrag, MomentMatchedGustsHaveItsMeanAndCovariance) {
   compare_with_reference(Gusts::moment_matched, FlowAt::points, false, 0.02);
 }
 
+// Mean of Eq. 5 over one segment's gust in double precision: with a = -n.w ~ N(m, s^2) where it is
+// positive, the force along n is -a^2, and that along t is a (w_t + b (m - a)).
+Wrench expected_drag(const Model& model, const MovingBodies& bodies, int i, int segments) {
+  const double side = model.module.side, K_v = model.flow.K_v;
+  const FlowSample f = model.field->at(bodies.x[i], bodies.y[i]);
+  Wrench sum;
+  for (int face = 0; face < 4; ++face) {
+    if (bodies.covered[i] >> face & 1) continue;
+    const Rot out = compose({bodies.c[i], bodies.s[i]}, quarter(face));
+    const Vec2 n(out.c, out.s), t(-out.s, out.c);
+    const double xx = K_v * K_v * f.sigma_x * f.sigma_x, yy = K_v * K_v * f.sigma_y * f.sigma_y;
+    const double s = std::sqrt(n.x() * n.x() * xx + n.y() * n.y() * yy);
+    const double b = (n.x() * t.x() * xx + n.y() * t.y() * yy) / (s * s);
+    for (int q = 0; q < segments; ++q) {
+      const Vec2 r = rotate(out, Vec2(side / 2, ((q + 0.5) / segments - 0.5) * side));
+      const Vec2 w = K_v * Vec2(f.mu_x, f.mu_y) - Vec2(bodies.vx[i], bodies.vy[i]) -
+                     bodies.omega[i] * Vec2(-r.y(), r.x());
+      const double m = -n.dot(w), z = m / s;
+      const double density = std::exp(-z * z / 2) / std::sqrt(2 * kPi);
+      const double below = std::erfc(-z / std::sqrt(2)) / 2;
+      const double first = m * below + s * density, second = m * first + s * s * below;
+      const Vec2 force = -second * n + ((t.dot(w) + b * m) * first - b * second) * t;
+      sum.fx += force.x(), sum.fy += force.y(), sum.torque += cross(r, force);
+    }
+  }
+  return sum;
+}
+
+TEST(FaceDrag, ExpectedDragIsTheMeanOverGusts) {
+  const int segments = 10;
+  Model model = standard_model();
+  model.flow.at = FlowAt::centre;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MovingBodies bodies(30, 0, seed);
+    const auto fast = wrenches(model, bodies, force("face_drag", {0.442, double(segments)}),
+                               {.gusts = false, .expected = true});
+    for (int i = 0; i < 30; ++i) {
+      Wrench want = expected_drag(model, bodies, i, segments);
+      const double scale = kScale / segments;
+      want.fx *= scale, want.fy *= scale, want.torque *= scale;
+      expect_near(fast[i], want, 3e-6);
+    }
+  }
+}
+
 TEST(FaceDrag, NearestLookupMatchesTheReferenceToo) {
   Model model = standard_model();
   model.field = std::make_shared<const FlowField>(analytic_tank({}, Interpolation::nearest));
@@ -218,6 +264,29 @@ TEST(FaceDrag, AGustIsHeldFor25Milliseconds) {
   const auto c = wrenches(model, bodies, drag, {.step = 15, .gust = 3, .seed = 1});
   EXPECT_EQ(a[0].fx, b[0].fx);
   EXPECT_NE(a[0].fx, c[0].fx);
+}
+
+// Ticks, seeds and numbers of modules in any order: kept numbers are those that would be drawn.
+TEST(FaceDrag, KeptGustsAreTheSameBits) {
+  for (const Gusts gusts : {Gusts::per_point, Gusts::per_module, Gusts::moment_matched}) {
+    Model model = test::with_step(standard_model(), 5);
+    model.module.count = 37, model.flow.gusts = gusts;
+    model.forces = {force("face_drag", {0.442, 10})};
+    ForceSum sum(model);
+    std::vector<Wrench> kept(37);
+    for (const std::int64_t step : {10, 11, 14, 15, 3, 16, 10}) {
+      for (const std::uint64_t seed : {1, 2, 2}) {
+        const MovingBodies bodies(37, 0, seed);
+        const StepContext now{.step = step, .gust = step / 5, .seed = seed};
+        sum(bodies.view(), now, kept);
+        const auto drawn = wrenches(model, bodies, model.forces[0], now);
+        for (int i = 0; i < 37; ++i) {
+          EXPECT_EQ(kept[i].fx, drawn[i].fx);
+          EXPECT_EQ(kept[i].torque, drawn[i].torque);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

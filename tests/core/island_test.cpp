@@ -1,5 +1,5 @@
 // Bodies pushed apart: twists stay what mechanics allows, to the last bit of rounding.
-#include "physics/island.hpp"
+#include "support/reference/island.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,10 @@
 
 namespace lilytank::test {
 namespace {
+
+using reference::ContactPair;
+using reference::Island;
+using reference::Mover;
 
 struct Momenta {
   double x = 0, y = 0, spin = 0, energy = 0;
@@ -47,7 +51,8 @@ TEST(Island, APairThatMovesAsOneMayBePushed) {
   for (int i = 0; i < 20000; ++i) {
     Island island(model);
     const auto u = [&](std::uint32_t which) { return lilytank::test::uniform_at(77, i, which); };
-    const double apart = 35e-3 - kPushTo - 1e-14 * std::pow(1e9, u(0)), omega = 4 * u(1) - 2;
+    const double apart = 35e-3 - reference::kPushTo - 1e-14 * std::pow(1e9, u(0)),
+                 omega = 4 * u(1) - 2;
     const Twist drift{u(2) - 0.5, u(3) - 0.5, 0};
     ContactPair pair;
     pair.a = 1, pair.b = 2, pair.order_a = 0, pair.order_b = 1;

@@ -52,7 +52,7 @@ TEST(World, KinematicsFollowTheState) {
   const Kinematics& k = world.kinematics();
   ASSERT_EQ(k.size(), 15);
   for (int i = 0; i < k.size(); ++i) {
-    EXPECT_NEAR(k.c[i] * k.c[i] + k.s[i] * k.s[i], 1, 1e-12);
+    EXPECT_NEAR(k.c[i] * k.c[i] + k.s[i] * k.s[i], 1, 1e-6);
     EXPECT_LT(std::hypot(k.x[i], k.y[i]), model.tank.radius);
   }
 }

@@ -5,10 +5,12 @@
 #include <array>
 
 #include "lilytank/random.hpp"
-#include "physics/collide.hpp"
+#include "support/reference/collide.hpp"
 
 namespace lilytank::test {
 namespace {
+
+using namespace reference;
 
 constexpr double kHalf = 0.0175;
 

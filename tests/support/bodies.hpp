@@ -1,4 +1,4 @@
-// Bodies under the hand: poses and twists set directly, one call of Motion::advance a step, no
+// Bodies under the hand: poses and twists set directly, one call of Movers::advance a step, no
 // forces.
 #pragma once
 #include <cmath>
@@ -26,8 +26,10 @@ struct Bodies {
   Assemblies assemblies;
   Tallies tallies;
   std::unique_ptr<Motion> motion;
+  lilytank::Bodies hot;
+  Movers movers;
 
-  explicit Bodies(const Model& m) : model(m), motion(std::make_unique<Motion>(model)) {
+  explicit Bodies(const Model& m) : model(m), motion(std::make_unique<Motion>(model)), hot(model) {
     const auto n = static_cast<std::size_t>(model.bodies());
     for (auto* a : {&state.x, &state.y, &state.s, &state.vx, &state.vy, &state.omega})
       a->assign(n, 0.0);
@@ -50,7 +52,21 @@ struct Bodies {
   }
   void derive() { lilytank::derive(model, state, assemblies); }
   void step(int count = 1) {
-    for (int k = 0; k < count; ++k) motion->advance(state, assemblies, tallies);
+    for (int k = 0; k < count; ++k) advance_once();
+  }
+  /// Returns InMotion::stalled.
+  int advance_once() {
+    hot.load(state, assemblies);
+    InMotion one{motion.get(), &hot, &assemblies, &tallies};
+    movers.advance({&one, 1});
+    hot.save(state, assemblies);
+    return one.stalled;
+  }
+  bool settle(int slot) {
+    hot.load(state, assemblies);
+    if (!movers.settle(*motion, hot, assemblies, slot)) return false;
+    hot.save(state, assemblies);
+    return true;
   }
   /// Latches two faces, as the controller does, and joins their assemblies.
   bool bond(int i, int fi, int j, int fj) {

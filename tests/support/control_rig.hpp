@@ -77,7 +77,11 @@ inline State apart(const Model& model, std::uint64_t seed) {
 class Rig {
  public:
   Rig(Model m, std::uint64_t seed)
-      : model(std::move(m)), state(apart(model, seed)), motion_(model), controller_(model) {
+      : model(std::move(m)),
+        state(apart(model, seed)),
+        hot(model),
+        motion_(model),
+        controller_(model) {
     bodies.resize(model);
     derive(model, state, bodies);
   }
@@ -103,10 +107,14 @@ class Rig {
   }
   void tick() {
     events.clear();
-    controller_.tick(state, bodies, motion_, events, tallies);
+    hot.load(state, bodies);
+    controller_.tick(state, bodies, hot, motion_, movers_, events, tallies);
+    hot.save(state, bodies);
     log.insert(log.end(), events.begin(), events.end());
     state.step += model.steps_per_tick;
   }
+  /// Poses as the engine has them, in float32.
+  void round() { hot.load(state, bodies), hot.save(state, bodies); }
   void run(int ticks) {
     for (int k = 0; k < ticks; ++k) tick();
   }
@@ -154,12 +162,14 @@ class Rig {
   Model model;
   State state;
   Assemblies bodies;
+  lilytank::Bodies hot;       ///< as the engine has them
   std::vector<Event> events;  ///< of the last tick
   std::vector<Event> log;     ///< of all ticks
   Tallies tallies;
 
  private:
   Motion motion_;
+  Movers movers_;
   Controller controller_;
 };
 

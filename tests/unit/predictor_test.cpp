@@ -191,7 +191,7 @@ TEST(Scores, TellThePlaceOfAStream) {
 TEST(Scores, TellThePlaceOfAStrongWideStream) {
   const Model model = drifting(12);
   const Effect stream = stream_effect(model, 0.13, 0.08, 0.085);
-  const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 5);
+  const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 11);
   ScorePlan known = plan_for(model, recordings);
   known.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
   ScorePlan hardly_known = known;

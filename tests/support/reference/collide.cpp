@@ -1,6 +1,6 @@
 #include "collide.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 namespace {
 
 constexpr double kTouching = 1e-5;  // m; nearer corners are treated as faces that meet
@@ -225,4 +225,4 @@ Manifold collide_wall(const Disc& a, double tank, double margin) {
   return m;
 }
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

@@ -8,7 +8,7 @@
 #include "collide.hpp"
 #include "lilytank/model.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 
 inline double length(double x, double y) {
   return std::sqrt(x * x + y * y);
@@ -143,4 +143,4 @@ void Island::touches(const ContactPair& pair, double margin, Use&& use) const {
   }
 }
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lilytank {
+namespace lilytank::reference {
 namespace {
 
 constexpr int kSweeps = 100;
@@ -245,4 +245,4 @@ void ContactSolver::rebound(Island& island, double h) {
   if (now > energy_) calm(movers, wall ? Drift{} : drift_of(movers), now, energy_);
 }
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

@@ -4,7 +4,7 @@
 #include "lilytank/event.hpp"
 #include "lilytank/state.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 
 /// Substeps: free flight until something may touch, then contacts; short enough that contact points
 /// stay accurate, so as a rule overlaps stay below kSlop. The rest is pushed apart, and what cannot
@@ -21,4 +21,4 @@ class IslandStepper {
   ContactSolver solver_;
 };
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

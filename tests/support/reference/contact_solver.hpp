@@ -4,7 +4,7 @@
 
 #include "island.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 
 /// A point where two movers touch or may within the substep.
 struct ContactPoint {
@@ -49,4 +49,4 @@ class ContactSolver {
   std::vector<Twist> before_;  // of the movers, before the last sweep
 };
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lilytank {
+namespace lilytank::reference {
 namespace {
 
 constexpr double kReach = 1.25;        // contacts are looked for in so many times the closing way
@@ -49,4 +49,4 @@ void IslandStepper::run(Island& island, double h, std::int64_t most_work, Tallie
   tallies.deepest_overlap = std::max(tallies.deepest_overlap, deepest);
 }
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "small_turn.hpp"
+#include "physics/small_turn.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 namespace {
 
 constexpr double kStride = 2e-3;       // m, most that a pair moves relatively in a substep
@@ -123,12 +123,12 @@ Gap Island::separation(const ContactPair& pair) const {
   const Mover &a = movers_[pair.a], &b = movers_[pair.b];
   switch (pair.kind) {
     case PairKind::squares:
-      return lilytank::separation(square_of(a, pair.ax, pair.ay, half_, 0),
-                                  square_of(b, pair.bx, pair.by, half_, 0));
+      return reference::separation(square_of(a, pair.ax, pair.ay, half_, 0),
+                                   square_of(b, pair.bx, pair.by, half_, 0));
     case PairKind::square_disc:
-      return lilytank::separation(square_of(a, pair.ax, pair.ay, half_, 0), disc_of(b, radius_));
+      return reference::separation(square_of(a, pair.ax, pair.ay, half_, 0), disc_of(b, radius_));
     case PairKind::discs:
-      return lilytank::separation(disc_of(a, radius_), disc_of(b, radius_));
+      return reference::separation(disc_of(a, radius_), disc_of(b, radius_));
     case PairKind::wall_square:
       return {wall_separation(square_of(b, pair.bx, pair.by, half_, 0), tank_), 0, 0};
     default:
@@ -260,4 +260,4 @@ void Island::accept(double time) {
   }
 }
 
-}  // namespace lilytank
+}  // namespace lilytank::reference

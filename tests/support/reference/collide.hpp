@@ -6,7 +6,7 @@
 
 #include "lilytank/math.hpp"
 
-namespace lilytank {
+namespace lilytank::reference {
 
 /// A module's outline. `inner`: bit k is set where the assembly goes on beyond side k (0..3: +x,
 /// +y, -x, -y of `r`'s frame), so that nothing touches there (Assemblies::inner).
@@ -108,4 +108,4 @@ Manifold collide(const Disc& a, const Disc& b, double margin);
 WallManifold collide_wall(const Square& a, double tank, double margin);
 Manifold collide_wall(const Disc& a, double tank, double margin);
 
-}  // namespace lilytank
+}  // namespace lilytank::reference
