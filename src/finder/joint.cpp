@@ -7,7 +7,7 @@
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
 #include "calibrate/estimate_line.hpp"
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "finder/joint_parameters.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"

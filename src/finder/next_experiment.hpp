@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "finder/score_plan.hpp"
+#include "scores/score_plan.hpp"
 #include "lilytank/next_experiment.hpp"
 #include "lilytank/recording.hpp"
 

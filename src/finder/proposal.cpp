@@ -4,7 +4,7 @@
 
 #include "finder/found_effect.hpp"
 #include "finder/next_experiment.hpp"
-#include "finder/nuisances.hpp"
+#include "scores/nuisances.hpp"
 #include "lilytank/random.hpp"
 
 namespace lilytank {

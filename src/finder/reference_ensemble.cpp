@@ -6,7 +6,7 @@
 
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "statistics/linear.hpp"

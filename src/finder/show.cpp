@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "scores/scores.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "finder/prepared_tank.hpp"
-#include "finder/scores.hpp"
+#include "scores/scores.hpp"
 #include "finder/selection_report.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"

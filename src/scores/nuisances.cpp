@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
 #include "statistics/linear.hpp"

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "finder/nuisances.hpp"
-#include "finder/scores.hpp"
+#include "scores/nuisances.hpp"
+#include "scores/scores.hpp"
 #include "lilytank/flow_maps.hpp"
 #include "lilytank/random.hpp"
 #include "support/filmed.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "finder/nuisances.hpp"
+#include "scores/nuisances.hpp"
 #include "lilytank/experiment.hpp"
 #include "support/filmed.hpp"
 #include "support/recordings.hpp"

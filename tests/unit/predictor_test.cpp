@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "scores/nuisances.hpp"
 #include "finder/scan.hpp"
 #include "scores/scores.hpp"

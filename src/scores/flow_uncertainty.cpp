@@ -1,4 +1,4 @@
-#include "flow/flow_uncertainty.hpp"
+#include "scores/flow_uncertainty.hpp"
 
 #include <algorithm>
 #include <array>
