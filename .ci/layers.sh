@@ -157,8 +157,8 @@ layer python cli render view forces "${base[@]}"
 
 ((faults == 0)) && echo "layers: every include and function is where it may be"
 # Two types of one name in one namespace are one type to the linker, which takes the first one's
-# functions for both.
-twice=$(find include src render -name '*.hpp' -print0 |
+# functions for both. What *_inl.hpp defines is local to the file that includes it.
+twice=$(find include src render -name '*.hpp' ! -name '*_inl.hpp' -print0 |
         xargs -0 grep -hoE '^(struct|class|enum class) [A-Za-z]+( final)?( :.*)? \{' |
         sed -E 's/^(struct|enum class|class) ([A-Za-z]+).*/\2/' | sort | uniq -d | grep -vx 'Impl')
 if [[ -n $twice ]]; then

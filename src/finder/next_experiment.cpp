@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "scores/scores.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "scores/score_plan.hpp"
 #include "lilytank/next_experiment.hpp"
 #include "lilytank/recording.hpp"
+#include "scores/score_plan.hpp"
 
 namespace lilytank {
 

@@ -6,9 +6,9 @@
 
 #include "calibrate/design.hpp"
 #include "finder/joint.hpp"
-#include "scores/nuisances.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
+#include "scores/nuisances.hpp"
 
 namespace lilytank {
 namespace {

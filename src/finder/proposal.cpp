@@ -4,8 +4,8 @@
 
 #include "finder/found_effect.hpp"
 #include "finder/next_experiment.hpp"
-#include "scores/nuisances.hpp"
 #include "lilytank/random.hpp"
+#include "scores/nuisances.hpp"
 
 namespace lilytank {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "calibrate/cross_fit.hpp"
 #include "calibrate/design.hpp"
-#include "scores/flow_uncertainty.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "statistics/linear.hpp"
 #include "statistics/median.hpp"
 #include "text/fnv.hpp"

@@ -17,8 +17,8 @@
 #include "calibrate/estimate_line.hpp"
 #include "calibrate/stages.hpp"
 #include "finder/fingerprint.hpp"
-#include "scores/scores.hpp"
 #include "lilytank/response_surface.hpp"
+#include "scores/scores.hpp"
 
 namespace lilytank {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
-#include "scores/scores.hpp"
 #include "lilytank/study.hpp"
+#include "scores/scores.hpp"
 #include "statistics/largest_first.hpp"
 
 namespace lilytank {

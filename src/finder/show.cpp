@@ -6,12 +6,12 @@
 #include <limits>
 #include <map>
 
-#include "scores/flow_uncertainty.hpp"
-#include "scores/scores.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "scores/flow_uncertainty.hpp"
+#include "scores/scores.hpp"
 #include "statistics/quantiles.hpp"
 
 namespace lilytank {

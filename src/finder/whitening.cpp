@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "calibrate/design.hpp"
-#include "scores/scores.hpp"
 #include "forces/empirical_force.hpp"
+#include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "finder/prepared_tank.hpp"
-#include "scores/scores.hpp"
 #include "finder/selection_report.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {

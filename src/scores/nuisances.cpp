@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "scores/flow_uncertainty.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
+#include "scores/flow_uncertainty.hpp"
 #include "statistics/linear.hpp"
 
 namespace lilytank {

@@ -5,10 +5,10 @@
 
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
+#include "forces/pairs.hpp"
 #include "scores/nuisances.hpp"
 #include "scores/residual_statistics.hpp"
 #include "scores/shape_pushes.hpp"
-#include "forces/pairs.hpp"
 #include "statistics/linear.hpp"
 #include "text/words.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 
-#include "scores/nuisances.hpp"
-#include "scores/scores.hpp"
 #include "lilytank/flow_maps.hpp"
 #include "lilytank/random.hpp"
+#include "scores/nuisances.hpp"
+#include "scores/scores.hpp"
 #include "support/filmed.hpp"
 
 namespace lilytank {

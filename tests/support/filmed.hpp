@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "scores/scores.hpp"
 #include "lilytank/emulator.hpp"
+#include "scores/scores.hpp"
 #include "support/worlds.hpp"
 
 namespace lilytank::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "scores/scores.hpp"
 #include "lilytank/predictor.hpp"
+#include "scores/scores.hpp"
 #include "support/filmed.hpp"
 
 namespace lilytank {

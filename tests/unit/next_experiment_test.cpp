@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "scores/nuisances.hpp"
 #include "lilytank/experiment.hpp"
+#include "scores/nuisances.hpp"
 #include "support/filmed.hpp"
 #include "support/recordings.hpp"
 

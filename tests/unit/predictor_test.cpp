@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scores/flow_uncertainty.hpp"
-#include "scores/nuisances.hpp"
 #include "finder/scan.hpp"
-#include "scores/scores.hpp"
 #include "finder/show.hpp"
 #include "forces/library.hpp"
 #include "lilytank/camera.hpp"
@@ -15,6 +12,9 @@
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/predictor.hpp"
 #include "lilytank/world.hpp"
+#include "scores/flow_uncertainty.hpp"
+#include "scores/nuisances.hpp"
+#include "scores/scores.hpp"
 #include "support/filmed.hpp"
 #include "support/moving_bodies.hpp"
 #include "support/worlds.hpp"
