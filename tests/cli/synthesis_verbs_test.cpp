@@ -260,7 +260,7 @@ TEST(CheckVerb, RefusesWithOneLine) {
     std::string words, message;
   } cases[] = {
       {"", "one ruleset, please"},
-      {"none.rules", "cannot be read"},
+      {"none.rules", "cannot read 'none.rules'"},
       {chain + "--modules 0", "--modules 0 is outside"},
       {chain + "--worlds 3", "--worlds belongs to --measure"},
       {chain + "--gillespie 3", "--gillespie needs rates"},

@@ -22,9 +22,9 @@ end
 join: (0,0) (0,0) -> (1,1)-(2,1)  p=1
 part: (1,1)-(2,1) -> (0,0) (0,0)  p=0.5
 END
-"$lilytank" run - --set run.duration=20 --set module.count=4 --set output.rate=5 --out run --quiet < /dev/null > out
+"$lilytank" run - --set run.duration=60 --set module.count=4 --set output.rate=5 --out run --quiet < /dev/null > out
 "$lilytank" analyze run --msd-only --out analysis > out 2>&1
-"$lilytank" check pair.rules --measure run/resolved.toml --worlds 1 --lattice 0 --out check --quiet > out
+"$lilytank" check pair.rules --measure run/resolved.toml --worlds 8 --lattice 0 --out check --quiet > out
 license=https://creativecommons.org/licenses/by/4.0/
 for dir in run analysis check; do "$lilytank" export "$dir" --format ro-crate --license "$license" --quiet; done
 "$python" "$here/rules.py" run analysis check
