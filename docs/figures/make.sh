@@ -21,7 +21,7 @@ page() {
 }
 
 "$program" run scenarios/chain5.toml --seed 1 --set output.rate=2 --out $out/run --quiet > /dev/null
-"$program" render $out/run --at 1150 --png $out/run/frame.png > /dev/null
+"$program" render $out/run --at 340 --png $out/run/frame.png > /dev/null
 picture $out/run/frame.png tour/run 800
 
 "$program" run scenarios/demo.toml --out $out/demo --quiet > /dev/null

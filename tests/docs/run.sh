@@ -42,7 +42,7 @@ shortened() {
   line=${line//other.rules/scenarios/rulesets/chain5.rules}
   case $line in
     'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;
-    'lilytank render '*) line="${line/--at 1150/--at 300} --size 120 --fps 1 --quiet" ;;
+    'lilytank render '*) line="${line/--at 340/--at 300} --size 120 --fps 1 --quiet" ;;
     'lilytank study slurm '*) ;;
     'lilytank prove --'*) line+=' --worlds 2 --minutes 0.3 --known-flow --budget 1 --quiet' ;;
     'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
