@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/collide.hpp"
+#include "support/reference/collide.hpp"
 
 namespace lilytank::bench {
 namespace {
+
+using reference::Square;
 
 constexpr double kTouch = 3e-4;  // m
 
@@ -33,7 +35,7 @@ void Measures::sample(const Kinematics& k, std::span<const Face> faces) {
     speed_ += std::hypot(k.vx[i], k.vy[i]);
     spin_ += std::fabs(k.omega[i]);
     radius_ += std::hypot(k.x[i], k.y[i]);
-    const double gap = wall_separation(square(*model_, k, i), model_->tank.radius);
+    const double gap = reference::wall_separation(square(*model_, k, i), model_->tank.radius);
     at_wall_ += gap < kTouch;
     beyond_wall_ = std::max(beyond_wall_, -gap);
     for (int j = i + 1; j < k.modules; ++j) pair(k, faces, i, j);
@@ -45,7 +47,7 @@ void Measures::pair(const Kinematics& k, std::span<const Face> faces, int i, int
   const double dx = k.x[j] - k.x[i], dy = k.y[j] - k.y[i], side = model_->module.side;
   if (dx * dx + dy * dy >= 2 * side * side) return;
   ++near_;
-  const double gap = separation(square(*model_, k, i), square(*model_, k, j)).size;
+  const double gap = reference::separation(square(*model_, k, i), square(*model_, k, j)).size;
   touching_ += gap < kTouch;
   if (gap < 0 && !joined_to(faces, i, j)) depths_.push_back(-gap);
 }
