@@ -33,6 +33,7 @@ shortened() {
   [[ $line != *calibrate* && $line != *diagnose* ]] || line=${line//EXPERIMENT.toml/scenarios/experiments/tour.toml}
   line=${line//EXPERIMENT.toml/scenarios/experiments/tank.toml}
   line=${line// experiment.toml/ scenarios/experiments/tank.toml}
+  line=${line//diagnose-NAME/diagnose-tour}
   line=${line//GRID.csv/out/flow-tank/flow_smooth.csv}
   line=${line//SECOND.toml/scenarios/experiments/tour.toml}
   line=${line//FIRST.toml/scenarios/experiments/tour.toml}
