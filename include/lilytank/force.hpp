@@ -3,6 +3,7 @@
 // effects reads from the same file how to try a term, and evaluates it on recorded motion.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@ namespace lilytank {
 
 class FlowField;
 class KeptGusts;
+class LaneForce;
 struct Model;
 
 /// What a parameter measures: how synthetic experiments draw other values of it.
@@ -140,6 +142,9 @@ class ForceTerm {
                    std::span<Wrench> out) const {
     static_cast<void>(p), static_cast<void>(out);
   }
+  /// add() without conversions, for the engine's float32 arrays; null: there is only add(). The
+  /// models' parameters `p` outlive it.
+  virtual std::unique_ptr<LaneForce> in_lanes(const Model&, std::span<const double> p) const;
   /// Whether perturb_flow() does anything.
   virtual bool perturbs_flow() const { return false; }
   /// Whether that is to multiply `water.gain` alone: such terms come first, so that what others do

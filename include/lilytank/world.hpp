@@ -69,8 +69,9 @@ class World {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Steps many Worlds side by side: several times as fast as one after another, with the same
-/// results. Holds scratch memory only, so the Worlds may be others in every step.
+/// Steps many Worlds side by side, with the results that each has alone: up to a fifth faster where
+/// islands of many Worlds meet in vector lanes (docs/performance.md). Holds scratch memory only, so
+/// the Worlds may be others in every step.
 class Batch {
  public:
   Batch();

@@ -142,7 +142,6 @@ void VerbOptions::name_standard_input() {
     refuse("standard input is read once: write '-' for one file only");
   }
   *dash = kStandardInput;
-  use_standard_input();
 }
 
 void VerbOptions::check_names(const Arguments& arguments) {

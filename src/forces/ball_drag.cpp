@@ -1,6 +1,7 @@
 // Drag on the balls of the flow measurements [paper, Eq. 2].
 #include <cmath>
 
+#include "float_bodies.hpp"
 #include "library.hpp"
 #include "lilytank/model.hpp"
 #include "lilytank/random.hpp"
@@ -41,6 +42,10 @@ class BallDrag final : public ForceTerm {
       out[i].fx += size * wx;
       out[i].fy += size * wy;
     }
+  }
+  // Where there are no balls, without conversions.
+  std::unique_ptr<LaneForce> in_lanes(const Model& model, std::span<const double>) const override {
+    return model.ball.count == 0 ? std::make_unique<LaneForce>() : nullptr;
   }
 };
 

@@ -1,4 +1,5 @@
 // Loss of speed and spin per second, relative to the tank [paper, section 3.1].
+#include "float_bodies.hpp"
 #include "library.hpp"
 
 namespace lilytank {
@@ -23,6 +24,9 @@ class Damping final : public ForceTerm {
   }
   std::span<const Parameter> parameters() const override { return kParameters; }
   bool baseline() const override { return true; }
+  std::unique_ptr<LaneForce> in_lanes(const Model&, std::span<const double>) const override {
+    return std::make_unique<LaneForce>();
+  }
   Decay decay(std::span<const double> p, double dt) const override {
     return {pow_portable(1 - p[0], dt), pow_portable(1 - p[1], dt)};
   }

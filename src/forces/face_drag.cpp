@@ -1,6 +1,7 @@
 // Drag on the four faces of every module [paper, Eq. 5], with the area projected on the flow.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "face_drag_kernel.hpp"
 #include "float_bodies.hpp"
@@ -32,6 +33,41 @@ void load_block(const Kinematics& k, int first, int count, bool shadowing, Lanes
 double drag_scale(const Model& model, std::span<const double> p, int segments) {
   return p[0] * 0.5 * model.flow.rho * model.module.draught * (model.module.side / segments);
 }
+
+class DragLanes final : public LaneForce {
+ public:
+  DragLanes(const Model& model, std::span<const double> p)
+      : model_(&model),
+        segments_(static_cast<int>(p[1])),
+        scale_(static_cast<float>(drag_scale(model, p, segments_))) {}
+
+  void add(const FloatBodies& b, const StepContext& now) override {
+    if (!settings_)
+      settings_.emplace(*model_, segments_, now);
+    else
+      settings_->set_moment(*model_, now);
+    static constexpr std::uint8_t kOpen[kBulkBodies] = {};
+    for (int i = 0; i < b.modules; i += kBulkBodies) {
+      DragSums sums;
+      settings_->draw.body = static_cast<std::uint32_t>(i);
+      face_drag_sums(*settings_,
+                     {b.x + i, b.y + i, b.c + i, b.s + i, b.vx + i, b.vy + i, b.omega + i,
+                      model_->module.shadowing ? b.covered + i : kOpen},
+                     now.kept, sums);
+      const int count = std::min(kBulkBodies, b.modules - i);
+      for (int k = 0; k < count; ++k) {
+        b.fx[i + k] += scale_ * sums.fx[k], b.fy[i + k] += scale_ * sums.fy[k];
+        b.torque[i + k] += scale_ * sums.torque[k];
+      }
+    }
+  }
+
+ private:
+  const Model* model_;
+  int segments_;
+  float scale_;
+  std::optional<DragSettings> settings_;  // made in the first step
+};
 
 class FaceDrag final : public ForceTerm {
   static constexpr Parameter kParameters[] = {
@@ -77,29 +113,13 @@ class FaceDrag final : public ForceTerm {
       }
     }
   }
+  std::unique_ptr<LaneForce> in_lanes(const Model& model,
+                                      std::span<const double> p) const override {
+    return std::make_unique<DragLanes>(model, p);
+  }
 };
 
 }  // namespace
-
-void add_face_drag(const Model& model, const FloatBodies& b, const StepContext& now,
-                   std::span<const double> p, DragSettings& settings) {
-  settings.set_moment(model, now);
-  const auto scale = static_cast<float>(drag_scale(model, p, settings.segments));
-  static constexpr std::uint8_t kOpen[kBulkBodies] = {};
-  for (int i = 0; i < b.modules; i += kBulkBodies) {
-    DragSums sums;
-    settings.draw.body = static_cast<std::uint32_t>(i);
-    face_drag_sums(settings,
-                   {b.x + i, b.y + i, b.c + i, b.s + i, b.vx + i, b.vy + i, b.omega + i,
-                    model.module.shadowing ? b.covered + i : kOpen},
-                   now.kept, sums);
-    const int count = std::min(kBulkBodies, b.modules - i);
-    for (int k = 0; k < count; ++k) {
-      b.fx[i + k] += scale * sums.fx[k], b.fy[i + k] += scale * sums.fy[k];
-      b.torque[i + k] += scale * sums.torque[k];
-    }
-  }
-}
 
 const ForceTerm& face_drag() {
   static const FaceDrag term;

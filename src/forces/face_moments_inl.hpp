@@ -137,7 +137,7 @@ HWY_INLINE FaceCovariance covariance_of(const NodeSums& w, const SegmentMoments 
           w.all(s[0].tt, s[1].tt, s[2].tt)};
 }
 
-// In stages over the three nodes of all faces, whose chains the processor can then overlap. Of an
+// In stages over the three nodes of all faces: the processor can then overlap their chains. Of an
 // expected drag nothing is drawn, so its covariance is not computed.
 template <FlowAt kAt, bool kDrawn>
 HWY_INLINE void matched_faces(const Task& task, const Modules& m, WrenchSum& out) {

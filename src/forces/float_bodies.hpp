@@ -1,13 +1,10 @@
 // The bodies of a running world as the hot force terms take them: float32, without conversions.
 #pragma once
 #include <cstdint>
-#include <span>
 
 #include "lilytank/force.hpp"
 
 namespace lilytank {
-
-struct DragSettings;
 
 /// Arrays aligned to 64 bytes and padded to a multiple of sixteen bodies; as in Kinematics.
 struct FloatBodies {
@@ -17,11 +14,14 @@ struct FloatBodies {
   int modules, count;
 };
 
-/// The same as face_drag().add(). `settings` were made for the model.
-void add_face_drag(const Model& model, const FloatBodies& b, const StepContext& now,
-                   std::span<const double> p, DragSettings& settings);
-/// The same as stochastic_force().add().
-void add_stochastic_force(const Model& model, const FloatBodies& b, const StepContext& now,
-                          std::span<const double> p);
+/// What a term adds to the wrenches of one world's bodies; the base adds nothing.
+class LaneForce {
+ public:
+  virtual ~LaneForce() = default;
+  /// Never throws, never allocates.
+  virtual void add(const FloatBodies& b, const StepContext& now) {
+    static_cast<void>(b), static_cast<void>(now);
+  }
+};
 
 }  // namespace lilytank

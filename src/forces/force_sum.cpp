@@ -7,29 +7,21 @@
 
 namespace lilytank {
 
-namespace {
-
-// Those of the paper: the others are added in double precision.
-bool in_lanes(const Model& model, const ActiveForce& force) {
-  return force.term == &face_drag() || force.term == &stochastic_force() ||
-         force.term == &damping() || (force.term == &ball_drag() && model.ball.count == 0);
-}
-
-}  // namespace
-
-ForceSum::ForceSum(ForceSum&&) noexcept = default;
-ForceSum::~ForceSum() = default;
-
 ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
     : model_(&model), forces_(&forces) {
   for (const ActiveForce& force : forces) {
     if (force.term->perturbs_flow()) stirring_.push_back(&force);
     if (force.term->transforms()) transforming_.push_back(&force);
-    if (!in_lanes(model, force)) slow_ = true;
+    lanes_.push_back(force.term->in_lanes(model, force.p));
     if (force.term == &face_drag() && model.steps_per_tick > 1)
       gusts_ = {model.module.count, gust_numbers(model.flow.gusts, static_cast<int>(force.p[1]))};
   }
-  if (slow_) wrenches_.resize(static_cast<std::size_t>(model.bodies()));
+  // What changes the water or the sum must meet all terms.
+  if (!stirring_.empty() || !transforming_.empty()) {
+    for (auto& lane : lanes_) lane.reset();
+  }
+  if (std::find(lanes_.begin(), lanes_.end(), nullptr) != lanes_.end())
+    wrenches_.resize(static_cast<std::size_t>(model.bodies()));
   if (stirring_.empty()) return;
   std::stable_partition(stirring_.begin(), stirring_.end(),
                         [](const ActiveForce* force) { return force->term->sets_gain(); });
@@ -63,25 +55,18 @@ void ForceSum::operator()(const FloatBodies& b, const Kinematics& k, StepContext
   const auto padded =
       static_cast<std::size_t>((b.count + kBulkBodies - 1) / kBulkBodies * kBulkBodies);
   for (float* f : {b.fx, b.fy, b.torque}) std::fill_n(f, padded, 0.0f);
-  // What changes the water or the sum must meet all terms.
-  const bool all_slow = !stirring_.empty() || !transforming_.empty();
-  if (all_slow) {
-    (*this)(k, now, wrenches_);
-  } else {
-    now.kept = &gusts_;
-    std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
-    for (const ActiveForce& force : *forces_) {
-      if (force.term == &face_drag()) {
-        if (drag_ == nullptr)
-          drag_ = std::make_unique<DragSettings>(*model_, static_cast<int>(force.p[1]), now);
-        add_face_drag(*model_, b, now, force.p, *drag_);
-      } else if (force.term == &stochastic_force()) {
-        add_stochastic_force(*model_, b, now, force.p);
-      } else if (!in_lanes(*model_, force)) {
-        force.term->add(*model_, k, now, force.p, wrenches_);
-      }
-    }
+  now.kept = &gusts_;
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  perturb_flow(k, now);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    const ActiveForce& force = (*forces_)[i];
+    if (lanes_[i] != nullptr)
+      lanes_[i]->add(b, now);
+    else
+      force.term->add(*model_, k, now, force.p, wrenches_);
   }
+  for (const ActiveForce* force : transforming_)
+    force->term->transform(*model_, k, now, force->p, wrenches_);
   for (std::size_t i = 0; i < wrenches_.size(); ++i) {
     const Wrench& w = wrenches_[i];
     b.fx[i] += static_cast<float>(w.fx), b.fy[i] += static_cast<float>(w.fy);

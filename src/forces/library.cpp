@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "float_bodies.hpp"
 #include "lilytank/model.hpp"
 
 namespace lilytank {
@@ -39,6 +40,10 @@ std::span<const ForceTerm* const> force_library() {
                                 &mass_offset(),
                                 &empirical_force()};
   return terms;
+}
+
+std::unique_ptr<LaneForce> ForceTerm::in_lanes(const Model&, std::span<const double>) const {
+  return nullptr;
 }
 
 const FlowField& field_now(const Model& model, const StepContext& now) {

@@ -10,6 +10,29 @@
 namespace lilytank {
 namespace {
 
+double deviation(const Model& model, std::span<const double> p) {
+  return p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
+}
+
+class StochasticLanes final : public LaneForce {
+ public:
+  explicit StochasticLanes(double sigma) : sigma_(static_cast<float>(sigma)) {}
+  void add(const FloatBodies& b, const StepContext& now) override {
+    if (!now.gusts) return;
+    alignas(64) float z[2 * kBulkBodies];
+    for (int i = 0; i < b.count; i += kBulkBodies) {
+      bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(i), 0}, 2,
+                   z);
+      for (int k = 0; k < kBulkBodies; ++k) {
+        b.fx[i + k] += sigma_ * z[k], b.fy[i + k] += sigma_ * z[kBulkBodies + k];
+      }
+    }
+  }
+
+ private:
+  float sigma_;
+};
+
 class StochasticForce final : public ForceTerm {
   static constexpr Parameter kParameters[] = {
       {"sigma_stoch", "N", 12.682e-3, 0, 1,
@@ -32,7 +55,7 @@ class StochasticForce final : public ForceTerm {
   void add(const Model& model, const Kinematics& k, const StepContext& now,
            std::span<const double> p, std::span<Wrench> out) const override {
     if (!now.gusts) return;
-    const double sigma = p[0] * std::sqrt(static_cast<double>(model.steps_per_tick));
+    const double sigma = deviation(model, p);
     alignas(64) float z[2 * kBulkBodies];
     for (int first = 0; first < k.size(); first += kBulkBodies) {
       bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(first), 0},
@@ -44,23 +67,13 @@ class StochasticForce final : public ForceTerm {
       }
     }
   }
+  std::unique_ptr<LaneForce> in_lanes(const Model& model,
+                                      std::span<const double> p) const override {
+    return std::make_unique<StochasticLanes>(deviation(model, p));
+  }
 };
 
 }  // namespace
-
-void add_stochastic_force(const Model& model, const FloatBodies& b, const StepContext& now,
-                          std::span<const double> p) {
-  if (!now.gusts) return;
-  const auto sigma =
-      static_cast<float>(p[0] * std::sqrt(static_cast<double>(model.steps_per_tick)));
-  alignas(64) float z[2 * kBulkBodies];
-  for (int i = 0; i < b.count; i += kBulkBodies) {
-    bulk_normals({now.seed, Stream::stochastic, now.step, static_cast<std::uint32_t>(i), 0}, 2, z);
-    for (int k = 0; k < kBulkBodies; ++k) {
-      b.fx[i + k] += sigma * z[k], b.fy[i + k] += sigma * z[kBulkBodies + k];
-    }
-  }
-}
 
 const ForceTerm& stochastic_force() {
   static const StochasticForce term;

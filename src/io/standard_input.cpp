@@ -1,5 +1,6 @@
 #include "io/standard_input.hpp"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -13,12 +14,15 @@
 namespace lilytank {
 namespace {
 
-enum class Use { none, unread, stored } use = Use::none;
-int contents = -1;
+// Whether standard input is a file in memory, which can be opened more than once: only those have
+// seals.
+bool is_stored() {
+  return ::fcntl(STDIN_FILENO, F_GET_SEALS) >= 0;
+}
 
+// Puts a file in memory with its contents in the place of standard input.
 void store() {
-  if (contents >= 0) ::close(contents);
-  contents = ::memfd_create("stdin", MFD_CLOEXEC);
+  const int contents = ::memfd_create("stdin", MFD_CLOEXEC);
   int problem = contents < 0 ? errno : 0;
   char buffer[1 << 16];
   for (ssize_t n = 1; n != 0 && problem == 0;) {
@@ -26,20 +30,17 @@ void store() {
     if (n > 0) problem = write_all(contents, {buffer, static_cast<std::size_t>(n)});
     if (n < 0 && errno != EINTR) problem = errno;
   }
+  if (problem == 0 && ::dup2(contents, STDIN_FILENO) < 0) problem = errno;
+  if (contents >= 0) ::close(contents);
   if (problem != 0) throw InputError(system_problem("cannot read", kStandardInput, problem));
 }
 
 }  // namespace
 
-void use_standard_input() {
-  use = Use::unread;
-}
-
 std::string openable(const std::string& file) {
-  if (file != kStandardInput || use == Use::none) return file;
-  if (use == Use::unread) store();
-  use = Use::stored;
-  return "/dev/fd/" + std::to_string(contents);
+  if (file != kStandardInput) return file;
+  if (!is_stored()) store();
+  return "/dev/fd/0";
 }
 
 std::string stem_of(const std::string& file) {

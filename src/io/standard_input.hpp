@@ -8,11 +8,9 @@ namespace lilytank {
 /// working directory.
 inline const std::string kStandardInput = "<stdin>";
 
-/// From now on kStandardInput names standard input, which is read when it is first opened.
-void use_standard_input();
-
-/// The path that opens `file`: `file` itself, but for standard input that of its contents, stored
-/// in memory. Throws InputError with the system's reason.
+/// The path that opens `file`: `file` itself, but for kStandardInput that of a copy in memory,
+/// which takes the place of the process's standard input at the first call. Throws InputError with
+/// the system's reason.
 std::string openable(const std::string& file);
 
 /// The name of a job that its file does not name: the file's without folder and ending, "stdin" for

@@ -35,7 +35,7 @@ bool can_change(const Ruleset& rules, const State& state, int module, int face) 
 // Whether a ruleset with another target is still to come: then copies are counted anew.
 bool awaits_another_target(const World& world) {
   const Model& model = world.model();
-  const State& state = world.state();
+  const State& state = world.firmware();
   const auto other = [&](const Command& command) {
     const auto target = [&](int ruleset) {
       return canonical_shape(model.rulesets[static_cast<std::size_t>(ruleset)].target);
@@ -91,7 +91,7 @@ bool completed(int copies, const World& world, const AssemblyRecord& record) {
 
 bool is_final(const World& world, const AssemblyRecord& record) {
   if (record.copies() < record.possible_copies()) return false;
-  const State& state = world.state();
+  const State& state = world.firmware();
   for (int module = 0; module < world.model().module.count; ++module) {
     if (record.complete()[static_cast<std::size_t>(module)] == 0) continue;
     for (const Ruleset& rules : world.model().rulesets) {
@@ -119,7 +119,7 @@ bool over(const Scenario& scenario, const World& world, const AssemblyRecord& re
     return completed(copies_at_end(end, record), world, record) || reached(end.metric, record);
   if (!(end.quiet_time > 0)) return false;
   const std::int64_t quiet = std::max<std::int64_t>(1, steps_in(end.quiet_time, scenario));
-  return world.state().step - last_event >= quiet;
+  return world.steps() - last_event >= quiet;
 }
 
 void refuse_early_end(const Scenario& scenario, const std::string& instead) {
@@ -140,7 +140,7 @@ std::string end_text(const Scenario& scenario, const World& world, const Assembl
            " copies completed" + at;
   }
   if (reached(scenario.end.metric, record)) return scenario.end.metric_text + at;
-  if (world.state().step < planned_steps(scenario)) {
+  if (world.steps() < planned_steps(scenario)) {
     return "no event for " + shortest(scenario.end.quiet_time) + " s" + at;
   }
   return "run.duration reached" + at;

@@ -112,7 +112,7 @@ std::string summary_json(const Scenario& scenario, const World& world, const Ass
   json["status"] = diverged ? "diverged" : "complete";
   if (scenario.end.early() && !diverged) json["ended"] = end_text(scenario, world, record);
   json["time_s"] = printed(world.time());
-  json["steps"] = world.state().step;
+  json["steps"] = world.steps();
   json["modules"] = scenario.model.module.count;
   json["balls"] = scenario.model.ball.count;
   json["copies"] = record.copies();

@@ -16,7 +16,7 @@ std::string rule_of(const Event& event, const World& world) {
   if (event.kind == EventKind::command) {
     return event.a < 0 ? "" : command_word(command_at(model, event.a).kind);
   }
-  const auto ruleset = static_cast<std::size_t>(world.state().ruleset);
+  const auto ruleset = static_cast<std::size_t>(world.firmware().ruleset);
   if (event.rule < 0 || ruleset >= model.rulesets.size()) return "";
   return model.rulesets[ruleset].rules[static_cast<std::size_t>(event.rule)].name;
 }
@@ -30,7 +30,7 @@ std::string pair_of(bool there, int first, int second) {
 std::string row_of(const Event& event, const World& world) {
   const bool spoken = event.kind == EventKind::command;
   const bool a = event.a >= 0 && !spoken, b = event.b >= 0;
-  return without_rounding(world.time()) + "," + std::to_string(world.state().step) + "," +
+  return without_rounding(world.time()) + "," + std::to_string(world.steps()) + "," +
          event_words()[static_cast<std::size_t>(event.kind)] + pair_of(a, event.a, event.face_a) +
          pair_of(b, event.b, event.face_b) + "," + rule_of(event, world) +
          pair_of(a, event.label_a, event.last_a) + pair_of(b, event.label_b, event.last_b) + ",\n";
@@ -93,13 +93,13 @@ RunFiles::RunFiles(const Scenario& scenario, const RunDirectory& directory, int 
 
 void RunFiles::observe(const World& world, const AssemblyRecord& record) {
   events(world, record);
-  const std::int64_t step = world.state().step;
+  const std::int64_t step = world.steps();
   if (frames_due_.due(step)) trajectory_->write(world, record.complete());
   if (metrics_due_.due(step)) metrics(world, record);
 }
 
 void RunFiles::finish(const World& world, const AssemblyRecord& record) {
-  if (metrics_step_ != world.state().step) metrics(world, record);
+  if (metrics_step_ != world.steps()) metrics(world, record);
 }
 
 RunFileDigests RunFiles::flush() {
@@ -110,12 +110,12 @@ void RunFiles::events(const World& world, const AssemblyRecord& record) {
   for (const Event& event : world.events()) events_.append(row_of(event, world));
   if (record.copies() == copies_) return;
   copies_ = record.copies();
-  events_.append(without_rounding(world.time()) + "," + std::to_string(world.state().step) + "," +
+  events_.append(without_rounding(world.time()) + "," + std::to_string(world.steps()) + "," +
                  event_words()[kCopyEvent] + ",,,,,,,,,," + std::to_string(copies_) + "\n");
 }
 
 void RunFiles::metrics(const World& world, const AssemblyRecord& record) {
-  metrics_step_ = world.state().step;
+  metrics_step_ = world.steps();
   std::string row = without_rounding(world.time()) + "," + std::to_string(record.copies()) + "," +
                     std::to_string(record.most_copies());
   const int modules = scenario_->model.module.count;

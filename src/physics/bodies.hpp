@@ -81,7 +81,7 @@ constexpr float kEndless = 1e9f;  ///< m
 float look_ahead(Bodies& b, float h, float tank, std::uint64_t* at_wall);
 /// Bits of the bodies j with |x_i - x_j| < reach_i + reach_j, for up to 64 bodies, i included.
 void near_bits(const Bodies& b, const float* reach, std::uint64_t* bits);
-/// Bits of bodies whose centres `to` are nearer to (x, y) than reach, up to 64 bodies from `first`.
+/// Bits of bodies with centres `to` nearer to (x, y) than reach, up to 64 bodies from `first`.
 std::uint64_t bits_about(const Bodies& b, float x, float y, float reach, int first);
 /// Poses `to` after h seconds of free flight.
 void fly_all(Bodies& b, float h);

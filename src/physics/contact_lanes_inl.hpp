@@ -234,7 +234,7 @@ HWY_NOINLINE Mask ContactLanes::retarget(Mask which) {
 
 // Newton's restitution with friction can gain energy where several points meet at once. Slows the
 // motion relative to the rigid motion with an island's momenta, which no contact among its members
-// can change (with balls, whose spin is not free, the common velocity; with a wall, rest), so that
+// can change (with balls, which do not spin, the common velocity; with a wall, rest), so that
 // the energy falls from `now` to what it was.
 HWY_NOINLINE void ContactLanes::calm(F now, Mask which) {
   Mask wall = none(), turns = {(F(0.0f) == F(0.0f))};

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lilytank::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Most blocks are full. A world by itself has few islands, and a crowd is an island by itself,
-// whose numbers are to lie close together.
+// Most blocks are full. A world by itself has few islands. A crowd is an island by itself: its
+// numbers are to lie close together.
 namespace sixteen {
 namespace {
 #define LILYTANK_LANES 16

@@ -32,15 +32,6 @@ HWY_INLINE F operator/(F a, F b) {
 HWY_INLINE F operator-(F a) {
   return -a.v;
 }
-HWY_INLINE F& operator+=(F& a, F b) {
-  return a = a + b;
-}
-HWY_INLINE F& operator-=(F& a, F b) {
-  return a = a - b;
-}
-HWY_INLINE F& operator*=(F& a, F b) {
-  return a = a * b;
-}
 HWY_INLINE Mask operator<(F a, F b) {
   return {a.v < b.v};
 }
@@ -67,12 +58,6 @@ HWY_INLINE Mask operator|(Mask a, Mask b) {
 }
 HWY_INLINE Mask operator~(Mask a) {
   return {!a.m};
-}
-HWY_INLINE Mask& operator&=(Mask& a, Mask b) {
-  return a = a & b;
-}
-HWY_INLINE Mask& operator|=(Mask& a, Mask b) {
-  return a = a | b;
 }
 HWY_INLINE Whole operator+(Whole a, Whole b) {
   return a.v + b.v;
@@ -196,15 +181,6 @@ HWY_INLINE F operator/(F a, F b) {
 HWY_INLINE F operator-(F a) {
   return hn::Neg(a.v);
 }
-HWY_INLINE F& operator+=(F& a, F b) {
-  return a = a + b;
-}
-HWY_INLINE F& operator-=(F& a, F b) {
-  return a = a - b;
-}
-HWY_INLINE F& operator*=(F& a, F b) {
-  return a = a * b;
-}
 HWY_INLINE Mask operator<(F a, F b) {
   return {hn::Lt(a.v, b.v)};
 }
@@ -231,12 +207,6 @@ HWY_INLINE Mask operator|(Mask a, Mask b) {
 }
 HWY_INLINE Mask operator~(Mask a) {
   return {hn::Not(a.m)};
-}
-HWY_INLINE Mask& operator&=(Mask& a, Mask b) {
-  return a = a & b;
-}
-HWY_INLINE Mask& operator|=(Mask& a, Mask b) {
-  return a = a | b;
 }
 HWY_INLINE Whole operator+(Whole a, Whole b) {
   return hn::Add(a.v, b.v);
@@ -334,6 +304,21 @@ HWY_INLINE std::size_t width() {
 }
 #endif
 
+HWY_INLINE F& operator+=(F& a, F b) {
+  return a = a + b;
+}
+HWY_INLINE F& operator-=(F& a, F b) {
+  return a = a - b;
+}
+HWY_INLINE F& operator*=(F& a, F b) {
+  return a = a * b;
+}
+HWY_INLINE Mask& operator&=(Mask& a, Mask b) {
+  return a = a & b;
+}
+HWY_INLINE Mask& operator|=(Mask& a, Mask b) {
+  return a = a | b;
+}
 HWY_INLINE F sign(F a) {
   return choose(a < 0.0f, -1.0f, 1.0f);
 }

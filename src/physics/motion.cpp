@@ -66,8 +66,8 @@ void Motion::Impl::begin(InMotion& w) {
   around.h = dt / static_cast<float>(slices);
 }
 
-void Motion::Impl::search(double distance) {
-  neighbours.search(bodies->x, bodies->y, distance);
+void Motion::Impl::search(const Bodies& b, double distance) {
+  neighbours.search(b.x, b.y, distance);
   searched = true;
 }
 
@@ -102,7 +102,7 @@ void Motion::Impl::find_candidates(std::vector<Encounters>& lists, int number_of
     return;
   }
   const double needed = 2 * static_cast<double>(largest + way) + 1e-4;
-  if (!searched || needed > neighbours.distance()) search(needed);
+  if (!searched || needed > neighbours.distance()) search(b, needed);
   for (int i = 0; i < b.count; ++i) {
     neighbours.above(i, [&](int j) {
       if (b.slot[static_cast<std::size_t>(i)] == b.slot[static_cast<std::size_t>(j)]) return;
@@ -203,7 +203,7 @@ void Motion::Impl::find_strays(std::vector<Encounters>& lists, int number_of_wor
       const float dx = x - b.x[i], dy = y - b.y[i];
       const double needed = 2 * static_cast<double>(largest + way) +
                             static_cast<double>(std::sqrt(dx * dx + dy * dy));
-      if (needed > neighbours.distance()) search(needed + 5e-3);
+      if (needed > neighbours.distance()) search(b, needed + 5e-3);
       neighbours.around(i, [&](int j) { look_at(i, j); });
     }
   }
@@ -261,8 +261,7 @@ std::span<const std::pair<int, int>> Motion::near_pairs(const Bodies& b, double 
     }
     return m.found;
   }
-  m.bodies = const_cast<Bodies*>(&b);
-  m.search(std::max(distance, static_cast<double>(2 * (m.largest + kUsualWay))));
+  m.search(b, std::max(distance, static_cast<double>(2 * (m.largest + kUsualWay))));
   for (int i = 0; i < n; ++i) {
     m.neighbours.above(i, [&](int j) {
       const float dx = b.x[j] - b.x[i], dy = b.y[j] - b.y[i];

@@ -27,7 +27,7 @@ class Motion {
   ~Motion();
   Motion(Motion&&) noexcept;
 
-  /// Pairs (i < j, ascending) of modules whose centres are closer than `distance` (m), for latches;
+  /// Pairs (i < j, ascending) of modules with centres closer than `distance` (m), for latches;
   /// a pair that misses it by a few micrometres may be among them. Valid until the next call.
   std::span<const std::pair<int, int>> near_pairs(const Bodies& bodies, double distance);
   /// Forgets the search: poses are others.
@@ -47,7 +47,7 @@ struct InMotion {
   const Assemblies* assemblies;
   Tallies* tallies;
   float linear = 0, angular = 0;  ///< shares of the twists lost at the end of the step
-  /// Result: -1, or a slot of the island whose contacts took more work than allowed. The bodies
+  /// Result: -1, or a slot of the island that took more work than allowed. The bodies
   /// then stay where they were before the step, or before the slice of it that took so much.
   int stalled = -1;
 };

@@ -39,7 +39,7 @@ struct Motion::Impl {
   void place_ends();
   void find_strays(std::vector<Encounters>& lists, int world);
   void finish();
-  void search(double distance);
+  void search(const Bodies& b, double distance);
   PairKind kind_of(int a, int b) const;
 
   const Model* model;

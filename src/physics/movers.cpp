@@ -218,7 +218,7 @@ bool Movers::Impl::settle(Motion::Impl& m, int slot) {
   entered.assign(1, slot);
   for (int round = 0; round < kSettleRounds; ++round) {
     links.clear();
-    if (m.bits.empty()) m.search(static_cast<double>(2 * m.largest + kSettleMargin));
+    if (m.bits.empty()) m.search(*m.bodies, static_cast<double>(2 * m.largest + kSettleMargin));
     const std::size_t count = entered.size();
     for (std::size_t k = 0; k < count; ++k) {
       for (int i = m.assemblies->first[entered[k]]; i >= 0; i = m.assemblies->next[i])

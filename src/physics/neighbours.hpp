@@ -8,9 +8,9 @@ namespace lilytank {
 
 struct NeighbourQuery;
 
-/// For every body, the bodies whose centres are nearer than a distance. Lists are found on a
+/// For every body, the bodies with centres nearer than a distance. Lists are found on a
 /// uniform grid, for a distance that is larger by a margin, and serve all searches until bodies
-/// have moved by that margin; what is asked of them is tested anew, so no result depends on the age
+/// have moved by that margin; every pair is tested anew, so no result depends on the age
 /// of a list. Float32 and vector code; a pair that misses the distance by a few micrometres may be
 /// reported too, so users test what they need for themselves.
 class Neighbours {

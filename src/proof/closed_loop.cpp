@@ -6,7 +6,6 @@
 #include "finder/selection_report.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
-#include "lilytank/study.hpp"
 #include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
@@ -14,8 +13,8 @@ namespace lilytank {
 namespace {
 
 constexpr std::size_t kMostProposals = 2;
-constexpr double kLongestRepeat = 240;  // min
-constexpr int kReferences = 4;          // simulations of the baseline
+constexpr double kLongestRepeat = 240;    // min
+constexpr std::uint64_t kReferences = 4;  // simulations of the baseline
 constexpr std::uint64_t kReferenceSeed = 17;
 constexpr double kAmplitudePrior = 0.1;  // information of an amplitude, in sizes, that it is 0
 
@@ -64,14 +63,10 @@ class Evidence {
       shapes.push_back(shape_of(one)), shapes.back().starts.clear();
     }
     const Emulator baseline(plan.model, {}, shapes, {.moment_matched = false});
-    std::vector<Eigen::VectorXd> biases(kReferences);
-    for_each_world(kReferences, 0, [&](int k) {
-      const auto seed = derived_seed(kReferenceSeed, static_cast<std::uint64_t>(k));
-      const auto made = baseline.record({}, seed);
-      biases[static_cast<std::size_t>(k)] =
-          made ? score_sums(plan, *made, effects).scores : Eigen::VectorXd::Zero(out.scores.size());
-    });
-    for (const Eigen::VectorXd& bias : biases) out.scores -= bias / kReferences;
+    for (std::uint64_t k = 0; k < kReferences; ++k) {
+      const auto made = baseline.record({}, derived_seed(kReferenceSeed, k));
+      if (made) out.scores -= score_sums(plan, *made, effects).scores / kReferences;
+    }
     return out;
   }
 

@@ -143,7 +143,7 @@ py::list events_of(const PythonWorld& world) {
 
 void bind_numbers(py::class_<PythonWorld>& type) {
   type.def_property_readonly("time", [](const PythonWorld& w) { return w.world().time(); })
-      .def_property_readonly("steps", [](const PythonWorld& w) { return w.world().state().step; })
+      .def_property_readonly("steps", [](const PythonWorld& w) { return w.world().steps(); })
       .def_property_readonly("dt", [](const PythonWorld& w) { return w.model().dt; })
       .def_property_readonly("modules", [](const PythonWorld& w) { return w.model().module.count; })
       .def_property_readonly("bodies", [](const PythonWorld& w) { return w.model().bodies(); })

@@ -76,7 +76,7 @@ def violations(crate, directory):
     about = referenced(descriptor, "about")
     root = about[0] if about else {}
     if len(about) != 1 or "Dataset" not in types(root) or not root.get("@id", "").endswith("/"):
-        yield f"{NAME} is about one Dataset, the root, whose @id ends with a slash"
+        yield f"{NAME} is about one Dataset, the root, with an @id that ends with a slash"
     for key in ("name", "description", "license"):
         if not root.get(key):
             yield f"the root has a {key}"

@@ -12,16 +12,7 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-cat > pair.rules << 'END'
-lilytank ruleset 1
-name pair
-hops counter-clockwise
-target
-  ##
-end
-join: (0,0) (0,0) -> (1,1)-(2,1)  p=1
-part: (1,1)-(2,1) -> (0,0) (0,0)  p=0.5
-END
+cp "$here/../support/pair.rules" .
 "$lilytank" run - --set run.duration=60 --set module.count=4 --set output.rate=5 --out run --quiet < /dev/null > out
 "$lilytank" analyze run --msd-only --out analysis > out 2>&1
 "$lilytank" check pair.rules --measure run/resolved.toml --worlds 8 --lattice 0 --out check --quiet > out

@@ -1,16 +1,7 @@
 # The inputs of the commands that faults are injected into.
 make_inputs() {
   mkdir "$in"
-  cat > "$in/pair.rules" <<'END'
-lilytank ruleset 1
-name pair
-hops counter-clockwise
-target
-  ##
-end
-join: (0,0) (0,0) -> (1,1)-(2,1)  p=1
-part: (1,1)-(2,1) -> (0,0) (0,0)  p=0.5
-END
+  cp "$here/../support/pair.rules" "$in/"
   cat > "$in/tank.toml" <<'END'
 title = "pair"
 [run]
