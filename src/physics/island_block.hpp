@@ -113,6 +113,8 @@ struct IslandBlock {
 constexpr float kSlop = 8e-5f;    ///< m, overlap that is left alone
 constexpr float kPushTo = 4e-5f;  ///< m, overlap that pushing apart aims at
 
+/// Whether blocks of several islands can be moved: not by the portable code, which has no vectors.
+bool islands_share_vectors();
 /// Moves the islands by their spans. Sequential impulses with Coulomb friction and Newton's
 /// restitution, in substeps so short that overlaps stay below kSlop; what is left is pushed apart,
 /// and what cannot be helped is put back. An island's result depends on nothing but the island: not
@@ -121,8 +123,8 @@ void run_block(IslandBlock<kBlockLanes>& block);
 void run_block(IslandBlock<kFewLanes>& block);
 void run_block(IslandBlock<1>& block);
 /// Pushes overlapping bodies apart in up to `rounds` sweeps, positions only.
-void push_block(IslandBlock<kFewLanes>& block, int rounds);
+void push_block(IslandBlock<1>& block, int rounds);
 /// Measures the separations of all pairs; sets `deepest`.
-void survey_block(IslandBlock<kFewLanes>& block);
+void survey_block(IslandBlock<1>& block);
 
 }  // namespace lilytank

@@ -96,9 +96,10 @@ void Movers::Impl::solve() {
   std::sort(order.begin(), order.end(), [](const Island* p, const Island* q) {
     return p->count != q->count ? p->count < q->count : p < q;
   });
+  const bool shared = islands_share_vectors();
   for (std::size_t k = 0; k < order.size();) {
     std::size_t end = k + 1;
-    const std::size_t most = order[k]->count > kLarge ? 1 : kBlockLanes;
+    const std::size_t most = order[k]->count > kLarge || !shared ? 1 : kBlockLanes;
     // Islands of one pair have blocks of their own: these are simpler.
     while (end < order.size() && end - k < most && order[end]->count <= limit(order[k]->count))
       ++end;
@@ -200,10 +201,10 @@ void Movers::Impl::link_around(Motion::Impl& m, int i, std::size_t k, std::vecto
 
 // The poses of the block's only island.
 void Movers::Impl::take_poses(Motion::Impl& m) {
-  for (int k = 1; k < few.block.movers; ++k) {
-    const int slot = few.slot(k, 0);
+  for (int k = 1; k < single.block.movers; ++k) {
+    const int slot = single.slot(k, 0);
     if (slot < 0) continue;
-    const MoverRowsOf<kFewLanes>& r = few.block.mover[static_cast<std::size_t>(k)];
+    const MoverRowsOf<1>& r = single.block.mover[static_cast<std::size_t>(k)];
     Bodies& b = *m.bodies;
     if (Compound* g = b.group_of(slot)) {
       g->x = r.x.v[0], g->y = r.y.v[0], g->c = r.c.v[0], g->s = r.s.v[0];
@@ -229,12 +230,12 @@ bool Movers::Impl::settle(Motion::Impl& m, int slot) {
               [](const Link& p, const Link& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
     const Island island{&m, 0, static_cast<int>(links.size())};
     const Island* one = &island;
-    few.pack(links, &one, 1);
-    survey_block(few.block);
-    if (few.block.deepest.v[0] <= kSettled) return true;
+    single.pack(links, &one, 1);
+    survey_block(single.block);
+    if (single.block.deepest.v[0] <= kSettled) return true;
     if (round + 1 == kSettleRounds) return false;
-    push_block(few.block, kSettlePushes);
-    m.latch_work += few.block.work.v[0];
+    push_block(single.block, kSettlePushes);
+    m.latch_work += single.block.work.v[0];
     take_poses(m);
   }
   return false;
