@@ -163,17 +163,23 @@ std::vector<double> film_times(const StoredRun& run, const FilmOptions& options)
   return times;
 }
 
-void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
+void check_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
+  if (options.force) return;
   const Schedule when = schedule(run, options);
   FrameRaster raster(run, options.style, shown_speed(when), options.style.size);
-  // Frames of another film are found before the first one is written.
   for (const auto& [frame, file] : stills_in(dir)) {
-    if (options.force) {
-      fs::remove(file);
-    } else if (frame >= when.frames || holds_other(file, raster.draw(when.time(frame)).encoded())) {
+    if (frame >= when.frames || holds_other(file, raster.draw(when.time(frame)).encoded()))
       refuse_to_replace(file);
-    }
   }
+}
+
+void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir) {
+  const Schedule when = schedule(run, options);
+  check_stills(run, options, dir);
+  if (options.force) {
+    for (const auto& [frame, file] : stills_in(dir)) fs::remove(file);
+  }
+  FrameRaster raster(run, options.style, shown_speed(when), options.style.size);
   make_directory(dir);
   for (int k = 0; k < when.frames; ++k) {
     check_drawing(options);

@@ -83,9 +83,11 @@ void check_film(const StoredRun& run, const FilmOptions& options, const std::str
 bool is_film(const std::string& file);
 /// When the film's frames are (s of simulated time). Throws InputError as draw_film.
 std::vector<double> film_times(const StoredRun& run, const FilmOptions& options);
-/// The same frames as numbered PNG files in a directory. Unless `options.force`, throws InputError
-/// if it holds frames of another film; with it, they are removed.
+/// The same frames as numbered PNG files in a directory; check_stills() before the first one. With
+/// `options.force`, frames of another film are removed.
 void draw_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir);
+/// Throws InputError if the directory holds frames of another film, unless `options.force`.
+void check_stills(const StoredRun& run, const FilmOptions& options, const std::string& dir);
 
 /// One curve of a plot; `low` and `high`, where given, are drawn as a band.
 struct Curve {

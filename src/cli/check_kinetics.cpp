@@ -273,6 +273,17 @@ std::string table_text(const RateTable& table) {
   return out + "\n";
 }
 
+// The directory of rates and curves; "": none.
+std::string out_of(const CheckJob& job, const CheckInput& input) {
+  return job.options.text("out", input.scenario ? "out/check-" + input.rules.name : "");
+}
+
+DirectoryJob directory_job(const CheckInput& input) {
+  return {"check", identity_of(input),
+          with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
+                       {"yield"})};
+}
+
 }  // namespace
 
 void add_kinetics_options(CheckJob& job) {
@@ -330,22 +341,37 @@ CheckInput check_input(const CheckJob& job) {
   return input;
 }
 
+std::string kinetics_plan(const CheckJob& job, const CheckInput& input) {
+  const VerbOptions& options = job.options;
+  std::string plan;
+  if (input.rates) static_cast<void>(kinetics_of(input.rules, *input.rates, input.modules));
+  if (input.scenario) {
+    const Scenario& scenario = *input.scenario;
+    plan += "would measure rates in " + counted(job.measured.worlds, "simulation") + " of " +
+            shortest(scenario.duration) + " s of " + counted(input.modules, "module") + "\n";
+  }
+  const std::string dir = out_of(job, input);
+  if (!dir.empty()) {
+    check_directory_can_be(dir);
+    check_directory(dir, job.force, directory_job(input));
+    plan += "would write to " + dir + "\n";
+  }
+  for (const char* name : {"kappa", "bngl"})
+    if (options.has(name)) plan += "would write " + options.text(name) + "\n";
+  return plan;
+}
+
 KineticsReport run_kinetics(const CheckJob& job, const CheckInput& input, const Host& host) {
   const VerbOptions& options = job.options;
   // Where nothing was counted: see docs/synthesis.md.
   double face_rate = kStandardFaceRate, evaluation_rate = kStandardEvaluationRate;
   KineticsReport report;
   if (input.scenario || input.rates) {
-    const std::string usual = input.scenario ? "out/check-" + input.rules.name : "";
-    const std::string dir = options.text("out", usual);
+    const std::string dir = out_of(job, input);
     std::optional<Kinetics> kinetics;
     // Rates that do not suit the rules are refused before a directory is made.
     if (input.rates) kinetics = kinetics_of(input.rules, *input.rates, input.modules);
-    report.lock = claim_directory(
-        dir, job.force,
-        {"check", identity_of(input),
-         with_figures({"check.txt", "check.json", "report.html", "rates.csv", "yield.csv"},
-                      {"yield"})});
+    report.lock = claim_directory(dir, job.force, directory_job(input));
     const Counted counted =
         input.scenario ? measure(job, input, dir, host) : Counted{*input.rates, {}, 0, 0};
     report.dir = dir;

@@ -45,6 +45,10 @@ struct CheckInput {
 /// for files that cannot be used, and for what a scenario says that would have no effect.
 CheckInput check_input(const CheckJob& job);
 
+/// Lines on what run_kinetics() would do; writes nothing. Throws InputError for directories that it
+/// would refuse.
+std::string kinetics_plan(const CheckJob& job, const CheckInput& input);
+
 /// What came of --measure, --rates, --kappa and --bngl.
 struct KineticsReport {
   std::string text;

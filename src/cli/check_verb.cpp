@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -22,6 +23,7 @@ void add_check_options(CheckJob& job) {
   options.add({"attempts", "meetings in each (20000)", "N"}, &check.lattice.attempts, 1,
               1000000000);
   options.add({"seed", "of all random numbers (1)", "N"}, &job.measured.seed, 0, INT64_MAX);
+  options.add({"dry-run", "read everything, write nothing"});
   options.add({"force", "replace other results"}, &job.force);
   options.add({"json", "print JSON"}, &job.json);
   options.add({"quiet", "no progress"}, &job.quiet);
@@ -36,6 +38,15 @@ std::vector<std::string> input_files(const CheckJob& job) {
     return file.empty() || std::filesystem::is_directory(file);
   });
   return files;
+}
+
+int dry_run(const CheckOptions& check, const CheckInput& input, const std::string& plan) {
+  std::cout << "would check " << input.rules.name << " ("
+            << counted(std::ssize(input.rules.rules), "rule") << ") for "
+            << counted(check.modules, "module") << ", with "
+            << counted(check.lattice_runs, "simulation") << " of the lattice model\n"
+            << plan;
+  return Exit::done;
 }
 
 std::string without_line_end(std::string text) {
@@ -81,6 +92,8 @@ int check_verb(const Arguments& arguments, const Host& host) {
   const CheckInput input = check_input(job);
   job.check.modules = input.modules;
   job.check.lattice.seed = job.measured.seed;
+  const std::string plan = kinetics_plan(job, input);
+  if (job.options.has("dry-run")) return dry_run(job.check, input, plan);
   RulesetCheck check;
   {
     Progress progress(job.quiet, host);

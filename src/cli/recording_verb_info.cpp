@@ -153,16 +153,40 @@ Json info_json(const NamedRecording& named, const CheckedRecording& checked) {
   return out;
 }
 
+/// Identity as the file writes it; "" if the finding is of no body.
+std::string identity_text(const Finding& f) {
+  return f.id < 0 ? "" : f.name.empty() ? std::to_string(f.id) : f.name;
+}
+
 std::string csv_row(const Finding& f) {
   std::string what = f.what;
   std::replace(what.begin(), what.end(), ',', ';');
   std::replace(what.begin(), what.end(), '"', '\'');
   return f.place.file + "," + (f.place.line > 0 ? std::to_string(f.place.line) : "") + "," +
-         (f.frame >= 0 ? std::to_string(f.frame) : "") + "," +
-         (f.id < 0         ? ""
-          : f.name.empty() ? std::to_string(f.id)
-                           : f.name) +
-         "," + check_word(f.check) + "," + treatment_word(f.treatment) + "," + what + "\n";
+         (f.frame >= 0 ? std::to_string(f.frame) : "") + "," + identity_text(f) + "," +
+         check_word(f.check) + "," + treatment_word(f.treatment) + "," + what + "\n";
+}
+
+/// The columns of csv_row(); null where a cell is empty.
+Json check_json(const NamedRecording& named, const CheckedRecording& checked) {
+  Json findings = Json::array();
+  for (const Finding& f : checked.findings) {
+    const std::string id = identity_text(f);
+    findings.push_back({{"file", f.place.file},
+                        {"line", f.place.line > 0 ? Json(f.place.line) : Json()},
+                        {"frame", f.frame >= 0 ? Json(f.frame) : Json()},
+                        {"id", id.empty() ? Json() : Json(id)},
+                        {"check", check_word(f.check)},
+                        {"treatment", treatment_word(f.treatment)},
+                        {"what", f.what}});
+  }
+  return {{"name", named.name},
+          {"rows", checked.rows},
+          {"rows_without_identity", checked.counts.without_identity},
+          {"sightings_without_position", checked.counts.not_seen},
+          {"tracks", checked.recording.tracks.size()},
+          {"refused", checked.refused()},
+          {"findings", findings}};
 }
 
 /// Findings, of each kind so many that one reads them.
@@ -182,6 +206,22 @@ void print_findings(const std::vector<Finding>& findings, bool all) {
                 << " (--all shows them)\n";
     }
   }
+}
+
+void print_check(const NamedRecording& named, const CheckedRecording& checked, bool all) {
+  print_findings(checked.findings, all);
+  std::cout << named.name << ": " << counted(checked.rows, "row")
+            << (checked.comment_lines > 0
+                    ? ", " + counted(checked.comment_lines, "comment line") + " passed over"
+                    : "")
+            << ", findings: " << findings_line(checked.findings);
+  if (checked.refused()) {
+    std::cout << "; refused\n";
+  } else {
+    std::cout << "; " << counted(checked.recording.tracks.size(), "track") << "\n";
+  }
+  const std::string left_out = left_out_line(checked.counts);
+  if (!left_out.empty()) std::cout << "left out: " << left_out << "\n";
 }
 
 /// Calls act for every recording; complaints about one do not keep the others back.
@@ -227,29 +267,24 @@ int recording_check(const Arguments& arguments) {
   add_reading_options(options);
   options.add({"all", "show every finding, not ten of a kind"});
   options.add({"csv", "write the findings to a table", "FILE"});
+  options.add({"json", "print JSON with every finding"});
   options.add({"force", "replace a file of other contents"});
   if (!options.parse(arguments)) return Exit::done;
+  if (options.has("json")) options.refuse_given({"all"}, "has no effect with --json");
   const std::vector<NamedRecording> all = named_recordings(options, options.positional());
   options.spare_inputs("csv", options.text("csv"), files_read(all, options.positional()));
   std::string csv = "file,line,frame,id,check,treatment,what\n";
+  Json json = Json::array();
   const auto act = [&](const NamedRecording& named, const CheckedRecording& checked) {
-    print_findings(checked.findings, options.has("all"));
-    const Recording& r = checked.recording;
-    std::cout << named.name << ": " << counted(checked.rows, "row")
-              << (checked.comment_lines > 0
-                      ? ", " + counted(checked.comment_lines, "comment line") + " passed over"
-                      : "")
-              << ", findings: " << findings_line(checked.findings);
-    if (checked.refused()) {
-      std::cout << "; refused\n";
+    if (options.has("json")) {
+      json.push_back(check_json(named, checked));
     } else {
-      std::cout << "; " << counted(r.tracks.size(), "track") << "\n";
+      print_check(named, checked, options.has("all"));
     }
-    const std::string left_out = left_out_line(checked.counts);
-    if (!left_out.empty()) std::cout << "left out: " << left_out << "\n";
     for (const Finding& finding : checked.findings) csv += csv_row(finding);
   };
   const int code = for_each(all, act);
+  if (options.has("json")) std::cout << json_text(json) << std::flush;
   if (options.has("csv")) write_results({{options.text("csv"), csv}}, options.has("force"));
   return code;
 }

@@ -9,6 +9,8 @@
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "io/units.hpp"
+#include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -45,6 +47,19 @@ void warn_if_seldom(const VerbOptions& options, const StoredRun& run, const Film
   std::cerr << note;
 }
 
+void dry_run(const VerbOptions& options, const StoredRun& run, const FilmOptions& film,
+             const std::vector<std::string>& files) {
+  if (options.has("stills")) check_stills(run, film, options.text("stills"));
+  for (const std::string& file : files) std::cout << "would draw " << file << "\n";
+  if (options.has("stills")) std::cout << "would draw stills in " << options.text("stills") << "\n";
+  if (any_given(options, {"mp4", "gif", "stills"}) || !any_given(options, {"png", "svg", "pdf"})) {
+    const std::vector<double> times = film_times(run, film);
+    std::cout << "the film has " << counted(std::ssize(times), "frame") << ", from "
+              << significant(times.front(), 6) << " s to " << significant(times.back(), 6)
+              << " s of the run\n";
+  }
+}
+
 /// Draws the requested pictures and films. A picture that would be refused is found before a film
 /// is drawn, and written after it.
 void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions film,
@@ -79,6 +94,10 @@ void draw_all(const VerbOptions& options, const std::string& dir, FilmOptions fi
     films.push_back((std::filesystem::path(dir) / "video.mp4").string());
   }
   for (const std::string& file : films) check_film(run, film, file);
+  if (options.has("dry-run")) {
+    made.insert(made.end(), films.begin(), films.end());
+    return dry_run(options, run, film, made);
+  }
   for (const std::string& file : films) {
     draw_film(run, film, file);
     made.push_back(file);
@@ -119,6 +138,7 @@ void add_render_options(VerbOptions& options, FilmOptions& film, FigureStyle& pa
               &paper.width, 60, 400);
   options.add({"trail", "time of path drawn behind each body (4 s)", "TIME"}, &style.trail, 0, 3600,
               "s");
+  options.add({"dry-run", "read everything, draw nothing"});
   options.add({"force", "replace files of other contents"}, &film.force);
 }
 

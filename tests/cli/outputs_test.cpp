@@ -173,5 +173,41 @@ TEST_F(OutputsTest, ADrySearchRefusesWhatASearchDoes) {
   EXPECT_EQ(lilytank_("optimize other.toml --out a --force --dry-run").code, 0);
 }
 
+TEST_F(OutputsTest, ADryCheckRefusesWhatACheckDoes) {
+  lilytank_.here.write("mine/rates.csv", "mine\n");
+  lilytank_.here.write("file", "");
+  const std::string check =
+      "check " LILYTANK_SOURCE_DIR
+      "/scenarios/rulesets/chain5.rules --lattice 1 --quiet "
+      "--gillespie 2 --worlds 1 --duration 10 --modules 5 --measure " LILYTANK_SOURCE_DIR
+      "/scenarios/chain5.toml --out ";
+  for (const char* out : {"file", "mine"}) refused_dry_as_well(check + out);
+  const Answer dry = lilytank_(check + "new --dry-run");
+  EXPECT_EQ(dry.code, 0) << dry.err;
+  for (const char* text :
+       {"for 5 modules, with 1 simulation of the lattice model\n",
+        "would measure rates in 1 simulation of 10 s of 5 modules\n", "would write to new\n"}) {
+    EXPECT_NE(dry.out.find(text), std::string::npos) << text << "\n" << dry.out;
+  }
+  EXPECT_FALSE(lilytank_.here.has("new"));
+}
+
+#ifdef LILYTANK_HAS_RENDER
+TEST_F(OutputsTest, ADryRenderRefusesWhatARenderDoes) {
+  ASSERT_EQ(lilytank_("run tiny.toml --out run --set output.rate=10 --quiet").code, 0);
+  lilytank_.here.write("f.png", "mine\n");
+  lilytank_.here.write("film.gif", "mine\n");
+  const std::string render = "render run --size 120 --fps 2 --quiet ";
+  for (const char* what : {"--png f.png --at 1", "--gif film.gif"}) {
+    refused_dry_as_well(render + what);
+  }
+  const Answer dry = lilytank_(render + "--stills new --speed 1 --to '2 s' --dry-run");
+  EXPECT_EQ(dry.code, 0) << dry.err;
+  EXPECT_EQ(dry.out,
+            "would draw stills in new\nthe film has 4 frames, from 0 s to 1.5 s of the run\n");
+  EXPECT_FALSE(lilytank_.here.has("new"));
+}
+#endif
+
 }  // namespace
 }  // namespace lilytank

@@ -73,6 +73,17 @@ TEST_F(RecordingVerb, checkNamesWhatIsWrongAndGoesOn) {
   EXPECT_EQ(lilytank_("recording check duplicate.csv --read checks.duplicate=mark").code, 0);
 }
 
+TEST_F(RecordingVerb, checkIsJsonForPrograms) {
+  const Answer a = lilytank_("recording check duplicate.csv small.csv --json");
+  EXPECT_EQ(a.code, 2);
+  for (const char* text :
+       {"\"name\": \"duplicate.csv\"", "\"line\": 8", "\"frame\": 2", "\"id\": \"1\"",
+        "\"check\": \"duplicate\"", "\"treatment\": \"refuse\"", "\"refused\": true",
+        "\"tracks\": 2,\n    \"refused\": false,\n    \"findings\": []"}) {
+    EXPECT_NE(a.out.find(text), std::string::npos) << text << "\n" << a.out;
+  }
+}
+
 TEST_F(RecordingVerb, convertGoesThereAndBack) {
   const std::string scale = "tank_circle=[300,200,150]";
   Answer a = lilytank_("recording convert small.csv --to trackpy --out p.csv --write " + scale);
