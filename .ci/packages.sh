@@ -4,12 +4,12 @@ build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libtom
                 libcxxopts-dev libhwy-dev librandom123-dev libboost-dev libcairo2-dev zlib1g-dev
                 libssl-dev nlohmann-json3-dev)
 film_packages=(ffmpeg fonts-dejavu-core)
-# For texts, reports, NetCDF, the Debian packages, the recipe for conda.
-test_packages=(libgtest-dev perl chromium libnetcdf-dev dpkg-dev file python3-yaml python3-jinja2)
+# For texts, reports, NetCDF, recordings by Box2D, the Debian packages, the recipe for conda.
+test_packages=(libgtest-dev perl chromium libnetcdf-dev libbox2d-dev dpkg-dev file python3-yaml python3-jinja2)
 python_packages=(python3-dev pybind11-dev python3-numpy)
 table_packages=(python3-pandas python3-xarray python3-netcdf4)  # for tests of conversions, which are skipped without
 slurm_packages=(slurm-wlm)  # for tests/slurm, which only root can run
-# Other engines and optimisers are only measured against, never linked into the simulator.
+# Engines and optimisers to measure against: none of them steps a World.
 bench_packages=(libbenchmark-dev libode-dev libbox2d-dev libchipmunk-dev libpagmo-dev)
 
 # Installs those of the named packages that are not there yet. Needs no rights if none is missing.

@@ -6,6 +6,7 @@
 // frames are the same on both sides and need no correction.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 #include "lilytank/model.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/recording.hpp"
+#include "lilytank/trajectory.hpp"
 
 namespace lilytank {
 
@@ -76,6 +78,11 @@ struct CameraNumbers {
   double position_noise = 0, heading_noise = 0, lens = 0, tilt_x = 0, tilt_y = 0;
 };
 
+/// Moves the bodies of a model in place of a World: poses over `seconds` after `settle` s from
+/// initial_state(model, seed); nothing if they diverged.
+using OtherEngine = std::function<std::optional<Trajectory>(const Model& model, double settle,
+                                                            double seconds, std::uint64_t seed)>;
+
 /// Settings of the simulations, apart from the parameters that vary.
 struct EmulatorOptions {
   /// Draw the gusts' wrench on a module from its moments instead of point by point: three times
@@ -87,6 +94,8 @@ struct EmulatorOptions {
   double position_noise = 3e-4;
   /// Standard deviation of headings, rad, unless kHeadingNoise is among the parameters.
   double heading_noise = 0.01;
+  /// If set, it moves the bodies of shapes without starts.
+  OtherEngine engine;
 };
 
 /// Simulates an experiment at any values of a list of parameters. Constant once made, so it may be

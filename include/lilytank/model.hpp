@@ -43,7 +43,7 @@ struct BallParameters {
 };
 
 /// Contacts between bodies, and between a body and the wall: Coulomb friction and Newton's
-/// restitution, solved by sequential impulses (src/physics/contact_solver.hpp).
+/// restitution, solved by sequential impulses (src/physics/island_block.hpp).
 struct ContactParameters {
   double friction = 0.2;  ///< Coulomb's coefficient, the same for all pairs and for the wall
   /// Separation speed divided by approach speed, 0 (inelastic) .. 1 (elastic).

@@ -21,6 +21,9 @@ struct ProofOptions {
   /// true: pumps, inlets and the parameters that calibrations estimate are drawn from the seed.
   /// false: the built-in tank, with the parameters at which the diagnosis starts.
   bool drawn_tank = false;
+  /// All recordings are of bodies that Box2D moves, in a flow that is interpolated otherwise, seen
+  /// by a camera with pixels. Throws InputError if this program was built without Box2D.
+  bool foreign = false;
   /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
   bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most

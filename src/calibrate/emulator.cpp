@@ -51,6 +51,27 @@ State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
   return state;
 }
 
+// Poses about each frame; nothing if the world diverges.
+std::optional<Trajectory> moved(const Model& model, const BodiesAt* start, double settle,
+                                double seconds, double rate, std::uint64_t seed) {
+  World world = start != nullptr ? World(model, state_at(model, *start, seed)) : World(model, seed);
+  const auto settling = static_cast<std::int64_t>(std::llround(settle / model.dt));
+  for (std::int64_t step = 0; step < settling; ++step) {
+    if (world.step() == RunStatus::diverged) return std::nullopt;
+  }
+  Trajectory trajectory;
+  const auto steps = static_cast<std::int64_t>(std::ceil(seconds / model.dt - 1e-9));
+  append_poses(world, trajectory);
+  for (std::int64_t step = 1; step <= steps; ++step) {
+    if (world.step() == RunStatus::diverged) return std::nullopt;
+    // A frame lies between two poses: the others are not seen.
+    const double at = static_cast<double>(step) * model.dt;
+    const double off = at - std::round(at * rate) / rate;
+    if (step == steps || std::fabs(off) < model.dt * (1 + 1e-6)) append_poses(world, trajectory);
+  }
+  return trajectory;
+}
+
 }  // namespace
 
 bool of_camera(const std::string& path) {
@@ -108,28 +129,15 @@ Emulator::Scene Emulator::scene(std::span<const double> values, const RecordingS
 std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingShape& shape,
                                             const BodiesAt* start, double seconds,
                                             std::uint64_t seed) const {
-  World world = start != nullptr ? World(scene.model, state_at(scene.model, *start, seed))
-                                 : World(scene.model, seed);
   const double settle = start != nullptr ? 0 : options_.settle;
-  const auto settling = static_cast<std::int64_t>(std::llround(settle / scene.model.dt));
-  for (std::int64_t step = 0; step < settling; ++step) {
-    if (world.step() == RunStatus::diverged) return std::nullopt;
-  }
-  Trajectory trajectory;
-  const auto steps = static_cast<std::int64_t>(std::ceil(seconds / scene.model.dt - 1e-9));
-  append_poses(world, trajectory);
-  for (std::int64_t step = 1; step <= steps; ++step) {
-    if (world.step() == RunStatus::diverged) return std::nullopt;
-    // A frame lies between two poses: the others are not seen.
-    const double at = static_cast<double>(step) * scene.model.dt;
-    const double off = at - std::round(at * shape.rate) / shape.rate;
-    if (step == steps || std::fabs(off) < scene.model.dt * (1 + 1e-6)) {
-      append_poses(world, trajectory);
-    }
-  }
+  std::optional<Trajectory> trajectory =
+      options_.engine && start == nullptr
+          ? options_.engine(scene.model, settle, seconds, seed)
+          : moved(scene.model, start, settle, seconds, shape.rate, seed);
+  if (!trajectory) return std::nullopt;
   Camera camera = scene.camera;
   camera.seed = derived_seed(seed, kCameraRun);
-  Recording out = film(trajectory, camera, shape.body);
+  Recording out = film(*trajectory, camera, shape.body);
   out.name = shape.name, out.latches = shape.latches;
   return out;
 }

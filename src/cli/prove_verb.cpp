@@ -66,6 +66,9 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
                "draw the tank, too: its pumps, inlets and parameters (the built-in "
                "tank)"},
               &job.drawn_tank);
+  options.add({"foreign",
+               "record all experiments with another engine (Box2D), flow interpolation and camera"},
+              &job.foreign);
   options.add(
       {"closed-loop", "split groups of effects by the experiments that are proposed for them"},
       &job.closed_loop);
@@ -127,9 +130,10 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank",
-                          "closed-loop", "modelled", "budget", "seed", "threads", "dry-run"},
-                         "is for a new proof");
+    options.refuse_given(
+        {"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank", "foreign",
+         "closed-loop", "modelled", "budget", "seed", "threads", "dry-run"},
+        "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);
   }

@@ -7,7 +7,6 @@
 #include "finder/proposal.hpp"
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
-#include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "proof/baseline_method.hpp"
 #include "proof/closed_loop.hpp"
@@ -23,6 +22,7 @@ constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSee
                         kExpectedSeed = 1u << 21, kDrawnSeed = 5, kLoopSeed = 1u << 22;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
+const std::string kForeignKey = "engine Box2D\n";  // a line of the key
 constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
 
 // The open part of the exam: balls, and Lilies in which nothing is missing.
@@ -36,12 +36,10 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
   std::vector<RecordingShape> shapes(kSealedRecordings,
                                      shape_named("balls", BodyKind::ball, kBalls, of_balls));
-  EmulatorOptions exact;
-  exact.moment_matched = false;
   const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
-  auto balls = Emulator(with_steps(tank, kSealedSteps), {}, shapes, exact).record({}, seed);
+  auto balls = film_tank(with_steps(tank, kSealedSteps), {}, {}, shapes, seed, options.foreign);
   Sealed nothing;
-  nothing.factors.assign(5, 1.0);
+  nothing.factors.assign(5, 1.0), nothing.foreign = options.foreign;
   auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
   if (!balls || !lilies) throw InputError("the proof's tank diverges");
   if (options.known_flow) balls->clear();
@@ -192,7 +190,8 @@ std::string words_for_tank(const ProofOptions& options) {
          (options.known_flow ? "known flow"
           : options.ball_minutes > 0
               ? "flow from balls of " + shortest(options.ball_minutes) + " min"
-              : "flow from balls");
+              : "flow from balls") +
+         (options.foreign ? ", recorded with Box2D" : "");
 }
 
 // Those of the requested kind.
@@ -202,6 +201,7 @@ std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
   std::vector<Sealed> out;
   for (int w = 0; w < options.worlds; ++w) {
     Sealed one = seal(tank, effects, shapes, seed, w);
+    one.foreign = options.foreign;
     if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
   }
   if (out.empty()) {
@@ -222,7 +222,8 @@ class Examination {
         shapes_(shape_catalogue(tank_, seconds_)),
         sealed_(requested(options, tank_, shapes_, seed_)) {
     out_.tank = words_for_tank(options);
-    if (options.drawn_tank) out_.key = key_text(tank_of(options));
+    if (options.foreign) out_.key = kForeignKey;
+    if (options.drawn_tank) out_.key += key_text(tank_of(options));
     for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);
     out_.hash = sha256(out_.key), out_.sealed = sealed_.size();
   }

@@ -111,6 +111,11 @@ std::vector<ProofFinding> findings_in(const CsvReader& rows) {
   return out;
 }
 
+// Of a key: what all its worlds share.
+bool is_heading(const std::string& line) {
+  return line.starts_with("tank ") || line.starts_with("engine ");
+}
+
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -119,7 +124,7 @@ void read_worlds(const std::string& file, Proof& proof) {
   const std::string text = read_whole(file);
   CsvReader rows(text, file, {kWorldColumns});
   std::vector<std::string> key = split(proof.key, "\n");
-  if (!key.empty() && key.front().starts_with("tank ")) key.erase(key.begin());
+  std::erase_if(key, is_heading);
   while (rows.next()) {
     ProofWorld w;
     const std::size_t number = proof.worlds.size();
@@ -267,7 +272,8 @@ Proof read_proof(const std::string& dir) {
   proof.dir = dir;
   proof.key = read_whole(key.string());
   proof.hash = sha256(proof.key), proof.sealed = lines_of(proof.key);
-  if (proof.key.starts_with("tank ")) proof.sealed -= 1;
+  const std::vector<std::string> key_lines = split(proof.key, "\n");
+  proof.sealed -= static_cast<std::size_t>(std::ranges::count_if(key_lines, is_heading));
   const fs::path tank = fs::path(dir) / "tank.txt";
   if (fs::exists(tank)) {
     const std::string text = read_whole(tank.string());

@@ -8,6 +8,7 @@
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/state.hpp"
+#include "proof/foreign_tank.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
@@ -236,6 +237,19 @@ std::string key_text(const Sealed& s) {
   return out + "\n";
 }
 
+std::optional<std::vector<Recording>> film_tank(const Model& model,
+                                                const std::vector<std::string>& cameras,
+                                                const std::vector<double>& seen,
+                                                const std::vector<RecordingShape>& shapes,
+                                                std::uint64_t seed, bool foreign) {
+  EmulatorOptions options;
+  options.moment_matched = false;
+  if (foreign) options.engine = foreign_engine(), options.position_noise = kForeignNoise;
+  auto out = Emulator(model, cameras, shapes, options).record(seen, seed);
+  if (foreign && out) round_to_pixels(*out);
+  return out;
+}
+
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s, int modules,
                                                   double seconds, int count, std::uint64_t seed) {
   Model model = with_steps(tank, kSealedSteps);
@@ -251,9 +265,7 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
   }
   const std::vector<RecordingShape> shapes(
       static_cast<std::size_t>(count), shape_named("synthetic", BodyKind::lily, modules, seconds));
-  EmulatorOptions options;
-  options.moment_matched = false;
-  return Emulator(model, cameras, shapes, options).record(seen, seed);
+  return film_tank(model, cameras, seen, shapes, seed, s.foreign);
 }
 
 std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Sealed& s,

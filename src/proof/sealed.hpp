@@ -30,6 +30,7 @@ struct Sealed {
   std::vector<std::string> names;  ///< of the effects; of a law without one its variable
   std::vector<SealedEffect> effects;
   std::vector<double> factors;  ///< on the five parameters
+  bool foreign = false;         ///< recorded with another engine (foreign_tank.hpp)
 };
 
 /// A tank of synthetic experiments without omitted effects: the built-in one.
@@ -48,6 +49,15 @@ std::string key_text(const DrawnTank& tank);
 Model with_steps(Model model, int steps);
 /// Recordings of so many bodies and seconds, each body unseen in some frames.
 RecordingShape shape_named(const std::string& name, BodyKind body, int bodies, double seconds);
+
+/// What a camera over the tank sees, at `cameras` with the values `seen` (paths of
+/// emulator_parameter()); nothing if a world diverged. `foreign`: Box2D moves the bodies. Throws
+/// InputError if this program was built without it.
+std::optional<std::vector<Recording>> film_tank(const Model& model,
+                                                const std::vector<std::string>& cameras,
+                                                const std::vector<double>& seen,
+                                                const std::vector<RecordingShape>& shapes,
+                                                std::uint64_t seed, bool foreign);
 
 /// The secret of one world: of eight two are complete, one has a law of no effect, one two effects.
 /// Effects have other ranges, times, frequencies and places than those of the catalogue.
