@@ -10,13 +10,13 @@ namespace lilytank {
 constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 constexpr double kExpLeast = -745.2, kExpMost = 709.78;  // 0 below, infinity above
 
-constexpr std::array<double, 15> inverse_factorials() {
-  std::array<double, 15> out{1};
+constexpr std::array<double, 19> inverse_factorials() {
+  std::array<double, 19> out{1};
   double factorial = 1;
   for (std::size_t n = 1; n < out.size(); ++n)
     factorial *= static_cast<double>(n), out[n] = 1 / factorial;
   return out;
 }
-constexpr std::array<double, 15> kInverseFactorial = inverse_factorials();
+constexpr std::array<double, 19> kInverseFactorial = inverse_factorials();
 
 }  // namespace lilytank

@@ -1,5 +1,6 @@
 #include "lilytank/math.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -13,19 +14,28 @@ namespace {
 // pi/2 in two parts, as ln 2 is.
 constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiLow = 0x1.0b4611a626331p-34;
 
-// Taylor sums, exact to rounding on |x| <= pi/4.
+// Taylor's sum of x^n / n! with alternating signs, n = first, first + 2, ... up to last, over
+// x^first: good to rounding on |x| <= pi/4. Powers of x^4 by themselves, so that neither sum waits
+// for the other.
+template <std::size_t first, std::size_t last>
+double alternating(double q) {
+  static_assert((last - first) % 4 == 2);
+  const double q2 = q * q;
+  double even = kInverseFactorial[last - 2], odd = kInverseFactorial[last];
+  for (std::size_t n = last - 4; n > first; n -= 4) {
+    even = even * q2 + kInverseFactorial[n - 2], odd = odd * q2 + kInverseFactorial[n];
+  }
+  return even - q * odd;
+}
+
 double sine_near_zero(double x) {
   const double q = x * x;
-  double sum = 0;
-  for (int k = 17; k >= 3; k -= 2) sum = (1 - sum) * q / (k * (k - 1));
-  return x - x * sum;
+  return x - x * (q * alternating<3, 17>(q));
 }
 
 double cosine_near_zero(double x) {
   const double q = x * x;
-  double sum = 0;
-  for (int k = 18; k >= 2; k -= 2) sum = (1 - sum) * q / (k * (k - 1));
-  return 1 - sum;
+  return 1 - q * alternating<2, 16>(q);
 }
 
 }  // namespace
@@ -34,28 +44,25 @@ Rot rotation(double angle) {
   const double turns = std::floor(angle / (kHalfPiHigh + kHalfPiLow) + 0.5);
   const double rest = (angle - turns * kHalfPiHigh) - turns * kHalfPiLow;
   const Rot small{cosine_near_zero(rest), sine_near_zero(rest)};
-  const int quadrant = static_cast<int>(turns - 4 * std::floor(turns / 4));
-  switch (quadrant) {
-    case 0:
-      return small;
-    case 1:
-      return {-small.s, small.c};
-    case 2:
-      return {-small.c, -small.s};
-    default:
-      return {small.s, -small.c};
-  }
+  // Any angle is as likely as another, so branches on the quadrant would be guessed wrong.
+  static constexpr double kSignC[] = {1, -1, -1, 1}, kSignS[] = {1, 1, -1, -1};
+  const auto quadrant = static_cast<std::size_t>(turns - 4 * std::floor(turns / 4));
+  const double both[] = {small.c, small.s};
+  return {kSignC[quadrant] * both[quadrant & 1], kSignS[quadrant] * both[1 - (quadrant & 1)]};
 }
 
 double angle_of(Rot r) {
-  // A first guess good to 0.004 rad, and what is left by the series of the arc tangent.
+  // A first guess good to 0.004 rad, and what is left by the series of the arc tangent. Tables
+  // instead of branches, as above.
+  static constexpr double kSign[] = {1, -1}, kQuarter[] = {0, kPi / 2}, kHalf[] = {0, kPi};
   const double ax = std::fabs(r.c), ay = std::fabs(r.s);
   if (ax == 0 && ay == 0) return 0;
-  const double t = ax > ay ? ay / ax : ax / ay;
+  const double t = std::min(ax, ay) / std::max(ax, ay);
   double guess = t * (kPi / 4 + 0.273 * (1 - t));
-  if (ay >= ax) guess = kPi / 2 - guess;
-  if (r.c < 0) guess = kPi - guess;
-  if (r.s < 0) guess = -guess;
+  const std::size_t steep = ay >= ax, left_half = r.c < 0, below = r.s < 0;
+  guess = kQuarter[steep] + kSign[steep] * guess;
+  guess = kHalf[left_half] + kSign[left_half] * guess;
+  guess *= kSign[below];
   const Rot left = between(rotation(guess), r);
   const double x = left.s / left.c, q = x * x;
   guess += x - x * q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7)));
