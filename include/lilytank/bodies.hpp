@@ -44,6 +44,9 @@ struct BodyExperiment {
   bool masses = false;     ///< masses are known
   double turning = 0;      ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
   int latitude = -1;       ///< the driver that is a latitude in degrees; -1: none is
+  /// Drivers that are the velocity (m/s) along x and y of the medium that bodies float in, and of
+  /// the wind above it; -1: none are.
+  int current[2] = {-1, -1}, wind[2] = {-1, -1};
   std::vector<BaselineLaw> baseline;
   std::vector<std::string> drivers;
   std::vector<BodyRun> runs;

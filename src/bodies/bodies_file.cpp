@@ -11,6 +11,7 @@
 #include "io/toml_fields.hpp"
 #include "io/units.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -28,7 +29,9 @@ TomlKeys experiment_keys() {
           quantity("noise", "standard error of a position; without it, it is estimated"),
           word("coefficients", {"shared", "each body"}, "whether bodies share the coefficients"),
           quantity("turning", "rate at which the frame turns, 1/s, counter-clockwise"),
-          text("latitude", "driver with the latitude in degrees")};
+          text("latitude", "driver with the latitude in degrees"),
+          texts("current", "drivers with the velocity of the medium, m/s, one a dimension"),
+          texts("wind", "drivers with the velocity of the wind, m/s, one a dimension")};
 }
 
 TomlKeys baseline_keys(const std::vector<std::string>& laws) {
@@ -128,6 +131,14 @@ class Reader {
     }
     if (f.has("turning")) e.turning = f.number("turning", "1/s");
     if (f.has("latitude")) out_.latitude = {f.text("latitude"), f.place("latitude")};
+    for (const auto& [key, to] : {std::pair("current", &out_.current), {"wind", &out_.wind}}) {
+      if (!f.has(key)) continue;
+      *to = names(f, key);
+      if (static_cast<int>(to->size()) != e.dimensions) {
+        f.refuse(key, f.path(key) + " has " + counted(std::ssize(*to), "name") + " for " +
+                          counted(e.dimensions, "dimension"));
+      }
+    }
     if ((e.turning != 0 || f.has("latitude")) && e.dimensions != 2) {
       f.refuse(f.has("latitude") ? "latitude" : "turning",
                "bodies can turn in two dimensions only: experiment.dimensions = 2");

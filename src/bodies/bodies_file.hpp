@@ -43,6 +43,7 @@ struct BodyFile {
   BodyExperiment experiment;  ///< without runs
   std::vector<BodyTable> tables;
   NamedAt latitude;
+  std::vector<NamedAt> current, wind;
 };
 
 /// The most bodies that are followed together: the filter carries eight coordinates.

@@ -42,9 +42,11 @@ std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<La
 
 std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& options) {
   Fnv hash;
-  hash.add("2 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
+  hash.add("3 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
   hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.different), double(e.masses),
-                               e.turning, double(e.latitude), options.minutes});
+                               e.turning, double(e.latitude), double(e.current[0]),
+                               double(e.current[1]), double(e.wind[0]), double(e.wind[1]),
+                               options.minutes});
   for (const BaselineLaw& law : e.baseline) {
     hash.add(law.law + " " + shortest(law.value) + (law.fit ? " fit" : ""));
   }

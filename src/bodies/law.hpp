@@ -33,6 +33,7 @@ struct Typical {
   double mass = 1;     ///< kg, of the first body
   double turning = 0;  ///< a known constant f, 1/s
   int latitude = -1;
+  int current[2] = {-1, -1}, wind[2] = {-1, -1};  ///< as in BodyExperiment
 };
 
 enum class Kind {
@@ -40,6 +41,7 @@ enum class Kind {
   positive,   ///< fitted as its logarithm
   place,      ///< any number
   fixed,      ///< not fitted
+  driver,     ///< the number of a driver, -1: none; not fitted, and not reported
 };
 
 struct LawParameter {

@@ -36,6 +36,45 @@ void along_velocity(const Scene& s, Values p, double* force) {
   }
 }
 
+// Velocity of the medium along an axis: a current and a share of the wind. The parameters after the
+// first are that share and the numbers of the drivers.
+double of_medium(const Scene& s, Values p, int axis) {
+  const auto number = [&](int kind) {
+    return static_cast<int>(p[static_cast<std::size_t>(2 + 2 * kind + axis)]);
+  };
+  const int current = number(0), wind = number(1);
+  return (current < 0 ? 0 : s.drivers[current]) + (wind < 0 ? 0 : p[1] * s.drivers[wind]);
+}
+
+// Adds to every body a force of `size(speed, p)` times its velocity relative to the medium.
+template <auto size>
+void along_slip(const Scene& s, Values p, double* force) {
+  for (int b = 0; b < s.bodies; ++b) {
+    double slip[2] = {0, 0}, square = 0;
+    for (int d = 0; d < s.dimensions; ++d) {
+      slip[d] = s.v[b * s.dimensions + d] - of_medium(s, p, d);
+      square += slip[d] * slip[d];
+    }
+    const double by = size(std::sqrt(square), p);
+    for (int d = 0; d < s.dimensions; ++d) force[b * s.dimensions + d] += by * slip[d];
+  }
+}
+
+bool medium_known(const Typical& t) {
+  return t.current[0] >= 0 || t.wind[0] >= 0;
+}
+
+// Two per cent of the wind is what drifters and ice usually take up.
+Parameters of_slip_in(const Typical& t, const std::string& unit) {
+  constexpr double kUsualShare = 0.02;
+  Parameters out{{"coefficient", unit}, {"share of the wind", "1", Kind::place, kUsualShare}};
+  out[1].scale = kUsualShare;
+  if (t.wind[0] < 0) out[1] = {"share of the wind", "1", Kind::fixed, 0};
+  for (const int driver : {t.current[0], t.current[1], t.wind[0], t.wind[1]})
+    out.push_back({"driver", "1", Kind::driver, static_cast<double>(driver)});
+  return out;
+}
+
 // Adds to all pairs a repulsion of `size(gap, p)`, gap: distance less both radii, m.
 template <auto size>
 void between_pairs(const Scene& s, Values p, double* force) {
@@ -137,6 +176,7 @@ double curve_at(double u, Values p) {
 
 constexpr std::string_view kFasterAndSlower =
     "the same body at speeds that differ by a factor of three or more";
+constexpr std::string_view kMoreDrivers = "a recording in which the drivers change more";
 constexpr std::string_view kFarther = "a recording that begins farther away";
 
 constexpr Law of_slip(Law law) {
@@ -227,6 +267,18 @@ constexpr Law kLaws[] = {
              .add = along_velocity<[](double speed, Values p) {
                return -p[0] / std::sqrt(speed * speed + p[1] * p[1]);
              }>}),
+    of_slip({.name = "linear_drag_in_medium",
+             .equation = "F = -k (v - u - a w): u the current, w the wind",
+             .split = kMoreDrivers,
+             .parameters = [](const Typical& t) { return of_slip_in(t, "N s/m"); },
+             .add = along_slip<[](double, Values p) { return -p[0]; }>,
+             .possible = medium_known}),
+    of_slip({.name = "quadratic_drag_in_medium",
+             .equation = "F = -c |s| s, s = v - u - a w: u the current, w the wind",
+             .split = kMoreDrivers,
+             .parameters = [](const Typical& t) { return of_slip_in(t, "N s^2/m^2"); },
+             .add = along_slip<[](double speed, Values p) { return -p[0] * speed; }>,
+             .possible = medium_known}),
     {.name = "linear_spring",
      .equation = "F = -k (x - x0)",
      .variable = "position",
@@ -283,7 +335,7 @@ constexpr Law kLaws[] = {
              .equation = "F = m f (v_y, -v_x), f = 2 Omega sin(latitude)",
              .parameters = [](const Typical& t) -> Parameters {
                return {{"f", "1/s", Kind::fixed, t.turning},
-                       {"latitude", "1", Kind::fixed, static_cast<double>(t.latitude)}};
+                       {"latitude", "1", Kind::driver, static_cast<double>(t.latitude)}};
              },
              .add = turn<[](const Scene& s, Values p) {
                return p[1] >= 0 ? inertial_turning(s.drivers[static_cast<int>(p[1])]) : p[0];
@@ -315,7 +367,7 @@ constexpr Law kLaws[] = {
     {.name = "driver_force",
      .equation = "F = sum of a_i driver_i",
      .variable = "driver",
-     .split = "a recording in which the drivers change more",
+     .split = kMoreDrivers,
      .parameters = of_drivers,
      .add = by_drivers,
      .possible = [](const Typical& t) { return t.drivers > (t.latitude >= 0 ? 1 : 0); }},

@@ -171,7 +171,7 @@ Term term_of(const Law& law, const Typical& typical, const std::vector<double>& 
   t.scale.assign(start.size(), 1), t.fitted.assign(start.size(), true);
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Kind kind = t.parameters[i].kind;
-    t.fitted[i] = kind != Kind::fixed;
+    t.fitted[i] = kind != Kind::fixed && kind != Kind::driver;
     const double scale = t.parameters[i].scale;
     if (kind == Kind::place) {
       t.scale[i] = std::isnan(scale) ? std::max(1e-9, typical.high - typical.low) : scale;
@@ -228,6 +228,7 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
   Typical t;
   t.dimensions = e.dimensions, t.drivers = static_cast<int>(e.drivers.size());
   t.turning = e.turning, t.latitude = e.latitude;
+  std::copy_n(e.current, 2, t.current), std::copy_n(e.wind, 2, t.wind);
   t.low = 1e300, t.high = -1e300, t.duration = 0;
   std::vector<double> speeds, gaps;
   for (const BodyRun* run : runs) {

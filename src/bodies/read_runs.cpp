@@ -292,15 +292,14 @@ class TableReader {
   std::int64_t rows_ = 0, nameless_ = 0;
 };
 
-void find_latitude(const NamedAt& latitude, BodyExperiment& e) {
-  if (latitude.name.empty()) return;
-  const auto found = std::find(e.drivers.begin(), e.drivers.end(), latitude.name);
+int driver_of(const std::string& key, const NamedAt& named, const BodyExperiment& e) {
+  const auto found = std::find(e.drivers.begin(), e.drivers.end(), named.name);
   if (found == e.drivers.end()) {
-    throw InputError(latitude.place, "experiment.latitude = \"" + latitude.name +
-                                         "\" is none of the drivers of the recordings" +
-                                         did_you_mean(latitude.name, e.drivers));
+    throw InputError(named.place, "experiment." + key + " = \"" + named.name +
+                                      "\" is none of the drivers of the recordings" +
+                                      did_you_mean(named.name, e.drivers));
   }
-  e.latitude = static_cast<int>(found - e.drivers.begin());
+  return static_cast<int>(found - e.drivers.begin());
 }
 
 }  // namespace
@@ -335,7 +334,10 @@ BodyExperiment load_body_experiment(const std::string& file) {
       throw InputError(t.place, "recording.mass is missing, and other recordings have it");
     }
   }
-  find_latitude(read.latitude, e);
+  if (!read.latitude.name.empty()) e.latitude = driver_of("latitude", read.latitude, e);
+  for (std::size_t d = 0; d < read.current.size(); ++d)
+    e.current[d] = driver_of("current", read.current[d], e);
+  for (std::size_t d = 0; d < read.wind.size(); ++d) e.wind[d] = driver_of("wind", read.wind[d], e);
   return e;
 }
 

@@ -83,6 +83,7 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
     const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
     const Term& t = fit.model.terms[k];
     for (std::size_t p = 0; p < t.value.size(); ++p) {
+      if (t.parameters[p].kind == Kind::driver) continue;
       if (t.fitted[p] || c.groups.size() == 1) {
         all.push_back(parameter_of(c, i, fit, {k, p}));
       }
