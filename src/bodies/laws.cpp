@@ -36,7 +36,7 @@ void along_velocity(const Scene& s, Values p, double* force) {
   }
 }
 
-// Velocity of the medium along an axis: a current and a share of the wind. The parameters after the
+// Velocity of the medium along an axis: a current and a wind fraction. The parameters after the
 // first are that share and the numbers of the drivers.
 double of_medium(const Scene& s, Values p, int axis) {
   const auto number = [&](int kind) {
@@ -67,9 +67,9 @@ bool medium_known(const Typical& t) {
 // Two per cent of the wind is what drifters and ice usually take up.
 Parameters of_slip_in(const Typical& t, const std::string& unit) {
   constexpr double kUsualShare = 0.02;
-  Parameters out{{"coefficient", unit}, {"share of the wind", "1", Kind::place, kUsualShare}};
+  Parameters out{{"coefficient", unit}, {"wind fraction", "1", Kind::place, kUsualShare}};
   out[1].scale = kUsualShare;
-  if (t.wind[0] < 0) out[1] = {"share of the wind", "1", Kind::fixed, 0};
+  if (t.wind[0] < 0) out[1] = {"wind fraction", "1", Kind::fixed, 0};
   for (const int driver : {t.current[0], t.current[1], t.wind[0], t.wind[1]})
     out.push_back({"driver", "1", Kind::driver, static_cast<double>(driver)});
   return out;

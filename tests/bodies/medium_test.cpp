@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep = 600, kRelax = 1.0 / 1500, kShare = 0.03;
 
-// A drifter that follows the current and a share of the wind; fixes every ten minutes, 5 m of
+// A drifter that follows the current and a wind fraction; fixes every ten minutes, 5 m of
 // noise.
 BodyRun drifter(std::uint64_t seed, double share) {
   BodyRun run;
@@ -59,7 +59,7 @@ TEST(Medium, DriftersFollowTheCurrentAndAShareOfTheWind) {
     ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
     const DiagnosisFinding& f = d.findings.front();
     EXPECT_EQ(f.effect, "linear_drag_in_medium") << diagnosis_text(d);
-    const FoundParameter& of_wind = named(f, "share of the wind");
+    const FoundParameter& of_wind = named(f, "wind fraction");
     EXPECT_LE(of_wind.low, share);
     EXPECT_GE(of_wind.high, share);
     EXPECT_LT(of_wind.high - of_wind.low, 0.01);
