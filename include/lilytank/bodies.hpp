@@ -42,6 +42,7 @@ struct BodyExperiment {
   double noise = 0;        ///< deviation of a position; 0: it is estimated
   bool different = false;  ///< every body has coefficients of its own
   bool masses = false;     ///< masses are known
+  double density = 0;      ///< of the medium, kg/m^3; 0: unknown
   double turning = 0;      ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
   int latitude = -1;       ///< the driver that is a latitude in degrees; -1: none is
   /// Drivers that are the velocity (m/s) along x and y of the medium that bodies float in, and of

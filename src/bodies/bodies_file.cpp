@@ -28,6 +28,7 @@ TomlKeys experiment_keys() {
           text("unit", "of positions: m or rad"),
           quantity("noise", "standard error of a position; without it, it is estimated"),
           word("coefficients", {"shared", "each body"}, "whether bodies share the coefficients"),
+          quantity("density", "of the medium, kg/m^3: drag coefficients Cd are then reported"),
           quantity("turning", "rate at which the frame turns, 1/s, counter-clockwise"),
           text("latitude", "driver with the latitude in degrees"),
           texts("current", "drivers with the velocity of the medium, m/s, one a dimension"),
@@ -128,6 +129,10 @@ class Reader {
                  "experiment.coefficients = \"" + word + "\" is none of \"shared\", \"each body\"");
       }
       e.different = word == "each body";
+    }
+    if (f.has("density")) {
+      e.density = number(f, "density", "kg/m^3", 0);
+      if (e.unit != "m") f.refuse("density", "experiment.density needs positions in m");
     }
     if (f.has("turning")) e.turning = f.number("turning", "1/s");
     if (f.has("latitude")) out_.latitude = {f.text("latitude"), f.place("latitude")};

@@ -46,7 +46,7 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
   hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.different), double(e.masses),
                                e.turning, double(e.latitude), double(e.current[0]),
                                double(e.current[1]), double(e.wind[0]), double(e.wind[1]),
-                               options.minutes});
+                               e.density, options.minutes});
   for (const BaselineLaw& law : e.baseline) {
     hash.add(law.law + " " + shortest(law.value) + (law.fit ? " fit" : ""));
   }

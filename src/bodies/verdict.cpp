@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <set>
 
 #include "bodies/maps.hpp"
@@ -57,6 +59,28 @@ FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted
   return out;
 }
 
+// Frontal area of a group's bodies, m^2; 0: not known, or not the same of all.
+double frontal_area(const Group& group) {
+  const double radius = group.runs.front()->radius.front();
+  for (const BodyRun* run : group.runs) {
+    for (const double r : run->radius) {
+      if (r != radius) return 0;
+    }
+  }
+  return std::numbers::pi * radius * radius;
+}
+
+// Cd of a quadratic drag F = 1/2 rho Cd A v^2, where density, masses and radii are known.
+std::optional<FoundParameter> drag_coefficient(const Comparison& c, std::size_t group,
+                                               const LawParameter& of, const FoundParameter& p) {
+  const double pressure = 0.5 * c.experiment->density * frontal_area(c.groups[group]);
+  if (of.unit != "N s^2/m^2" || !c.experiment->masses || !(pressure > 0)) return std::nullopt;
+  FoundParameter out = p;
+  out.name = "Cd" + of_group(c.groups[group]), out.path = p.path + ".Cd", out.unit = "1";
+  for (double* number : {&out.value, &out.low, &out.high}) *number /= pressure;
+  return out;
+}
+
 // The distribution of each parameter over many bodies instead of a line for each.
 void add_distributions(const std::vector<FoundParameter>& all, DiagnosisFinding& f) {
   std::map<std::string, std::vector<FoundParameter>> by_path;
@@ -86,6 +110,8 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
       if (t.parameters[p].kind == Kind::driver) continue;
       if (t.fitted[p] || c.groups.size() == 1) {
         all.push_back(parameter_of(c, i, fit, {k, p}));
+        const auto cd = drag_coefficient(c, i, t.parameters[p], all.back());
+        if (cd) all.push_back(*cd);
       }
     }
   }

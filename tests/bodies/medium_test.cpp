@@ -86,6 +86,22 @@ TEST(Medium, IsNotSeenWhereNothingActs) {
   EXPECT_EQ(d.verdict, Verdict::complete) << diagnosis_text(d);
 }
 
+// A falling ball: F = 1/2 rho Cd pi r^2 v^2.
+TEST(Medium, ItsDensityGivesTheDragCoefficient) {
+  constexpr double kMass = 0.05, kRadius = 0.05, kDensity = 1.2, kCd = 0.5;
+  const double c = 0.5 * kDensity * kCd * 3.14159265358979 * kRadius * kRadius;
+  BodyExperiment e = falls(0, c / kMass, 1e-3, 3);
+  e.masses = true, e.density = kDensity;
+  for (BodyRun& run : e.runs) run.mass = {kMass}, run.radius = {kRadius};
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
+  ASSERT_EQ(d.findings.front().effect, "quadratic_drag");
+  const FoundParameter& found = named(d.findings.front(), "Cd");
+  EXPECT_LE(found.low, kCd);
+  EXPECT_GE(found.high, kCd);
+  EXPECT_NEAR(found.value, kCd, 0.02);
+}
+
 TEST(Medium, DriversAreNamedInTheFile) {
   const TemporaryDirectory here;
   const std::string start =
