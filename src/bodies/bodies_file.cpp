@@ -26,6 +26,8 @@ TomlKeys experiment_keys() {
           word("body", {"point"}, "what moves"),
           whole("dimensions", 1, 2, "coordinates of a body"),
           text("unit", "of positions: m or rad"),
+          word("coordinates", {"plane", "geographic"},
+               "geographic: x is a longitude and y a latitude, in degrees"),
           quantity("noise", "standard error of a position; without it, it is estimated"),
           word("coefficients", {"shared", "each body"}, "whether bodies share the coefficients"),
           quantity("density", "of the medium, kg/m^3: drag coefficients Cd are then reported"),
@@ -129,6 +131,17 @@ class Reader {
                  "experiment.coefficients = \"" + word + "\" is none of \"shared\", \"each body\"");
       }
       e.different = word == "each body";
+    }
+    if (f.has("coordinates")) {
+      const std::string word = f.text("coordinates");
+      e.geographic = word == "geographic";
+      if (!e.geographic && word != "plane") {
+        throw unknown_word(f.place("coordinates"), "experiment.coordinates", word,
+                           {"plane", "geographic"});
+      }
+      if (e.geographic && (e.dimensions != 2 || e.unit != "m")) {
+        f.refuse("coordinates", "geographic coordinates need experiment.dimensions = 2 and unit m");
+      }
     }
     if (f.has("density")) {
       e.density = number(f, "density", "kg/m^3", 0);
@@ -242,7 +255,10 @@ class Reader {
     if (f.has("mass")) t.mass = numbers(f, "mass", "kg");
     if (f.has("radius")) t.radius = numbers(f, "radius", "m");
     if (f.has("drivers")) t.drivers = names(f, "drivers");
-    if (f.has("scale")) t.scale = number(f, "scale", out_.experiment.unit, 1e-12);
+    if (f.has("scale")) {
+      if (out_.experiment.geographic) f.refuse("scale", "recording.scale: coordinates are degrees");
+      t.scale = number(f, "scale", out_.experiment.unit, 1e-12);
+    }
     if (f.has("together")) t.together = f.flag("together");
     if (f.has("held_out")) t.held_out = f.flag("held_out");
     out_.tables.push_back(std::move(t));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "bodies/bodies_file.hpp"
+#include "bodies/geographic.hpp"
 #include "bodies/law.hpp"
 #include "io/table.hpp"
 #include "io/time_text.hpp"
@@ -128,13 +129,25 @@ class TableReader {
     const double time = time_of(table_, time_, times_, t_->time_unit);
     if (!r.rows.empty() && time < r.rows.back().time) ordered_ = false;
     r.rows.push_back({time, table_.line(), number_of(body, r), r.values.size()});
-    for (const int c : places_) r.values.push_back(position(c));
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      r.values.push_back(e_->geographic ? degrees(places_[k], k % 2 == 1) : position(places_[k]));
+    }
     for (const int d : drivers_) r.values.push_back(table_.finite(d));
   }
 
   double position(int column) const {
     const double value = table_.number(column) * t_->scale;
     if (std::fabs(value) > 1e12) table_.refuse(column, table_.quoted(column) + " is too large");
+    return value;
+  }
+
+  // NaN where there is none.
+  double degrees(int column, bool latitude) const {
+    const double value = table_.number(column), most = latitude ? 90 : 360;
+    if (std::fabs(value) > most) {
+      table_.refuse(column, table_.quoted(column) + " is no " +
+                                (latitude ? "latitude" : "longitude") + " in degrees");
+    }
     return value;
   }
 
@@ -333,6 +346,10 @@ BodyExperiment load_body_experiment(const std::string& file) {
     if (e.masses && !t.mass.given()) {
       throw InputError(t.place, "recording.mass is missing, and other recordings have it");
     }
+  }
+  if (e.geographic) {
+    if (read.latitude.name.empty()) add_latitudes(e);
+    project_positions(file, e);
   }
   if (!read.latitude.name.empty()) e.latitude = driver_of("latitude", read.latitude, e);
   for (std::size_t d = 0; d < read.current.size(); ++d)

@@ -135,5 +135,51 @@ TEST(Medium, DriversAreNamedInTheFile) {
             std::string::npos);
 }
 
+// Twelve fixes to the east along the 60th parallel across the date line, a hundredth of a degree
+// each: 556 m.
+TEST(Geographic, DegreesBecomeMetresAndTheLatitudeADriver) {
+  const TemporaryDirectory here;
+  const auto table = [&](const std::string& latitude) {
+    std::string text = "t,lon,lat\n";
+    for (int k = 0; k < 12; ++k) {
+      const double lon = 179.95 + 0.01 * k;
+      text += std::to_string(600 * k) + "," + std::to_string(lon > 180 ? lon - 360 : lon) + "," +
+              latitude + "\n";
+    }
+    here.write("a.csv", text);
+  };
+  const std::string rest =
+      "[[recording]]\nfile = \"a.csv\"\ntime = \"t\"\nx = \"lon\"\ny = \"lat\"\n";
+  here.write(
+      "e.toml",
+      "[experiment]\nbody = \"point\"\ndimensions = 2\ncoordinates = \"geographic\"\n" + rest);
+  table("60");
+  const BodyExperiment e = load_body_experiment(here.path("e.toml"));
+  ASSERT_EQ(e.latitude, 0);
+  EXPECT_EQ(e.drivers, std::vector<std::string>{"latitude"});
+  const BodyRun& run = e.runs.front();
+  EXPECT_EQ(run.drivers_at(3)[0], 60);
+  for (std::size_t k = 1; k < 12; ++k) {
+    EXPECT_NEAR(run.position[2 * k] - run.position[2 * k - 2], 0.5 * 1111.95, 0.01);
+    EXPECT_NEAR(run.position[2 * k + 1] - run.position[2 * k - 1], 0, 0.6);
+  }
+  const auto refusal = [&] {
+    try {
+      load_body_experiment(here.path("e.toml"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  table("95");
+  EXPECT_NE(refusal().find("a.csv:2"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("'95' is no latitude in degrees"), std::string::npos) << refusal();
+  table("60");
+  here.write("e.toml", "[experiment]\nbody = \"point\"\ncoordinates = \"geographic\"\n" + rest);
+  EXPECT_NE(refusal().find("geographic coordinates need experiment.dimensions = 2"),
+            std::string::npos)
+      << refusal();
+}
+
 }  // namespace
 }  // namespace lilytank
