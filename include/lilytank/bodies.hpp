@@ -39,8 +39,8 @@ struct BodyExperiment {
   std::string name;
   int dimensions = 1;
   std::string unit = "m";  ///< of a position
-  /// Tables give longitudes (x) and latitudes (y) in degrees; positions are metres east and north on
-  /// the plane that touches the Earth at their centre.
+  /// Tables give longitudes (x) and latitudes (y) in degrees; positions are metres east and north
+  /// on the plane that touches the Earth at their centre.
   bool geographic = false;
   double noise = 0;        ///< deviation of a position; 0: it is estimated
   bool different = false;  ///< every body has coefficients of its own

@@ -40,12 +40,23 @@ std::string of_group(const Group& g) {
   return g.name.empty() ? "" : " of " + g.name;
 }
 
+// Of a force by drivers: the driver's own name and the axis.
+std::string name_of(const BodyExperiment& e, const Law& law, const LawParameter& p,
+                    std::size_t number) {
+  if (law.variable != "driver") return p.name;
+  const auto axes = static_cast<std::size_t>(e.dimensions);
+  return e.drivers[number / axes] + (axes == 1            ? ""
+                                     : number % axes == 0 ? ", along x"
+                                                          : ", along y");
+}
+
 // A parameter of a fit; where it is fitted, with its 95 % interval.
 FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted& fit,
                             const TermParameter& of) {
   const Term& t = fit.model.terms[of.term];
   const LawParameter& p = t.parameters[of.parameter];
-  FoundParameter out{p.name + of_group(c.groups[group]), std::string(t.law->name) + "." + p.name};
+  FoundParameter out{name_of(*c.experiment, *t.law, p, of.parameter) + of_group(c.groups[group]),
+                     std::string(t.law->name) + "." + p.name};
   out.value = out.low = out.high = t.value[of.parameter];
   out.unit = unit_for(*c.experiment, p.unit);
   const auto at = number_of(fit.model, of);
@@ -313,7 +324,8 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
       least = std::min(least, f.model.terms[last].scale[0] * f.deviation[at]);
     }
     const double seen = least * std::sqrt(2 * (c.threshold() + 1));
-    d.detectable.push_back({std::string(t.law->name), t.parameters[0].name, seen, seen,
+    d.detectable.push_back({std::string(t.law->name),
+                            name_of(*c.experiment, *t.law, t.parameters[0], 0), seen, seen,
                             unit_for(*c.experiment, t.parameters[0].unit)});
   }
 }

@@ -135,6 +135,33 @@ TEST(Medium, DriversAreNamedInTheFile) {
             std::string::npos);
 }
 
+// Pushed by one of two drivers: parameters have the drivers' names.
+TEST(Drivers, HaveTheirNamesInTheReport) {
+  BodyExperiment e;
+  e.name = "pushed", e.noise = 1e-3, e.drivers = {"voltage", "temperature"};
+  for (std::uint64_t r = 1; r <= 2; ++r) {
+    BodyRun run;
+    run.name = std::to_string(r), run.bodies = {"cart"}, run.mass = {1}, run.radius = {0};
+    double x = 0, v = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double h = 0.1, t = h * k, phase = static_cast<double>(r);
+      const double voltage = std::sin(2 * t + phase), a = 0.3 * voltage;
+      run.time.push_back(t);
+      run.position.push_back(x + 1e-3 * normal_pair({r, Stream::camera, k, 0, 0})[0]);
+      run.drivers.push_back(voltage), run.drivers.push_back(std::cos(t + phase));
+      x += h * v + 0.5 * h * h * a, v += h * a;
+    }
+    e.runs.push_back(run);
+  }
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
+  ASSERT_EQ(d.findings.front().effect, "driver_force") << diagnosis_text(d);
+  EXPECT_EQ(d.findings.front().parameters[0].name, "voltage");
+  EXPECT_EQ(d.findings.front().parameters[1].name, "temperature");
+  EXPECT_NEAR(d.findings.front().parameters[0].value, 0.3, 0.02);
+  EXPECT_NEAR(d.findings.front().parameters[1].value, 0, 0.02);
+}
+
 // Twelve fixes to the east along the 60th parallel across the date line, a hundredth of a degree
 // each: 556 m.
 TEST(Geographic, DegreesBecomeMetresAndTheLatitudeADriver) {
