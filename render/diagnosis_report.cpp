@@ -16,7 +16,10 @@ double scale_of(const FoundCurve& c) {
 }
 std::string unit_of(const FoundCurve& c) {
   if (c.value_unit == "N m") return "torque (\u00b5N m)";
-  return c.value_unit == "N" ? "force (mN)" : "acceleration (" + c.value_unit + ")";
+  if (c.value_unit == "N") return "force (mN)";
+  const std::size_t square = c.value_unit.find("^2");
+  const std::string unit = c.value_unit.substr(0, square);
+  return "acceleration (" + unit + (square == std::string::npos ? ")" : "\u00b2)");
 }
 
 // A value that is this much less certain than most of its curve has almost no data: bodies

@@ -58,10 +58,11 @@ inline constexpr std::array<ReportName, 5> kTankVariables{{
     {"turn", "rate of turning"},
 }};
 // The curve over "turn" of a body is the sideways force over its speed.
-inline constexpr std::array<ReportName, 5> kBodyVariables{{
+inline constexpr std::array<ReportName, 6> kBodyVariables{{
     {"radius", "distance from the centre"},
     {"pair", "gap to another body"},
     {"slip", "speed"},
+    {"medium slip", "speed relative to the medium"},
     {"position", "position x"},
     {"turn", "speed"},
 }};

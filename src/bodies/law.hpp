@@ -55,7 +55,8 @@ struct LawParameter {
 /// Constant and without data, as the simulator's force terms are.
 struct Law {
   std::string_view name, equation = "";
-  /// Of what the force is a function: slip, position, pair, time, turn, driver, or "" (constant).
+  /// Of what the force is a function: slip, medium slip, position, pair, time, turn, driver, or ""
+  /// (constant).
   std::string_view variable = "";
   /// The experiment that would distinguish it from others of its kind.
   std::string_view split = "a longer recording";
@@ -75,6 +76,9 @@ struct Law {
 std::span<const Law> law_library();
 /// The law of a name; null if there is none.
 const Law* find_law(std::string_view name);
+
+/// Velocity (m/s) along an axis of the medium of a law over the medium slip, by its parameters.
+double velocity_of_medium(const Scene& s, std::span<const double> p, int axis);
 
 /// Smallest and largest value of a law's variable in the recordings.
 struct VariableRange {

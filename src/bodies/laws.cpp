@@ -36,23 +36,13 @@ void along_velocity(const Scene& s, Values p, double* force) {
   }
 }
 
-// Velocity of the medium along an axis: a current and a wind fraction. The parameters after the
-// first are that share and the numbers of the drivers.
-double of_medium(const Scene& s, Values p, int axis) {
-  const auto number = [&](int kind) {
-    return static_cast<int>(p[static_cast<std::size_t>(2 + 2 * kind + axis)]);
-  };
-  const int current = number(0), wind = number(1);
-  return (current < 0 ? 0 : s.drivers[current]) + (wind < 0 ? 0 : p[1] * s.drivers[wind]);
-}
-
 // Adds to every body a force of `size(speed, p)` times its velocity relative to the medium.
 template <auto size>
 void along_slip(const Scene& s, Values p, double* force) {
   for (int b = 0; b < s.bodies; ++b) {
     double slip[2] = {0, 0}, square = 0;
     for (int d = 0; d < s.dimensions; ++d) {
-      slip[d] = s.v[b * s.dimensions + d] - of_medium(s, p, d);
+      slip[d] = s.v[b * s.dimensions + d] - velocity_of_medium(s, p, d);
       square += slip[d] * slip[d];
     }
     const double by = size(std::sqrt(square), p);
@@ -184,6 +174,11 @@ constexpr Law of_slip(Law law) {
   return law;
 }
 
+constexpr Law of_medium_slip(Law law) {
+  law.variable = "medium slip", law.possible = medium_known, law.split = kMoreDrivers;
+  return law;
+}
+
 constexpr Law of_pairs(Law law) {
   law.variable = "pair", law.possible = in_pairs;
   law.split = "faster approaches, to half the smallest gap, and slow ones that turn at twice of it";
@@ -267,18 +262,14 @@ constexpr Law kLaws[] = {
              .add = along_velocity<[](double speed, Values p) {
                return -p[0] / std::sqrt(speed * speed + p[1] * p[1]);
              }>}),
-    of_slip({.name = "linear_drag_in_medium",
-             .equation = "F = -k (v - u - a w): u the current, w the wind",
-             .split = kMoreDrivers,
-             .parameters = [](const Typical& t) { return of_slip_in(t, "N s/m"); },
-             .add = along_slip<[](double, Values p) { return -p[0]; }>,
-             .possible = medium_known}),
-    of_slip({.name = "quadratic_drag_in_medium",
-             .equation = "F = -c |s| s, s = v - u - a w: u the current, w the wind",
-             .split = kMoreDrivers,
-             .parameters = [](const Typical& t) { return of_slip_in(t, "N s^2/m^2"); },
-             .add = along_slip<[](double speed, Values p) { return -p[0] * speed; }>,
-             .possible = medium_known}),
+    of_medium_slip({.name = "linear_drag_in_medium",
+                    .equation = "F = -k (v - u - a w): u the current, w the wind",
+                    .parameters = [](const Typical& t) { return of_slip_in(t, "N s/m"); },
+                    .add = along_slip<[](double, Values p) { return -p[0]; }>}),
+    of_medium_slip({.name = "quadratic_drag_in_medium",
+                    .equation = "F = -c |s| s, s = v - u - a w: u the current, w the wind",
+                    .parameters = [](const Typical& t) { return of_slip_in(t, "N s^2/m^2"); },
+                    .add = along_slip<[](double speed, Values p) { return -p[0] * speed; }>}),
     {.name = "linear_spring",
      .equation = "F = -k (x - x0)",
      .variable = "position",
@@ -430,7 +421,7 @@ const Law* find_law(std::string_view name) {
 }
 
 VariableRange range_of(std::string_view variable, const Typical& t) {
-  if (variable == "slip" || variable == "turn") return {0, t.fastest};
+  if (variable == "slip" || variable == "medium slip" || variable == "turn") return {0, t.fastest};
   if (variable == "pair") return {t.nearest, t.middle};
   if (variable == "time") return {0, t.duration};
   return {t.low, t.high};
@@ -438,7 +429,16 @@ VariableRange range_of(std::string_view variable, const Typical& t) {
 
 std::string unit_of(std::string_view variable, const std::string& unit) {
   if (variable == "time") return "s";
-  return variable == "slip" || variable == "turn" ? unit + "/s" : unit;
+  return variable == "slip" || variable == "medium slip" || variable == "turn" ? unit + "/s" : unit;
+}
+
+// The parameters after the coefficient are the wind fraction and the numbers of the drivers.
+double velocity_of_medium(const Scene& s, std::span<const double> p, int axis) {
+  const auto number = [&](int kind) {
+    return static_cast<int>(p[static_cast<std::size_t>(2 + 2 * kind + axis)]);
+  };
+  const int current = number(0), wind = number(1);
+  return (current < 0 ? 0 : s.drivers[current]) + (wind < 0 ? 0 : p[1] * s.drivers[wind]);
 }
 
 double inertial_turning(double latitude) {

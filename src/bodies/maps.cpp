@@ -10,9 +10,24 @@ struct Point {
   double at = 0, value = 0;
 };
 
+// Of one group: which bodies move how, in what medium.
+struct Motions {
+  const BodyModel* baseline;
+  const Term* medium = nullptr;  // the reported law over the medium slip
+};
+
+Motions motions_of(const Comparison& c, std::size_t group) {
+  Motions out{&c.baseline.fits[group].model};
+  if (c.reported == nullptr) return out;
+  for (const Term& t : c.reported->fits[group].model.terms) {
+    if (t.law->variable == "medium slip") out.medium = &t;
+  }
+  return out;
+}
+
 // Variable and push of one body at one sample; NaN where it has none.
-Point point_of(const std::string& variable, const BodyRun& run, const Believed& b, std::size_t k,
-               std::size_t body, std::size_t nd) {
+Point point_of(const std::string& variable, const BodyRun& run, const Believed& b,
+               const Motions& of, std::size_t k, std::size_t body, std::size_t nd) {
   const std::size_t row = run.bodies.size() * nd, i = k * row + body * nd;
   const double *x = &b.x[i], *v = &b.v[i], *a = &b.push[i];
   const double mass = run.mass[body];
@@ -24,6 +39,12 @@ Point point_of(const std::string& variable, const BodyRun& run, const Believed& 
     for (std::size_t d = 0; d < nd; ++d) u[d] = x[d] - b.x[other + d];
     away = run.radius[0] + run.radius[1];
   }
+  if (variable == "medium slip") {
+    if (of.medium == nullptr) return {NAN, NAN};
+    const Scene scene = scene_of(run, static_cast<int>(nd), k, run.time[k], x, v);
+    for (std::size_t d = 0; d < nd; ++d)
+      u[d] -= velocity_of_medium(scene, of.medium->value, static_cast<int>(d));
+  }
   const double size = std::hypot(u[0], u[1]);
   const double push = variable == "turn" ? (nd > 1 ? a[0] * u[1] - a[1] * u[0] : NAN)
                                          : a[0] * u[0] + (nd > 1 ? a[1] * u[1] : 0);
@@ -34,13 +55,14 @@ std::vector<Point> points_of(const Comparison& c, const std::string& variable) {
   const auto nd = static_cast<std::size_t>(c.experiment->dimensions);
   std::vector<Point> out;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
+    const Motions of = motions_of(c, i);
     for (const BodyRun* run : c.groups[i].runs) {
       if (variable == "pair" && run->bodies.size() < 2) continue;
-      const Believed b = believed(c.baseline.fits[i].model, c.groups[i].typical, *run);
+      const Believed b = believed(*of.baseline, c.groups[i].typical, *run);
       for (std::size_t k = 4; k < run->samples(); ++k) {
         const std::size_t bodies = variable == "pair" ? 2 : run->bodies.size();
         for (std::size_t body = 0; body < bodies; ++body) {
-          const Point p = point_of(variable, *run, b, k, body, nd);
+          const Point p = point_of(variable, *run, b, of, k, body, nd);
           if (std::isfinite(p.at) && std::isfinite(p.value)) out.push_back(p);
         }
       }
@@ -55,10 +77,11 @@ FoundCurve map_of(const Comparison& c, const std::string& variable) {
   constexpr std::size_t kBins = 8;
   FoundCurve out;
   out.variable = variable.empty() ? "position" : variable;
-  out.direction = variable == "slip"   ? "along the motion"
-                  : variable == "turn" ? "to the right of the motion"
-                  : variable == "pair" ? "outwards"
-                                       : "along x";
+  out.direction = variable == "slip"          ? "along the motion"
+                  : variable == "medium slip" ? "along the slip"
+                  : variable == "turn"        ? "to the right of the motion"
+                  : variable == "pair"        ? "outwards"
+                                              : "along x";
   out.unit = unit_of(variable, c.experiment->unit);
   out.value_unit = c.experiment->masses ? "N" : c.experiment->unit + "/s^2";
   std::vector<Point> p = points_of(c, out.variable);
@@ -82,7 +105,7 @@ FoundCurve map_of(const Comparison& c, const std::string& variable) {
 
 std::vector<FoundCurve> maps_of(const Comparison& c) {
   std::vector<FoundCurve> out;
-  for (const char* variable : {"slip", "turn", "position", "pair", "time"}) {
+  for (const char* variable : {"slip", "medium slip", "turn", "position", "pair", "time"}) {
     FoundCurve curve = map_of(c, variable);
     if (!curve.at.empty()) out.push_back(std::move(curve));
   }

@@ -58,7 +58,8 @@ void warn_of_signs(const Comparison& c, const LawTrial& model, Diagnosis& d) {
     for (std::size_t k = 0; k < m.terms.size(); ++k) {
       const Term& t = m.terms[k];
       const auto at = number_of(m, {k, 0});
-      if (t.law->variable != "slip" || t.law->curve || !at) continue;
+      const bool drag = t.law->variable == "slip" || t.law->variable == "medium slip";
+      if (!drag || t.law->curve || !at) continue;
       if (model.fits[i].numbers[*at] > -2 * c.repeats.factor() * model.fits[i].deviation[*at]) {
         continue;
       }
