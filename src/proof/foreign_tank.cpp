@@ -1,6 +1,7 @@
 #include "proof/foreign_tank.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #ifdef LILYTANK_HAS_BOX2D
