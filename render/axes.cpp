@@ -90,7 +90,10 @@ void log_ticks(Axis& axis, int wanted) {
   const double first = std::log10(axis.low), last = std::log10(axis.high);
   const int from = static_cast<int>(std::ceil(first - 1e-9)) - 1;
   const int to = static_cast<int>(std::floor(last + 1e-9)) + 1;
-  const int every = std::max(1, static_cast<int>(std::ceil((last - first) / wanted)));
+  int every = std::max(1, static_cast<int>(std::ceil((last - first) / wanted)));
+  // One label is no scale.
+  const auto labelled = [&] { return std::floor(last / every) - std::ceil(first / every) + 1; };
+  while (every > 1 && labelled() < 2) --every;
   const bool short_numbers = first >= -3.001 && last <= 4.001;
   const bool between = last - first < 2.0;  // few decades: label 2 and 5 as well
   for (int e = from; e <= to; ++e) {
@@ -159,9 +162,20 @@ std::string number(double value, int decimals) {
 }
 
 std::string power_of_ten(int exponent) {
+  return with_superscripts("10^" + std::to_string(exponent));
+}
+
+std::string with_superscripts(const std::string& text) {
   static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string s = "10";
-  for (const char c : std::to_string(exponent)) s += c == '-' ? "⁻" : kDigits[c - '0'];
+  std::string s;
+  bool raised = false;
+  for (const char c : text) {
+    raised = c == '^' || (raised && (c == '-' || (c >= '0' && c <= '9')));
+    if (!raised)
+      s += c;
+    else if (c != '^')
+      s += c == '-' ? "⁻" : kDigits[c - '0'];
+  }
   return s;
 }
 

@@ -49,5 +49,7 @@ Axis make_axis(double low, double high, bool log, int wanted, bool whole);
 std::string number(double value, int decimals);
 /// "10⁻³".
 std::string power_of_ten(int exponent);
+/// "m/s²" of "m/s^2".
+std::string with_superscripts(const std::string& text);
 
 }  // namespace lilytank

@@ -17,9 +17,7 @@ double scale_of(const FoundCurve& c) {
 std::string unit_of(const FoundCurve& c) {
   if (c.value_unit == "N m") return "torque (\u00b5N m)";
   if (c.value_unit == "N") return "force (mN)";
-  const std::size_t square = c.value_unit.find("^2");
-  const std::string unit = c.value_unit.substr(0, square);
-  return "acceleration (" + unit + (square == std::string::npos ? ")" : "\u00b2)");
+  return "acceleration (" + with_superscripts(c.value_unit) + ")";
 }
 
 // A value that is this much less certain than most of its curve has almost no data: bodies
@@ -27,16 +25,14 @@ std::string unit_of(const FoundCurve& c) {
 constexpr double kLeastCertain = 20;
 
 std::string with_z(const char* what, double z) {
-  char text[40];
-  std::snprintf(text, sizeof text, ", z of the %s %.1f", what, z);
-  return text;
+  return std::string(", z of the ") + what + " " + number(z, 1);
 }
 
 // One curve with the band of the null hypothesis; gaps where the data do not constrain it.
 Plot curve_plot(const FoundCurve& c, const DiagnosisSubject& of, bool small) {
   Plot plot;
   plot.title = c.direction;
-  plot.x_label = text_for(of.variables, c.variable) + " (" + c.unit + ")",
+  plot.x_label = text_for(of.variables, c.variable) + " (" + with_superscripts(c.unit) + ")";
   plot.y_label = unit_of(c);
   plot.zero_line = true;
   if (!c.at.empty()) {

@@ -69,7 +69,8 @@ Axis named_axis(const std::vector<std::string>& names) {
 
 void choose_axes(const Plot& plot, PlotArea& area) {
   // Units from a number to the next: small plots have at least a few of them.
-  const double x_step = area.width < 450 ? 80 : 110, y_step = area.height < 260 ? 35 : 70;
+  const double x_step = area.width >= 450 ? 110 : plot.log_x ? 55 : 80;
+  const double y_step = area.height < 260 ? 35 : 70;
   const DataRange data = range_of(plot);
   double low = data.x.empty() ? (plot.log_x ? 0.1 : 0) : data.x.low();
   double high = data.x.empty() ? (plot.log_x ? 10 : 1) : data.x.high();
@@ -127,12 +128,13 @@ bool leaves_room(const LegendBox& legend, const Plot& plot) {
 }
 
 // Whether a legend in the area would hide much.
-bool is_crowded(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
+bool is_crowded(const Canvas& canvas, const Plot& plot, const PlotArea& area, bool on_paper) {
+  const std::size_t most = on_paper ? 0 : 6;  // hidden points of ink; paper has room below
   const LegendBox legend = legend_size(canvas, plot);
   if (legend.height <= 0) return false;
   std::size_t hidden = 0;
   place_legend(legend, plot, area, hidden);
-  return hidden > 6 || legend.height > area.height - 20 || legend.width > 0.6 * area.width;
+  return hidden > most || legend.height > area.height - 20 || legend.width > 0.6 * area.width;
 }
 
 // Plots of a page have the same margins: panels are equally large, and axes above each other agree.
@@ -144,7 +146,7 @@ Margins margins_of(const Canvas& canvas, const PlotPage& page, const FigureStyle
   for (const Plot& plot : page.plots) {
     const PlotArea area = layout(canvas, plot, {});
     all.left = std::max(all.left, area.left);
-    crowded = crowded || is_crowded(canvas, plot, area);
+    crowded = crowded || is_crowded(canvas, plot, area, style.on_paper());
   }
   all.key = crowded && (style.on_paper() || page.plots.size() > 1);
   all.legends = crowded && !all.key;
@@ -206,17 +208,27 @@ void draw_frame_and_ticks(const Canvas& canvas, const PlotArea& area) {
   }
 }
 
+struct AxisName {
+  std::string text;
+  TextStyle style = kLabelText;
+};
+
+// A long name is set smaller, then cut.
+AxisName name_within(const Canvas& canvas, const std::string& name, double room) {
+  AxisName out;
+  while (out.style.size > 13 && canvas.width_of(name, out.style) > room) out.style.size -= 1;
+  out.text = canvas.fitted(name, room, out.style);
+  return out;
+}
+
 void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   const double middle = area.left + area.width / 2;
   draw_title(canvas, title_lines(canvas, plot.title, plot.width), plot.width / 2.0, 30);
-  canvas.text(middle, area.bottom() + 46, canvas.fitted(plot.x_label, area.width, kLabelText),
-              kLabelText);
-  // A long name is set smaller, then cut.
-  TextStyle upright = kLabelText;
-  const double room = area.height + 40;
-  while (upright.size > 13 && canvas.width_of(plot.y_label, upright) > room) upright.size -= 1;
-  canvas.upright_text(24, area.top + area.height / 2, canvas.fitted(plot.y_label, room, upright),
-                      upright);
+  const double beside = std::min(middle, plot.width - middle) - 8;  // may pass the area's ends
+  const AxisName x = name_within(canvas, plot.x_label, 2 * beside);
+  canvas.text(middle, area.bottom() + 46, x.text, x.style);
+  const AxisName y = name_within(canvas, plot.y_label, area.height + 40);
+  canvas.upright_text(24, area.top + area.height / 2, y.text, y.style);
 }
 
 void draw_curves(const Canvas& canvas, const Plot& plot, const PlotArea& area) {

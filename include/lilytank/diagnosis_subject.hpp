@@ -120,7 +120,7 @@ inline constexpr DiagnosisSubject kPointBodies{
     .measure =
         "Mean square error over that of the noise, before and after; coefficients of "
         "all runs.",
-    .measure_axis = "mean square error / noise of the measurement squared",
+    .measure_axis = "mean square error / variance of the noise",
     .chance = "noise alone",
     .groups = "bodies",
     .gain = "Held-out runs",

@@ -42,6 +42,20 @@ TEST(Axes, LongNumbersAreShortenedByANote) {
   EXPECT_EQ(labels(offset), (Texts{"0.0", "0.1", "0.2", "0.3", "0.4"}));
 }
 
+TEST(Axes, LogAxesOfFewLabelsHaveTwo) {
+  const Axis axis = make_axis(0.04, 45, true, 2, false);
+  EXPECT_GE(std::count_if(axis.ticks.begin(), axis.ticks.end(),
+                          [](const AxisTick& t) { return !t.label.empty(); }),
+            2);
+}
+
+TEST(Axes, PowersOfUnitsAreRaised) {
+  EXPECT_EQ(with_superscripts("m/s^2"), "m/s²");
+  EXPECT_EQ(with_superscripts("1/(m^2 s^-10)"), "1/(m² s⁻¹⁰)");
+  EXPECT_EQ(with_superscripts("N m"), "N m");
+  EXPECT_EQ(power_of_ten(-3), "10⁻³");
+}
+
 TEST(Axes, LogAxesCountDecades) {
   const Axis axis = make_axis(1e-6, 1e-1, true, 6, false);
   EXPECT_EQ(labels(axis), (Texts{"10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"}));

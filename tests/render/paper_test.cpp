@@ -160,6 +160,34 @@ TEST(Paper, TextIsWholeWithTrueMinusSigns) {
   EXPECT_EQ(svg.find(">-4</text>"), std::string::npos);
 }
 
+TEST(Paper, TheNameOfAnAxisIsWholeBesideLongNamesOfRows) {
+  const Folder folder;
+  const std::string name = "mean square error / variance of the noise";
+  Plot plot = sample_plot();
+  plot.y_names = {"Orange_Whiffle_Ball", "Yellow_Whiffle_Ball"}, plot.x_label = name;
+  draw_plot(plot, folder.file("a.svg"), {85});
+  EXPECT_NE(sample::bytes_of(folder.file("a.svg")).find(">" + name + "</text>"), std::string::npos);
+  expect_readable(sample::bytes_of(folder.file("a.svg")), "smaller");
+}
+
+TEST(Paper, ALegendHidesNotEvenALittleOfALine) {
+  const Folder folder;
+  const std::string file = folder.file("a.pdf");
+  Plot plot;
+  // A short line at each place where a legend may lie.
+  for (const double x : {0.06, 0.5, 0.94}) {
+    for (const double y : {0.06, 0.5, 0.94}) {
+      plot.curves.push_back({"", {x, x}, {y, y + 0.02}, {}, {}});
+    }
+  }
+  plot.x_low = plot.y_low = 0, plot.x_high = plot.y_high = 1;
+  draw_plot(plot, file, {85});
+  const double bare = pdf_size(file)[1];
+  plot.curves[0].name = "named";
+  draw_plot(plot, file, {85});
+  EXPECT_GT(pdf_size(file)[1], bare) << "the legend stands below";
+}
+
 TEST(Paper, AStagesPictureThatHasNoRoomIsRefused) {
   std::string wide = "name wide\n" + std::string(30, '#') + "\n";
   const Target target = parse_target(wide, "wide");
