@@ -35,14 +35,15 @@ void add_of_setting(Plot& plot, std::size_t number, const SettingNames& names, C
   plot.curves.push_back(std::move(curve));
 }
 
-// Of the setting with most copies at the end.
+// Of the setting with most copies at the end, or of those that have equally many.
 std::string yield_sentence(const StudySummary& summary, const TimeUnit& unit) {
   const SettingSummary* most = nullptr;
-  int settings = 0;
+  int settings = 0, equal = 0;
   for (const SettingSummary& s : summary.settings) {
     if (s.runs == 0 || std::isnan(s.copies.value)) continue;
     ++settings;
-    if (most == nullptr || s.copies.value > most->copies.value) most = &s;
+    if (most == nullptr || s.copies.value > most->copies.value) most = &s, equal = 0;
+    equal += s.copies.value == most->copies.value;
   }
   if (most == nullptr) return "";
   const std::string copies =
@@ -50,6 +51,10 @@ std::string yield_sentence(const StudySummary& summary, const TimeUnit& unit) {
   const std::string after =
       "After " + significant(summary.horizon / unit.seconds, 3) + " " + unit.name + ", ";
   if (settings == 1) return after + copies + " are complete on average.";
+  if (equal > 1) {
+    const std::string which = equal == settings ? "all" : std::to_string(equal);
+    return after + which + " settings have " + copies + " on average.";
+  }
   return after + most->label + " has most completed copies: " + copies + " on average.";
 }
 

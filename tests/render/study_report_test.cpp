@@ -108,6 +108,15 @@ TEST(StudyReport, TimesAreInAUnitThatSuits) {
   EXPECT_NE(find(plots, "survival_2")->title.find("(log-rank p "), std::string::npos);
 }
 
+TEST(StudyReport, EquallyManyCopiesHaveNoFirst) {
+  const auto title = [](const std::vector<double>& rates) {
+    return find(study_plots(summarise(exponential_study(rates, 8, 14400))), "yield")->title;
+  };
+  EXPECT_NE(title({1, 2}).find("all settings have 3 of 3 copies"), std::string::npos);
+  EXPECT_NE(title({1e-6, 1, 2}).find("2 settings have 3 of 3 copies"), std::string::npos);
+  EXPECT_NE(title({1e-6, 1}).find(" has most completed copies"), std::string::npos);
+}
+
 TEST(StudyReport, MeanTimesNeedOneAxisOfNumbers) {
   StudyTable table = exponential_study({0.01, 0.02, 0.04}, 8, 100);
   const auto with_labels = [&](std::vector<std::string> labels) {
