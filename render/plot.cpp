@@ -213,21 +213,24 @@ struct AxisName {
   TextStyle style = kLabelText;
 };
 
-// A long name is set smaller, then cut.
-AxisName name_within(const Canvas& canvas, const std::string& name, double room) {
+// A name that is longer than `room` is set smaller, then cut to `most`.
+AxisName name_within(const Canvas& canvas, const std::string& name, double room, double most) {
   AxisName out;
   while (out.style.size > 13 && canvas.width_of(name, out.style) > room) out.style.size -= 1;
-  out.text = canvas.fitted(name, room, out.style);
+  out.text = canvas.fitted(name, most, out.style);
   return out;
 }
 
 void draw_titles(const Canvas& canvas, const Plot& plot, const PlotArea& area) {
   const double middle = area.left + area.width / 2;
   draw_title(canvas, title_lines(canvas, plot.title, plot.width), plot.width / 2.0, 30);
-  const double beside = std::min(middle, plot.width - middle) - 8;  // may pass the area's ends
-  const AxisName x = name_within(canvas, plot.x_label, 2 * beside);
-  canvas.text(middle, area.bottom() + 46, x.text, x.style);
-  const AxisName y = name_within(canvas, plot.y_label, area.height + 40);
+  constexpr double kEdge = 8;  // the name below may pass the area's ends, and leave its middle
+  const double beside = std::min(middle, plot.width - middle) - kEdge;
+  const AxisName x = name_within(canvas, plot.x_label, 2 * beside, plot.width - 2 * kEdge);
+  const double half = canvas.width_of(x.text, x.style) / 2;
+  canvas.text(std::min(middle, plot.width - kEdge - half), area.bottom() + 46, x.text, x.style);
+  const double room = area.height + 40;
+  const AxisName y = name_within(canvas, plot.y_label, room, room);
   canvas.upright_text(24, area.top + area.height / 2, y.text, y.style);
 }
 

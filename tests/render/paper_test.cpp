@@ -164,7 +164,7 @@ TEST(Paper, TheNameOfAnAxisIsWholeBesideLongNamesOfRows) {
   const Folder folder;
   const std::string name = "mean square error / variance of the noise";
   Plot plot = sample_plot();
-  plot.y_names = {"Orange_Whiffle_Ball", "Yellow_Whiffle_Ball"}, plot.x_label = name;
+  plot.y_names = {"Orange_Whiffle_Ball", "gaps at contact, across the image"}, plot.x_label = name;
   draw_plot(plot, folder.file("a.svg"), {85});
   EXPECT_NE(sample::bytes_of(folder.file("a.svg")).find(">" + name + "</text>"), std::string::npos);
   expect_readable(sample::bytes_of(folder.file("a.svg")), "smaller");
