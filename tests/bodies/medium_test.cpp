@@ -18,7 +18,7 @@ BodyRun drifter(std::uint64_t seed, double share) {
   run.name = "buoy " + std::to_string(seed), run.bodies = {"buoy"}, run.mass = {1},
   run.radius = {0};
   double x[2] = {0, 0}, v[2] = {0, 0};
-  for (int k = 0; k < 80; ++k) {
+  for (int k = 0; k < 50; ++k) {
     const double t = k * kStep, phase = static_cast<double>(seed);
     const double current[2] = {0.2 * std::sin(t / 11000 + phase), 0.15 * std::cos(t / 8000)};
     const double wind[2] = {8 * std::sin(t / 15000 + 2 * phase), 6 * std::cos(t / 23000 + phase)};

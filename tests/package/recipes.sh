@@ -29,7 +29,7 @@ def need(condition, fault):
 
 cmake = Path("CMakeLists.txt").read_text() + Path("cmake/python.cmake").read_text()
 version = re.search(r"project\(lilytank VERSION ([0-9.]+)", cmake)[1]
-# What the build needs: its name in CMake, in conda-forge and in Debian.
+# What the build needs: its name in CMake, in conda-forge (None: built without it) and in Debian.
 needed = {
     "Eigen3": ("eigen", "libeigen3-dev"),
     "TBB": ("tbb-devel", "libtbb-dev"),
@@ -42,6 +42,7 @@ needed = {
     "OpenSSL": ("openssl", "libssl-dev"),
     "PkgConfig": ("pkg-config", "pkg-config"),
     "NETCDF": ("libnetcdf", "libnetcdf-dev"),
+    "box2d": (None, "libbox2d-dev"),
     "CAIRO": ("cairo", "libcairo2-dev"),
     "Python": ("python", "python3-dev"),
     "pybind11": ("pybind11", "pybind11-dev"),
@@ -67,7 +68,7 @@ for file in re.findall(r"share/lilytank/(\S+)", str(recipe["test"]["commands"]))
     need(Path(file).exists(), f"meta.yaml: there is no {file}")
 packages = {word.split()[0] for part in ("build", "host") for word in recipe["requirements"][part]}
 for name, (conda, _) in needed.items():
-    need(conda in packages, f"meta.yaml: {conda} is missing, which CMake finds as {name}")
+    need(conda is None or conda in packages, f"meta.yaml: {conda} is missing, which CMake finds as {name}")
 known = set(re.findall(r"\b(?:option|set)\((\w+)", cmake)) | set(re.findall(r"find_path\((\w+)", cmake))
 for option in re.findall(r"-D(\w+)=", Path("cmake/conda/build.sh").read_text()):
     need(option in known | {"CMAKE_BUILD_TYPE", "Python_EXECUTABLE"}, f"build.sh: CMake has no {option}")
