@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "forces/force_sum.hpp"
+
 namespace lilytank::bench {
 
 Bodies::Bodies(int count)
@@ -12,12 +14,7 @@ Kinematics Bodies::kinematics() const {
 }
 
 Decay EngineSetup::decay() const {
-  Decay all;
-  for (const ActiveForce& force : model.forces) {
-    const Decay one = force.term->decay(force.p, step());
-    all.linear *= one.linear, all.angular *= one.angular;
-  }
-  return all;
+  return total_decay(model.forces, step());
 }
 
 int wall_corners(double radius) {

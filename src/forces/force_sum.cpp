@@ -7,6 +7,15 @@
 
 namespace lilytank {
 
+Decay total_decay(const std::vector<ActiveForce>& forces, double dt) {
+  Decay all;
+  for (const ActiveForce& force : forces) {
+    const Decay one = force.term->decay(force.p, dt);
+    all.linear *= one.linear, all.angular *= one.angular;
+  }
+  return all;
+}
+
 ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
     : model_(&model), forces_(&forces) {
   for (const ActiveForce& force : forces) {

@@ -11,6 +11,9 @@
 
 namespace lilytank {
 
+/// What is left of velocities and spins after `dt` s of all terms' damping.
+Decay total_decay(const std::vector<ActiveForce>& forces, double dt);
+
 /// Calls the terms of a list in the order of their stages. No allocation after it was made.
 class ForceSum {
  public:

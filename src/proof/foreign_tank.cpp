@@ -5,10 +5,9 @@
 #include <cmath>
 
 #ifdef LILYTANK_HAS_BOX2D
-#include <box2d/box2d.h>
-
 #include "forces/force_sum.hpp"
 #include "lilytank/start.hpp"
+#include "proof/box2d_bodies.hpp"
 #endif
 
 namespace lilytank {
@@ -28,15 +27,9 @@ void round_to_pixels(std::vector<Recording>& recordings) {
 #ifdef LILYTANK_HAS_BOX2D
 namespace {
 
-constexpr float kUnits = 100;  // lengths in centimetres: the library's tolerances suit such bodies
-constexpr int kVelocityRounds = 8, kPositionRounds = 3;  // the library's advice
 constexpr double kCornerEvery = 0.015;  // m: the wall departs from the circle by 0.1 mm
 constexpr double kFastest = 20;         // m/s; beyond it a tank counts as diverged
 constexpr int kFiner = 4;               // cells for each one of the field
-
-b2Vec2 in_units(double x, double y) {
-  return {kUnits * static_cast<float>(x), kUnits * static_cast<float>(y)};
-}
 
 // Weights of four neighbours by Catmull and Rom's cubic polynomial.
 std::array<double, 4> cubic(double t) {
@@ -82,6 +75,15 @@ struct Moving {
   std::vector<std::uint8_t> covered;
 };
 
+Box2dBodies::Damping damping_of(const Model& model) {
+  const Decay decay = total_decay(model.forces, model.dt);
+  return {-log_portable(decay.linear) / model.dt, -log_portable(decay.angular) / model.dt};
+}
+
+int wall_corners(const Model& model) {
+  return static_cast<int>(std::ceil(2 * kPi * model.tank.radius / kCornerEvery));
+}
+
 class ForeignTank {
  public:
   ForeignTank(Model model, std::uint64_t seed)
@@ -91,16 +93,9 @@ class ForeignTank {
         now_(model_.bodies()),
         middle_(model_.bodies()),
         wrenches_(static_cast<std::size_t>(model_.bodies())),
-        world_({0, 0}) {
-    world_.SetAllowSleeping(false);
-    const State start = initial_state(model_, seed);
-    b2FixtureDef surface;
-    surface.friction = static_cast<float>(model_.contact.friction);
-    surface.restitution = static_cast<float>(model_.contact.restitution);
-    surface.restitutionThreshold = kUnits * static_cast<float>(model_.contact.restitution_speed);
-    add_wall(surface);
-    for (int i = 0; i < model_.bodies(); ++i) add_body(start, i, surface);
-    read();
+        bodies_(model_, initial_state(model_, seed), model_.tank.radius, wall_corners(model_),
+                damping_of(model_)) {
+    bodies_.read(now_);
   }
 
   /// False if it diverged.
@@ -115,22 +110,21 @@ class ForeignTank {
       const double length = std::hypot(middle_.c[i], middle_.s[i]);
       middle_.c[i] /= length, middle_.s[i] /= length;
       middle_.vx[i] = now_.vx[i] + h * w.fx / m, middle_.vy[i] = now_.vy[i] + h * w.fy / m;
-      middle_.omega[i] = now_.omega[i] + h * w.torque / inertia(i);
+      middle_.omega[i] =
+          now_.omega[i] + h * w.torque / Box2dBodies::inertia(model_, static_cast<int>(i));
     }
     add_forces(middle_, h);
-    for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-      bodies_[i]->ApplyForceToCenter(in_units(wrenches_[i].fx, wrenches_[i].fy), true);
-      bodies_[i]->ApplyTorque(kUnits * kUnits * static_cast<float>(wrenches_[i].torque), true);
-    }
-    world_.Step(static_cast<float>(model_.dt), kVelocityRounds, kPositionRounds);
+    bodies_.push(wrenches_);
+    bodies_.step(model_.dt);
     ++step_;
-    return read();
+    bodies_.read(now_);
+    return good();
   }
 
   void append_to(Trajectory& out, double since) const {
     out.bodies = model_.bodies(), out.modules = model_.module.count;
     out.time.push_back(time() - since);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (std::size_t i = 0; i < now_.x.size(); ++i) {
       out.x.push_back(static_cast<float>(now_.x[i])),
           out.y.push_back(static_cast<float>(now_.y[i]));
       out.theta.push_back(static_cast<float>(angle_of({now_.c[i], now_.s[i]})));
@@ -139,11 +133,8 @@ class ForeignTank {
   double time() const { return static_cast<double>(step_) * model_.dt; }
 
  private:
-  bool square(std::size_t i) const { return static_cast<int>(i) < model_.module.count; }
-  double mass(std::size_t i) const { return square(i) ? model_.module.mass : model_.ball.mass; }
-  double inertia(std::size_t i) const {
-    return square(i) ? model_.module.inertia()
-                     : 0.5 * model_.ball.mass * model_.ball.radius * model_.ball.radius;
+  double mass(std::size_t i) const {
+    return static_cast<int>(i) < model_.module.count ? model_.module.mass : model_.ball.mass;
   }
 
   void add_forces(const Moving& at, double later) {
@@ -155,66 +146,12 @@ class ForeignTank {
     forces_(at.view(model_.module.count), now, wrenches_);
   }
 
-  void add_wall(b2FixtureDef surface) {
-    const double radius = model_.tank.radius;
-    const int corners = static_cast<int>(std::ceil(2 * kPi * radius / kCornerEvery));
-    std::vector<b2Vec2> ring;
-    for (int k = 0; k < corners; ++k) {  // clockwise: what is solid lies outside
-      const Rot way = rotation(-2 * kPi * k / corners);
-      ring.push_back(in_units(radius * way.c, radius * way.s));
+  bool good() const {
+    for (std::size_t i = 0; i < now_.x.size(); ++i) {
+      const bool slow = std::hypot(now_.vx[i], now_.vy[i]) <= kFastest;
+      if (!slow || !(std::hypot(now_.x[i], now_.y[i]) <= model_.tank.radius)) return false;
     }
-    b2ChainShape shape;
-    shape.CreateLoop(ring.data(), corners);
-    surface.shape = &shape;
-    const b2BodyDef still;
-    world_.CreateBody(&still)->CreateFixture(&surface);
-  }
-
-  void add_body(const State& start, int number, b2FixtureDef surface) {
-    const auto i = static_cast<std::size_t>(number);
-    Decay decay;  // of a step, as rates: the library divides by 1 + step * rate
-    for (const ActiveForce& force : model_.forces) {
-      const Decay d = force.term->decay(force.p, model_.dt);
-      decay.linear *= d.linear, decay.angular *= d.angular;
-    }
-    b2BodyDef def;
-    def.type = b2_dynamicBody;
-    def.position = in_units(start.x[i], start.y[i]);
-    def.angle = static_cast<float>(angle_of({start.c[i], start.s[i]}));
-    def.linearDamping = static_cast<float>(-log_portable(decay.linear) / model_.dt);
-    def.angularDamping = static_cast<float>(-log_portable(decay.angular) / model_.dt);
-    b2Body* body = world_.CreateBody(&def);
-    b2PolygonShape box;
-    b2CircleShape disc;
-    // Polygons are kept a skin apart; without it they are as wide as they should be.
-    const float half = kUnits * static_cast<float>(0.5 * model_.module.side) - b2_polygonRadius;
-    box.SetAsBox(half, half);
-    disc.m_radius = kUnits * static_cast<float>(model_.ball.radius);
-    surface.shape = square(i) ? static_cast<const b2Shape*>(&box) : &disc;
-    surface.density = 1;
-    body->CreateFixture(&surface);
-    b2MassData weight;
-    weight.mass = static_cast<float>(mass(i));
-    weight.center.SetZero();
-    weight.I = kUnits * kUnits * static_cast<float>(inertia(i));
-    body->SetMassData(&weight);
-    bodies_.push_back(body);
-  }
-
-  bool read() {
-    bool good = true;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const b2Transform& t = bodies_[i]->GetTransform();
-      const b2Vec2& v = bodies_[i]->GetLinearVelocity();
-      const auto metres = [](float value) { return static_cast<double>(value / kUnits); };
-      now_.x[i] = metres(t.p.x), now_.y[i] = metres(t.p.y);
-      now_.c[i] = static_cast<double>(t.q.c), now_.s[i] = static_cast<double>(t.q.s);
-      now_.vx[i] = metres(v.x), now_.vy[i] = metres(v.y);
-      now_.omega[i] = static_cast<double>(bodies_[i]->GetAngularVelocity());
-      good = good && std::hypot(now_.vx[i], now_.vy[i]) <= kFastest &&
-             std::hypot(now_.x[i], now_.y[i]) <= model_.tank.radius;
-    }
-    return good;
+    return true;
   }
 
   Model model_;
@@ -222,8 +159,7 @@ class ForeignTank {
   ForceSum forces_;
   Moving now_, middle_;
   std::vector<Wrench> wrenches_;
-  b2World world_;
-  std::vector<b2Body*> bodies_;
+  Box2dBodies bodies_;
   std::int64_t step_ = 0;
 };
 

@@ -36,11 +36,7 @@ struct World::Impl {
     events.reserve(64 + 8 * static_cast<std::size_t>(m.module.count));
     kinematics = {assemblies.x,  assemblies.y,     assemblies.c,       assemblies.s,  assemblies.vx,
                   assemblies.vy, assemblies.omega, assemblies.covered, m.module.count};
-    Decay decay;
-    for (const ActiveForce& force : m.forces) {
-      const Decay d = force.term->decay(force.p, m.dt);
-      decay.linear *= d.linear, decay.angular *= d.angular;
-    }
+    const Decay decay = total_decay(m.forces, m.dt);
     linear = static_cast<float>(1 - decay.linear), angular = static_cast<float>(1 - decay.angular);
   }
 
