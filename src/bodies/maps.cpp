@@ -10,24 +10,18 @@ struct Point {
   double at = 0, value = 0;
 };
 
-// Of one group: which bodies move how, in what medium.
-struct Motions {
-  const BodyModel* baseline;
-  const Term* medium = nullptr;  // the reported law over the medium slip
-};
-
-Motions motions_of(const Comparison& c, std::size_t group) {
-  Motions out{&c.baseline.fits[group].model};
-  if (c.reported == nullptr) return out;
+// The reported law over the medium slip, as it is fitted to a group; null: there is none.
+const Term* medium_of(const Comparison& c, std::size_t group) {
+  if (c.reported == nullptr) return nullptr;
   for (const Term& t : c.reported->fits[group].model.terms) {
-    if (t.law->variable == "medium slip") out.medium = &t;
+    if (t.law->variable == "medium slip") return &t;
   }
-  return out;
+  return nullptr;
 }
 
 // Variable and push of one body at one sample; NaN where it has none.
 Point point_of(const std::string& variable, const BodyRun& run, const Believed& b,
-               const Motions& of, std::size_t k, std::size_t body, std::size_t nd) {
+               const Term* medium, std::size_t k, std::size_t body, std::size_t nd) {
   const std::size_t row = run.bodies.size() * nd, i = k * row + body * nd;
   const double *x = &b.x[i], *v = &b.v[i], *a = &b.push[i];
   const double mass = run.mass[body];
@@ -40,10 +34,9 @@ Point point_of(const std::string& variable, const BodyRun& run, const Believed& 
     away = run.radius[0] + run.radius[1];
   }
   if (variable == "medium slip") {
-    if (of.medium == nullptr) return {NAN, NAN};
     const Scene scene = scene_of(run, static_cast<int>(nd), k, run.time[k], x, v);
     for (std::size_t d = 0; d < nd; ++d)
-      u[d] -= velocity_of_medium(scene, of.medium->value, static_cast<int>(d));
+      u[d] -= velocity_of_medium(scene, medium->value, static_cast<int>(d));
   }
   const double size = std::hypot(u[0], u[1]);
   const double push = variable == "turn" ? (nd > 1 ? a[0] * u[1] - a[1] * u[0] : NAN)
@@ -55,14 +48,15 @@ std::vector<Point> points_of(const Comparison& c, const std::string& variable) {
   const auto nd = static_cast<std::size_t>(c.experiment->dimensions);
   std::vector<Point> out;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
-    const Motions of = motions_of(c, i);
+    const Term* medium = medium_of(c, i);
+    if (variable == "medium slip" && medium == nullptr) continue;
     for (const BodyRun* run : c.groups[i].runs) {
       if (variable == "pair" && run->bodies.size() < 2) continue;
-      const Believed b = believed(*of.baseline, c.groups[i].typical, *run);
+      const Believed b = believed(c.baseline.fits[i].model, c.groups[i].typical, *run);
       for (std::size_t k = 4; k < run->samples(); ++k) {
         const std::size_t bodies = variable == "pair" ? 2 : run->bodies.size();
         for (std::size_t body = 0; body < bodies; ++body) {
-          const Point p = point_of(variable, *run, b, of, k, body, nd);
+          const Point p = point_of(variable, *run, b, medium, k, body, nd);
           if (std::isfinite(p.at) && std::isfinite(p.value)) out.push_back(p);
         }
       }

@@ -10,6 +10,7 @@
 #include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
+#include "proof/foreign_tank.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -86,6 +87,7 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
 int dry_run(const ProofOptions& job) {
   const DiagnosisOptions& d = job.diagnosis;
   check_directory_of("proof", d.out, d.force);
+  if (job.foreign) static_cast<void>(foreign_engine());  // is there one?
   std::cout << "would simulate and diagnose " << counted(job.worlds, "experiment")
             << (job.only.empty() ? "" : " (of these, " + job.only + " only)")
             << " of 3 recordings of " << significant(job.minutes, 3)
