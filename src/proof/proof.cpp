@@ -11,43 +11,18 @@
 #include "proof/baseline_method.hpp"
 #include "proof/closed_loop.hpp"
 #include "proof/proof_files.hpp"
+#include "proof/proof_tank.hpp"
 #include "proof/sealed.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-constexpr int kBalls = 24;
-constexpr std::uint64_t kTankSeed = 1, kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
-                        kExpectedSeed = 1u << 21, kDrawnSeed = 5, kLoopSeed = 1u << 22;
+constexpr std::uint64_t kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
+                        kExpectedSeed = 1u << 21, kLoopSeed = 1u << 22;
 // A world takes as long as so many simulated experiments, on the average; one with nothing in it.
 constexpr double kOfAWorld = 70, kOfANull = 6;
-const std::string kForeignKey = "engine Box2D\n";  // a line of the key
 constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
-
-// The open part of the exam: balls, and Lilies in which nothing is missing.
-Experiment open_tank(const ProofOptions& options, const Model& tank) {
-  Experiment e;
-  e.name = "proof";
-  // What a drawn tank is like is for the diagnosis to find.
-  e.base.model = with_steps(tank_model(), 5);
-  if (options.known_flow) e.base.model.field = tank.field;
-  const double seconds = 60 * options.minutes;
-  const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
-  std::vector<RecordingShape> shapes(kSealedRecordings,
-                                     shape_named("balls", BodyKind::ball, kBalls, of_balls));
-  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
-  auto balls = film_tank(with_steps(tank, kSealedSteps), {}, {}, shapes, seed, options.foreign);
-  Sealed nothing;
-  nothing.factors.assign(5, 1.0), nothing.foreign = options.foreign;
-  auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
-  if (!balls || !lilies) throw InputError("the proof's tank diverges");
-  if (options.known_flow) balls->clear();
-  for (auto* of : {&*balls, &*lilies}) {
-    for (Recording& r : *of) e.recordings.push_back(std::move(r));
-  }
-  return e;
-}
 
 // What is measured of a synthetic experiment before it is diagnosed.
 struct MeasuredExperiment {
@@ -179,21 +154,6 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
   return s.effects.empty() ? 0 : least;
 }
 
-// Of a drawn tank; nothing else about it is printed before the key is opened.
-DrawnTank tank_of(const ProofOptions& options) {
-  return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
-}
-std::string words_for_tank(const ProofOptions& options) {
-  return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
-         std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
-         " min, " +
-         (options.known_flow ? "known flow"
-          : options.ball_minutes > 0
-              ? "flow from balls of " + shortest(options.ball_minutes) + " min"
-              : "flow from balls") +
-         (options.foreign ? ", recorded with Box2D" : "");
-}
-
 // Those of the requested kind.
 std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
                               const std::vector<Shape>& shapes, std::uint64_t seed) {
@@ -216,14 +176,12 @@ class Examination {
  public:
   explicit Examination(const ProofOptions& options)
       : options_(options),
-        tank_(options.drawn_tank ? tank_model(tank_of(options)) : tank_model()),
+        tank_(tank_of(options)),
         seed_(derived_seed(options.diagnosis.seed, kKeySeed)),
         seconds_(60 * options.minutes),
         shapes_(shape_catalogue(tank_, seconds_)),
         sealed_(requested(options, tank_, shapes_, seed_)) {
-    out_.tank = words_for_tank(options);
-    if (options.foreign) out_.key = kForeignKey;
-    if (options.drawn_tank) out_.key += key_text(tank_of(options));
+    out_.tank = words_for_tank(options), out_.key = key_of_tank(options);
     for (const Sealed& s : sealed_) out_.key += std::to_string(s.world) + " " + key_text(s);
     out_.hash = sha256(out_.key), out_.sealed = sealed_.size();
   }

@@ -1,0 +1,63 @@
+#include "proof/proof_tank.hpp"
+
+#include "lilytank/random.hpp"
+#include "proof/sealed.hpp"
+#include "text/number.hpp"
+
+namespace lilytank {
+namespace {
+
+constexpr int kBalls = 24;
+constexpr std::uint64_t kTankSeed = 1, kDrawnSeed = 5;
+
+DrawnTank drawn_for(const ProofOptions& options) {
+  return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
+}
+
+}  // namespace
+
+Model tank_of(const ProofOptions& options) {
+  return options.drawn_tank ? tank_model(drawn_for(options)) : tank_model();
+}
+
+Experiment open_tank(const ProofOptions& options, const Model& tank) {
+  Experiment e;
+  e.name = "proof";
+  // What a drawn tank is like is for the diagnosis to find.
+  e.base.model = with_steps(tank_model(), 5);
+  if (options.known_flow) e.base.model.field = tank.field;
+  const double seconds = 60 * options.minutes;
+  const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
+  std::vector<RecordingShape> shapes(kSealedRecordings,
+                                     shape_named("balls", BodyKind::ball, kBalls, of_balls));
+  const std::uint64_t seed = derived_seed(options.diagnosis.seed, kTankSeed);
+  auto balls = film_tank(with_steps(tank, kSealedSteps), {}, {}, shapes, seed, options.foreign);
+  Sealed nothing;
+  nothing.factors.assign(5, 1.0), nothing.foreign = options.foreign;
+  auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
+  if (!balls || !lilies) throw InputError("the proof's tank diverges");
+  if (options.known_flow) balls->clear();
+  for (auto* of : {&*balls, &*lilies}) {
+    for (Recording& r : *of) e.recordings.push_back(std::move(r));
+  }
+  return e;
+}
+
+std::string key_of_tank(const ProofOptions& options) {
+  std::string out = options.foreign ? "engine Box2D\n" : "";
+  if (options.drawn_tank) out += key_text(drawn_for(options));
+  return out;
+}
+
+std::string words_for_tank(const ProofOptions& options) {
+  return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
+         std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
+         " min, " +
+         (options.known_flow ? "known flow"
+          : options.ball_minutes > 0
+              ? "flow from balls of " + shortest(options.ball_minutes) + " min"
+              : "flow from balls") +
+         (options.foreign ? ", recorded with Box2D" : "");
+}
+
+}  // namespace lilytank
