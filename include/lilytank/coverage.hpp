@@ -2,6 +2,8 @@
 // simulated: how well the balls measured the flow where the Lilies went, and how long these were
 // seen.
 #pragma once
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +13,16 @@
 
 namespace lilytank {
 
+/// What recordings must meet for error rates that are known.
+enum class Requirement : std::uint8_t { lily_time, measured_cells, mean_flow, gusts };
+inline constexpr std::array kRequirements{Requirement::lily_time, Requirement::measured_cells,
+                                          Requirement::mean_flow, Requirement::gusts};
+/// "time of the Lilies", "measured cells", "mean flow", "gusts".
+std::string name_of(Requirement requirement);
+
 /// A requirement that recordings do not meet.
 struct Shortfall {
+  Requirement requirement = Requirement::lily_time;
   std::string what;    ///< what is measured, its value, and the bound that it does not meet
   double minutes = 0;  ///< to record in addition, with as many bodies
   BodyKind body = BodyKind::ball;
@@ -48,5 +58,8 @@ inline constexpr double kLeastMeasured = 0.9, kLargestFlowError = 0.1, kLargestG
 /// fitted; of other bodies nothing is counted.
 Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
                      std::span<const Recording> lilies);
+/// What recordings fall short of for a diagnosis: of the flow map first, which everything rests on.
+std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, std::span<const Recording> balls,
+                                     std::span<const Recording> lilies);
 
 }  // namespace lilytank

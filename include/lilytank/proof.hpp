@@ -17,6 +17,7 @@ struct ProofOptions {
   std::string only;         ///< null, named, two or unnamed: leaves out those of another kind
   double minutes = 4;       ///< of a recording; an experiment has three
   double ball_minutes = 0;  ///< of a recording of balls, of which there are three; 0: as `minutes`
+  int modules = 15;         ///< in a recording of Lilies
   bool known_flow = false;  ///< no balls: the diagnosis uses the true flow
   /// true: pumps, inlets and the parameters that calibrations estimate are drawn from the seed.
   /// false: the built-in tank, with the parameters at which the diagnosis starts.
@@ -27,7 +28,9 @@ struct ProofOptions {
   /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
   bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
-  DiagnosisOptions diagnosis;  ///< of each; its directory is the proof's
+  /// Of each; its directory is the proof's. Recordings that are insufficient are the verdict,
+  /// unless `uncertified`.
+  DiagnosisOptions diagnosis;
   /// Called once with the SHA-256 of the key, before anything is diagnosed.
   std::function<void(const std::string& hash)> sealed;
   /// Called after every world that was judged, with all of them so far.
@@ -69,7 +72,8 @@ struct ProofWorld {
   /// it; of two the weaker one's; 0: nothing is there.
   double expected_z = 0;
   Verdict verdict = Verdict::complete;
-  std::vector<ProofFinding> findings;  ///< strongest first; none of complete
+  std::vector<ProofFinding> findings;   ///< strongest first; none of complete
+  std::vector<Requirement> shortfalls;  ///< of insufficient ones; then nothing below is known
   /// Of those that were modelled, and the baseline's of complete ones that were so called.
   std::vector<ProofInterval> intervals;
   /// Of those that were modelled: the share of the mismatch that the model removes on recordings
@@ -83,6 +87,8 @@ struct ProofWorld {
   /// null: complete; named: the strongest finding's name, or one not distinguished from it; two:
   /// each in a finding; unnamed: so called, right variable.
   bool right() const;
+  /// Not right and not wrong: too little was recorded.
+  bool insufficient() const { return verdict == Verdict::insufficient; }
   /// Whether a name was reported that is in no way the key's.
   bool wrong_name() const;
 };
@@ -101,6 +107,10 @@ struct Proof {
 /// gusts point by point, parameters up to 8 % off), diagnoses them blind and opens the key. One
 /// tank's nulls and fingerprints serve all of them. Throws Stopped, InputError.
 Proof prove(const ProofOptions& options);
+
+/// The proof in its directory, if all of its experiments were judged; nothing is simulated. Throws
+/// InputError if its files are damaged.
+std::optional<Proof> finished_proof(const ProofOptions& options);
 
 /// Of one proof, or of several with tanks of their own together: rates with binomial intervals, by
 /// kind and by expected z; what was taken for what.
@@ -139,6 +149,12 @@ struct ProofFigures {
 ProofFigures proof_figures(std::span<const Proof> proofs);
 /// Names of all files that a proof may leave in its directory.
 std::vector<std::string> proof_files();
+/// Writes what its directory holds before the key is opened: proof.txt, proof.csv, tank.txt,
+/// intervals.csv and, where groups were split, closed_loop.csv. Throws InputError.
+void write_proof(const Proof& so_far, const std::string& dir);
+/// Removes key.txt of other experiments of the same tank; writes the proof's.
+void forget_other_key(const std::string& dir, const std::string& hash);
+void open_key(const Proof& proof, const std::string& dir);
 /// A finished proof from its directory's key.txt, proof.csv, intervals.csv
 /// and, if there were groups to split, closed_loop.csv. Throws InputError
 /// where one is absent, damaged, or not of that key.

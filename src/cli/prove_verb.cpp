@@ -1,5 +1,4 @@
 // lilytank prove: is a diagnosis to be trusted?
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -7,7 +6,6 @@
 #include "cli/progress.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
-#include "io/sha256.hpp"
 #include "jobs/job_directory.hpp"
 #include "lilytank/proof.hpp"
 #include "proof/foreign_tank.hpp"
@@ -62,6 +60,7 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
               0.2, 1e4);
   options.add({"ball-minutes", "of each of the three recordings of balls (as --minutes)", "M"},
               &job.ball_minutes, 0.1, 1e4);
+  options.add({"modules", "in each of an experiment's recordings (15)", "N"}, &job.modules, 2, 100);
   options.add({"known-flow", "give the diagnosis the true flow instead of balls"}, &job.known_flow);
   options.add({"drawn-tank",
                "draw the tank, too: its pumps, inlets and parameters (the built-in "
@@ -77,6 +76,7 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
               &job.modelled, 0, 1000000);
   options.add({"budget", "minutes for the tank's nulls and fingerprints (10)", "MINUTES"},
               &d.minutes, 1, 1e4);
+  options.add({"uncertified", "diagnose insufficient recordings, too"}, &d.uncertified);
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
   options.add({"out", "directory of the results (out/proof)", "DIR"});
   options.add({"threads", "simulations at a time (default: one a core)", "N"}, &d.threads, 0, 4096);
@@ -90,29 +90,12 @@ int dry_run(const ProofOptions& job) {
   if (job.foreign) static_cast<void>(foreign_engine());  // is there one?
   std::cout << "would simulate and diagnose " << counted(job.worlds, "experiment")
             << (job.only.empty() ? "" : " (of these, " + job.only + " only)")
-            << " of 3 recordings of " << significant(job.minutes, 3)
-            << " min; the tank's null experiments take about " << significant(d.minutes, 3)
+            << " of 3 recordings of " << significant(job.minutes, 3) << " min"
+            << (job.modules == ProofOptions{}.modules ? ""
+                                                      : " with " + counted(job.modules, "module"))
+            << "; the tank's null experiments take about " << significant(d.minutes, 3)
             << " min on two cores; in " << d.out << "\n";
   return Exit::done;
-}
-
-// A directory may have had a proof of other experiments of the same tank, with a key of its own.
-void forget_other_key(const std::filesystem::path& dir, const std::string& hash) {
-  const std::filesystem::path key = dir / "key.txt";
-  std::error_code ignored;
-  if (!std::filesystem::exists(key, ignored)) return;
-  if (sha256(read_whole(key.string())) != hash) std::filesystem::remove(key, ignored);
-}
-
-// The key is not among them: it stays closed until the last world is judged.
-void keep(const Proof& so_far, const std::filesystem::path& dir) {
-  write_atomically((dir / "proof.txt").string(), proof_text({&so_far, 1}));
-  write_atomically((dir / "proof.csv").string(), proof_csv(so_far));
-  write_atomically((dir / "tank.txt").string(), so_far.tank + "\n");
-  write_atomically((dir / "intervals.csv").string(), proof_intervals_csv(so_far));
-  const bool loops =
-      std::ranges::any_of(so_far.worlds, [](const auto& w) { return w.loop.has_value(); });
-  if (loops) write_atomically((dir / "closed_loop.csv").string(), proof_loops_csv(so_far));
 }
 
 }  // namespace
@@ -132,10 +115,10 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    options.refuse_given(
-        {"worlds", "only", "minutes", "ball-minutes", "known-flow", "drawn-tank", "foreign",
-         "closed-loop", "modelled", "budget", "seed", "threads", "dry-run"},
-        "is for a new proof");
+    options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "modules", "known-flow",
+                          "drawn-tank", "foreign", "closed-loop", "modelled", "budget",
+                          "uncertified", "seed", "threads", "dry-run"},
+                         "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);
   }
@@ -144,20 +127,20 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   }
   job.diagnosis.out = options.out("out/proof");
   if (options.has("dry-run")) return dry_run(job);
-  const std::filesystem::path dir(job.diagnosis.out);
+  const std::string& dir = job.diagnosis.out;
   Progress progress(quiet, host);
   progress.watch(job.diagnosis);
   job.sealed = [&](const std::string& hash) {
     forget_other_key(dir, hash);
     std::cout << "ground truth recorded; its SHA-256: " << hash << std::endl;
   };
-  job.judged = [&](const Proof& so_far) { keep(so_far, dir); };
+  job.judged = [&](const Proof& so_far) { write_proof(so_far, dir); };
   std::shared_ptr<const DirectoryLock> lock;  // until the report is written
   job.diagnosis.lock = &lock;
   const Proof proof = prove(job);
   progress.clear();
-  write_atomically((dir / "key.txt").string(), proof.key);
-  return report_proofs({&proof, 1}, job.diagnosis.out, style,
+  open_key(proof, dir);
+  return report_proofs({&proof, 1}, dir, style,
                        provenance("prove", arguments, job.diagnosis.seed, {}), host);
 }
 

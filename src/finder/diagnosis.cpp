@@ -83,15 +83,6 @@ std::string identity_of(const Experiment& experiment) {
   return hex(hash.value());
 }
 
-// What the recordings fall short of: of the flow map first, which everything rests on.
-std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, const std::vector<Recording>& balls,
-                                     const std::vector<Recording>& lilies) {
-  const Coverage coverage = coverage_of(flow, balls, lilies);
-  std::vector<Shortfall> out = coverage.flow;
-  out.insert(out.end(), coverage.lilies.begin(), coverage.lilies.end());
-  return out;
-}
-
 // Alternatives that the proposals are not compared for.
 void warn_of_unpredicted(const OpenQuestion& question, Diagnosis& out) {
   if (out.next.empty() || out.findings.empty()) return;

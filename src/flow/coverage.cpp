@@ -118,29 +118,45 @@ void measure_flow(const FlowEstimate& flow, const std::vector<double>& where, Co
 void check_flow(const FlowEstimate& flow, const std::vector<double>& where, double balls,
                 Coverage& out) {
   const double minutes = out.ball_minutes / balls;
-  const auto add = [&](const std::string& what, double value, const char* bound, double needed,
-                       double factor) {
-    out.flow.push_back({what + ": " + percent(value) + " (" + bound + " " + percent(needed) + ")",
+  const auto add = [&](Requirement of, const std::string& what, double value, const char* bound,
+                       double needed, double factor) {
+    out.flow.push_back({of,
+                        what + ": " + percent(value) + " (" + bound + " " + percent(needed) + ")",
                         (factor - 1) * minutes, BodyKind::ball, static_cast<int>(balls)});
   };
   if (out.measured < kLeastMeasured) {
     std::vector<double> samples;
     for (const FlowCell& cell : flow.cell) samples.push_back(cell.samples);
-    add("fraction of the Lilies' time in cells where the balls measured the flow", out.measured,
+    add(Requirement::measured_cells,
+        "fraction of the Lilies' time in cells where the balls measured the flow", out.measured,
         "at least", kLeastMeasured, factor_for_share(flow, samples, where, kLeastMeasured));
   }
   // Errors fall with the root of the time.
-  const auto limit = [&](const std::string& what, double relative, double largest) {
+  const auto limit = [&](Requirement of, const std::string& what, double relative, double largest) {
     if (relative > largest)
-      add(what, relative, "at most", largest, std::pow(relative / largest, 2));
+      add(of, what, relative, "at most", largest, std::pow(relative / largest, 2));
   };
-  limit("standard error of the mean flow over its speed, where the Lilies went",
+  limit(Requirement::mean_flow,
+        "standard error of the mean flow over its speed, where the Lilies went",
         out.flow_error / out.flow_speed, kLargestFlowError);
-  limit("relative standard error of the gusts' standard deviation", out.gust_error,
-        kLargestGustError);
+  limit(Requirement::gusts, "relative standard error of the gusts' standard deviation",
+        out.gust_error, kLargestGustError);
 }
 
 }  // namespace
+
+std::string name_of(Requirement requirement) {
+  switch (requirement) {
+    case Requirement::lily_time:
+      return "time of the Lilies";
+    case Requirement::measured_cells:
+      return "measured cells";
+    case Requirement::mean_flow:
+      return "mean flow";
+    default:
+      return "gusts";
+  }
+}
 
 std::string Shortfall::bodies() const {
   return std::to_string(count) + (body == BodyKind::ball ? " balls" : " Lilies");
@@ -163,7 +179,8 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
   out.ball_minutes = ball.minutes, out.lily_minutes = lily.minutes;
   if (lily.minutes < kLeastLilyMinutes) {
     out.lilies.push_back(
-        {"time of the Lilies, summed over modules: " + significant(lily.minutes, 2) +
+        {Requirement::lily_time,
+         "time of the Lilies, summed over modules: " + significant(lily.minutes, 2) +
              " min (at least " + significant(kLeastLilyMinutes, 2) + " min)",
          (kLeastLilyMinutes - lily.minutes) / lily.bodies, BodyKind::lily,
          static_cast<int>(lily.bodies)});
@@ -173,6 +190,14 @@ Coverage coverage_of(const FlowEstimate* flow, std::span<const Recording> balls,
   const std::vector<double> where = seconds_by_cell({flow->cells, flow->extent}, lilies);
   measure_flow(*flow, where, out);
   check_flow(*flow, where, ball.bodies, out);
+  return out;
+}
+
+std::vector<Shortfall> shortfalls_of(const FlowEstimate* flow, std::span<const Recording> balls,
+                                     std::span<const Recording> lilies) {
+  const Coverage coverage = coverage_of(flow, balls, lilies);
+  std::vector<Shortfall> out = coverage.flow;
+  out.insert(out.end(), coverage.lilies.begin(), coverage.lilies.end());
   return out;
 }
 

@@ -13,15 +13,14 @@
 #include "proof/proof_files.hpp"
 #include "proof/proof_tank.hpp"
 #include "proof/sealed.hpp"
-#include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr std::uint64_t kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
                         kExpectedSeed = 1u << 21, kLoopSeed = 1u << 22;
-// A world takes as long as so many simulated experiments, on the average; one with nothing in it.
-constexpr double kOfAWorld = 70, kOfANull = 6;
+// A world takes as long as so many simulated experiments, on the average.
+constexpr double kOfAWorld = 70;
 constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
 
 // What is measured of a synthetic experiment before it is diagnosed.
@@ -188,29 +187,27 @@ class Examination {
 
   Proof run() {
     const Experiment open = open_tank(options_, tank_);
-    DiagnosisOptions job = options_.diagnosis;
-    job.hold_out = 0;
-    if (job.progress) {
-      job.progress = [this, report = job.progress](double done, const std::string& stage) {
-        report(done, world_name_ + stage);
-      };
-    }
+    const DiagnosisOptions job = diagnosis_options();
     DiagnosisSetup setup(open, job);
-    const auto lock =
-        claim_directory(job.out, job.force, {"proof", setup.identity(), proof_files()});
+    const std::string identity = setup.identity() + (job.uncertified ? " uncertified" : "");
+    const auto lock = claim_directory(job.out, job.force, {"proof", identity, proof_files()});
     if (job.lock != nullptr) *job.lock = lock;
     if (options_.sealed) options_.sealed(out_.hash);
-    PreparedTank tank(setup, after(setup.model_cost()));
-    measured_ = measure_all(tank);
+    find_shortfalls(setup);
+    std::optional<PreparedTank> tank;
+    if (answered() > 0) {
+      tank.emplace(setup, after(setup.model_cost()));
+      measure_all(*tank);
+    }
     const std::vector<ProofWorld> before = kept_worlds(job.out, out_);
     const double begin = setup.stages.spent();
-    for (std::size_t w = 0; w < measured_.size(); ++w) {
+    for (std::size_t w = 0; w < sealed_.size(); ++w) {
       world_name_ =
-          "experiment " + std::to_string(w + 1) + " of " + std::to_string(measured_.size()) + ": ";
+          "experiment " + std::to_string(w + 1) + " of " + std::to_string(sealed_.size()) + ": ";
       if (w < before.size() && !asks_for_model(before[w])) {
         out_.worlds.push_back(before[w]);
       } else {
-        out_.worlds.push_back(ask(tank, w));
+        out_.worlds.push_back(shortfalls_[w].empty() ? ask(*tank, w) : insufficient(w));
         keep(job.out, before);
       }
       const ProofWorld& last = out_.worlds.back();
@@ -222,7 +219,27 @@ class Examination {
     return std::move(out_);
   }
 
+  std::optional<Proof> finished() const {
+    const std::string& dir = options_.diagnosis.out;
+    if (dir.empty() || !exists(dir + "/key.txt")) return std::nullopt;
+    Proof there = read_proof(dir);
+    if (there.key != out_.key || there.tank != out_.tank) return std::nullopt;
+    return there;
+  }
+
  private:
+  // All recordings are fitted; the progress names the experiment.
+  DiagnosisOptions diagnosis_options() const {
+    DiagnosisOptions job = options_.diagnosis;
+    job.hold_out = 0;
+    if (job.progress) {
+      job.progress = [this, report = job.progress](double done, const std::string& stage) {
+        report(done, world_name_ + stage);
+      };
+    }
+    return job;
+  }
+
   // Results of this call, then those of earlier ones: an experiment may be diagnosed again for its
   // model.
   void keep(const std::string& dir, const std::vector<ProofWorld>& before) const {
@@ -233,11 +250,13 @@ class Examination {
 
   double of_a_world() const { return options_.only == "null" ? kOfANull : kOfAWorld; }
 
-  // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds.
+  // Simulated experiments that follow the tank's. Those of curves are learned once for all worlds,
+  // where something is found.
   double after(double model_cost) const {
+    const double worlds = of_a_world() * static_cast<double>(answered());
+    if (options_.only == "null") return worlds;
     const int experiments = DiagnosisBudget(options_.diagnosis.minutes).experiments;
-    return of_a_world() * static_cast<double>(sealed_.size()) +
-           static_cast<double>(shapes_.size()) * kKnots * experiments +
+    return worlds + static_cast<double>(shapes_.size()) * kKnots * experiments +
            options_.modelled * model_cost;
   }
 
@@ -247,21 +266,58 @@ class Examination {
     return film_sealed(tank_, sealed_[w], seconds_, derived_seed(seed_, kWorldSeed + number(w)));
   }
 
-  std::vector<std::optional<MeasuredExperiment>> measure_all(PreparedTank& tank) const {
-    const std::string stage = options_.only.empty() ? "synthetic" : "synthetic " + options_.only;
+  std::string stage_of(const std::string& name) const {
+    return options_.only.empty() ? name : name + " " + options_.only;
+  }
+
+  // Those that an experiment does not meet are a row. One that diverged has none: it is undecided.
+  void find_shortfalls(DiagnosisSetup& setup) {
+    shortfalls_.resize(sealed_.size());
+    if (setup.options.uncertified) return;
+    const CalibrationSetup& known = setup.calibration;
     const auto row = [&](int i) {
+      std::vector<double> out;
       const auto made = film(static_cast<std::size_t>(i));
+      if (!made) return out;
+      const FlowEstimate* flow = known.flow ? &*known.flow : nullptr;
+      for (const Shortfall& s : shortfalls_of(flow, known.balls, *made)) {
+        out.push_back(static_cast<double>(s.requirement));
+      }
+      return out;
+    };
+    const auto rows =
+        setup.stages.rows(stage_of("coverage"), static_cast<int>(sealed_.size()), row);
+    for (std::size_t w = 0; w < rows.size(); ++w) {
+      for (const double r : rows[w]) shortfalls_[w].push_back(static_cast<Requirement>(r));
+    }
+  }
+
+  std::size_t answered() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(shortfalls_, [](const auto& of) { return of.empty(); }));
+  }
+
+  ProofWorld insufficient(std::size_t w) const {
+    ProofWorld world;
+    world.kind = sealed_[w].kind, world.effects = sealed_[w].names;
+    world.verdict = Verdict::insufficient, world.shortfalls = shortfalls_[w];
+    return world;
+  }
+
+  void measure_all(PreparedTank& tank) {
+    const auto row = [&](int i) {
+      const auto w = static_cast<std::size_t>(i);
+      const auto made = shortfalls_[w].empty() ? film(w) : std::nullopt;
       if (!made) return std::vector<double>{};
       MeasuredExperiment m;
       m.observed = tank.ensemble.vectors(*made, &m.details);
       m.regression = sparse_regression(tank.ensemble.plan(), *made).effect;
       return row_of(m);
     };
-    std::vector<std::optional<MeasuredExperiment>> out;
-    for (const auto& kept : tank.setup.stages.rows(stage, static_cast<int>(sealed_.size()), row)) {
-      out.push_back(measured_of(kept));
+    const auto count = static_cast<int>(sealed_.size());
+    for (const auto& kept : tank.setup.stages.rows(stage_of("synthetic"), count, row)) {
+      measured_.push_back(measured_of(kept));
     }
-    return out;
   }
 
   static bool found(const ProofWorld& world) {
@@ -322,6 +378,7 @@ class Examination {
   double seconds_;
   std::vector<Shape> shapes_;
   std::vector<Sealed> sealed_;
+  std::vector<std::vector<Requirement>> shortfalls_;         // of each experiment
   std::vector<std::optional<MeasuredExperiment>> measured_;  // nothing of those that diverged
   Proof out_;
   std::string world_name_;  // before the stage, in the progress
@@ -329,6 +386,10 @@ class Examination {
 };
 
 }  // namespace
+
+std::optional<Proof> finished_proof(const ProofOptions& options) {
+  return Examination(options).finished();
+}
 
 Proof prove(const ProofOptions& options) {
   return Examination(options).run();

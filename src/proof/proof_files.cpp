@@ -80,13 +80,26 @@ std::string word_in(const CsvReader& rows, std::size_t column,
 
 Verdict verdict_in(const CsvReader& rows) {
   std::vector<std::string> words;
-  for (const Verdict v :
-       {Verdict::complete, Verdict::missing, Verdict::measurement, Verdict::undecided}) {
+  for (const Verdict v : {Verdict::complete, Verdict::missing, Verdict::measurement,
+                          Verdict::undecided, Verdict::insufficient}) {
     words.push_back(name_of(v));
     if (rows.text(kVerdict) == words.back()) return v;
   }
   word_in(rows, kVerdict, words);
   return {};
+}
+
+// Insufficient experiments have requirements for findings.
+std::vector<Requirement> shortfalls_in(const CsvReader& rows) {
+  std::vector<Requirement> out;
+  for (const std::string& name : split(rows.text(kSaid), kAnd)) {
+    const auto is = [&](Requirement r) { return name_of(r) == name; };
+    const auto found = std::ranges::find_if(kRequirements, is);
+    if (found == kRequirements.end()) rows.refuse(kSaid, "'" + name + "' is not a requirement");
+    out.push_back(*found);
+  }
+  if (out.empty()) rows.refuse(kSaid, "such a verdict has requirements that are not met");
+  return out;
 }
 
 std::vector<ProofFinding> findings_in(const CsvReader& rows) {
@@ -145,7 +158,11 @@ void read_worlds(const std::string& file, Proof& proof) {
     }
     w.expected_z = rows.number(kExpected);
     w.verdict = verdict_in(rows);
-    w.findings = findings_in(rows);
+    if (w.insufficient()) {
+      w.shortfalls = shortfalls_in(rows);
+    } else {
+      w.findings = findings_in(rows);
+    }
     if (w.findings.empty() &&
         (w.verdict == Verdict::missing || w.verdict == Verdict::measurement)) {
       rows.refuse(kSaid, "such a verdict has findings");
@@ -210,6 +227,7 @@ std::string proof_csv(const Proof& proof) {
                                               : joined(f.alternatives, kOr));
       z.push_back(significant(f.z, 3));
     }
+    for (const Requirement r : w.shortfalls) said.push_back(name_of(r));
     out += with_checksum(std::to_string(i) + "," + w.kind + "," + joined(w.effects, kAnd) + "," +
                          shortest(w.expected_z) + "," + name_of(w.verdict) + "," +
                          joined(said, kAnd) + "," + joined(others, kAnd) + "," + joined(z, kAnd) +
@@ -261,6 +279,30 @@ std::vector<std::string> proof_files() {
   return with_figures({"proof.txt", "proof.csv", "tank.txt", "intervals.csv", "closed_loop.csv",
                        "key.txt", "report.html"},
                       {"power", "outcomes", "errors"});
+}
+
+void write_proof(const Proof& so_far, const std::string& dir) {
+  const auto write = [&](const char* name, const std::string& text) {
+    write_atomically((fs::path(dir) / name).string(), text);
+  };
+  write("proof.txt", proof_text({&so_far, 1}));
+  write("proof.csv", proof_csv(so_far));
+  write("tank.txt", so_far.tank + "\n");
+  write("intervals.csv", proof_intervals_csv(so_far));
+  const bool loops =
+      std::ranges::any_of(so_far.worlds, [](const auto& w) { return w.loop.has_value(); });
+  if (loops) write("closed_loop.csv", proof_loops_csv(so_far));
+}
+
+void forget_other_key(const std::string& dir, const std::string& hash) {
+  const fs::path key = fs::path(dir) / "key.txt";
+  std::error_code ignored;
+  if (!fs::exists(key, ignored)) return;
+  if (sha256(read_whole(key.string())) != hash) fs::remove(key, ignored);
+}
+
+void open_key(const Proof& proof, const std::string& dir) {
+  write_atomically((fs::path(dir) / "key.txt").string(), proof.key);
 }
 
 Proof read_proof(const std::string& dir) {

@@ -62,6 +62,15 @@ std::string said_of(const ProofWorld& w) {
   return names.empty() ? name_of(w.verdict) : joined(names, " + ");
 }
 
+// Without those whose recordings are insufficient: they are neither right nor wrong.
+std::vector<Proof> answered_of(std::span<const Proof> proofs) {
+  std::vector<Proof> out(proofs.begin(), proofs.end());
+  for (Proof& p : out) {
+    std::erase_if(p.worlds, [](const ProofWorld& w) { return w.insufficient(); });
+  }
+  return out;
+}
+
 // "95.1 to 99.0 %", of a fraction.
 std::string range_text(int n, int all) {
   const Estimate e = wilson(n, all);
@@ -250,6 +259,24 @@ std::string rate_text(int n, int all) {
   return count_text(n, all) + " (95 %: " + range_text(n, all) + ")";
 }
 
+// Those whose recordings are insufficient, and what they do not meet.
+void add_insufficient(std::span<const Proof> proofs, ReportDocument& report) {
+  int all = 0;
+  std::map<Requirement, int> by;
+  for (const Proof& p : proofs) {
+    for (const ProofWorld& w : p.worlds) {
+      all += w.insufficient() ? 1 : 0;
+      for (const Requirement r : w.shortfalls) by[r] += 1;
+    }
+  }
+  if (all == 0) return;
+  report.card.facts.emplace_back("insufficient recordings", std::to_string(all));
+  ReportSection section{"Insufficient recordings (" + std::to_string(all) + ")"};
+  section.table.head = {"requirement that is not met", "experiments"};
+  for (const auto& [r, n] : by) section.table.rows.push_back({name_of(r), std::to_string(n)});
+  report.sections.push_back(std::move(section));
+}
+
 ReportCard card_of(const Proof& proof, std::size_t tanks) {
   ReportCard card;
   int nulls = 0, alarms = 0, strong = 0, right = 0, wrong = 0;
@@ -266,7 +293,8 @@ ReportCard card_of(const Proof& proof, std::size_t tanks) {
   if (strong > 0) {
     card.facts.emplace_back("one effect of expected z >= 10 named", rate_text(right, strong));
   }
-  card.facts.emplace_back("wrong names", rate_text(wrong, static_cast<int>(proof.worlds.size())));
+  const auto all = static_cast<int>(proof.worlds.size());
+  if (all > 0) card.facts.emplace_back("wrong names", rate_text(wrong, all));
   return card;
 }
 
@@ -318,7 +346,8 @@ double in_half_widths(const ProofInterval& of) {
 
 }  // namespace
 
-ReportDocument proof_report(std::span<const Proof> proofs) {
+ReportDocument proof_report(std::span<const Proof> judged) {
+  const std::vector<Proof> proofs = answered_of(judged);
   Proof all;
   ReportSection keys{"Commitment", {}, {}, {}, true};
   std::set<std::string> tanks;
@@ -334,7 +363,8 @@ ReportDocument proof_report(std::span<const Proof> proofs) {
   report.title = "Blinded synthetic benchmark";
   report.card = card_of(all, tanks.size());
   report.sections.push_back(std::move(keys));
-  add_worlds(all, report);
+  add_insufficient(judged, report);
+  if (!all.worlds.empty()) add_worlds(all, report);
   add_baselines(all, report);
   add_models(all, report);
   add_loops(all, report);
@@ -346,7 +376,8 @@ std::string proof_text(std::span<const Proof> proofs) {
   return report_text(proof_report(proofs));
 }
 
-ProofFigures proof_figures(std::span<const Proof> proofs) {
+ProofFigures proof_figures(std::span<const Proof> judged) {
+  const std::vector<Proof> proofs = answered_of(judged);
   ProofFigures out;
   for (const Proof& p : proofs) {
     for (const ProofWorld& w : p.worlds) {

@@ -3,6 +3,7 @@
 #include "lilytank/random.hpp"
 #include "proof/sealed.hpp"
 #include "text/number.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -17,7 +18,9 @@ DrawnTank drawn_for(const ProofOptions& options) {
 }  // namespace
 
 Model tank_of(const ProofOptions& options) {
-  return options.drawn_tank ? tank_model(drawn_for(options)) : tank_model();
+  Model model = options.drawn_tank ? tank_model(drawn_for(options)) : tank_model();
+  model.module.count = options.modules;
+  return model;
 }
 
 Experiment open_tank(const ProofOptions& options, const Model& tank) {
@@ -25,6 +28,7 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   e.name = "proof";
   // What a drawn tank is like is for the diagnosis to find.
   e.base.model = with_steps(tank_model(), 5);
+  e.base.model.module.count = options.modules;
   if (options.known_flow) e.base.model.field = tank.field;
   const double seconds = 60 * options.minutes;
   const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
@@ -51,13 +55,16 @@ std::string key_of_tank(const ProofOptions& options) {
 
 std::string words_for_tank(const ProofOptions& options) {
   return std::string(options.drawn_tank ? "a drawn tank" : "the built-in tank") + " of seed " +
-         std::to_string(options.diagnosis.seed) + ", recordings of " + shortest(options.minutes) +
-         " min, " +
+         std::to_string(options.diagnosis.seed) + ", recordings of " +
+         significant(options.minutes, 6) + " min, " +
+         (options.modules == ProofOptions{}.modules ? ""
+                                                    : counted(options.modules, "module") + ", ") +
          (options.known_flow ? "known flow"
           : options.ball_minutes > 0
-              ? "flow from balls of " + shortest(options.ball_minutes) + " min"
+              ? "flow from balls of " + significant(options.ball_minutes, 6) + " min"
               : "flow from balls") +
-         (options.foreign ? ", recorded with Box2D" : "");
+         (options.foreign ? ", recorded with Box2D" : "") +
+         (options.diagnosis.uncertified ? ", insufficient recordings diagnosed" : "");
 }
 
 }  // namespace lilytank

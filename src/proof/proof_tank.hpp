@@ -7,6 +7,9 @@
 
 namespace lilytank {
 
+/// A null experiment takes as long as so many simulated experiments, on the average.
+inline constexpr double kOfANull = 6;
+
 /// The built-in tank, or the one that is drawn from the seed.
 Model tank_of(const ProofOptions& options);
 /// The open part of the exam: balls, and Lilies in which nothing is missing. Throws InputError if

@@ -28,6 +28,7 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"prove --worlds 0", "--worlds"},
       {"prove --only nothing", "--only nothing is none of null, named, two, unnamed"},
       {"prove --only unamed", "--only unamed is none of null, named, two, unnamed - did you mean"},
+      {"prove --modules 1", "--modules 1 is outside 2 .. 100"},
       {"prove --worlds 1 --only named", "none of the first 1 synthetic experiments is \"named\""},
   };
   for (const auto& c : cases) {

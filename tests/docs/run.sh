@@ -45,7 +45,7 @@ shortened() {
     'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;
     'lilytank render '*) line="${line/--at 340/--at 300} --size 120 --fps 1 --quiet" ;;
     'lilytank study slurm '*) ;;
-    'lilytank prove --'*) line+=' --worlds 2 --minutes 0.3 --known-flow --budget 1 --quiet' ;;
+    'lilytank prove --'*) line+=' --worlds 2 --minutes 0.4 --known-flow --budget 1 --quiet' ;;
     'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
     'lilytank diagnose '*--tank*) line+=' --tank-results out/first --force --quiet' ;;
     'lilytank calibrate '* | 'lilytank diagnose '*) line+=' --force --quiet' ;;

@@ -101,11 +101,23 @@ TEST(Coverage, GustsMustBeKnown) {
   EXPECT_EQ(to_record(c.flow), "6 min more of 24 balls");
 }
 
+TEST(Coverage, ShortfallsOfADiagnosisNameTheirRequirements) {
+  const Recording balls = passing(BodyKind::ball, 24, 1), lilies = passing(BodyKind::lily, 5, 1);
+  FlowEstimate flow = flow_with(0, 20, 2 * kLargestFlowError * 0.2);
+  flow.noise = NoiseBudget{};
+  flow.noise->gusts = 0.15, flow.noise->gusts_error = 2 * kLargestGustError * 0.15;
+  std::string names;
+  for (const Shortfall& s : shortfalls_of(&flow, {&balls, 1}, {&lilies, 1})) {
+    names += name_of(s.requirement) + "; ";
+  }
+  EXPECT_EQ(names, "measured cells; mean flow; gusts; time of the Lilies; ");
+}
+
 // Of each kind of body the longest.
 TEST(Coverage, WhatToRecordMeetsAllRequirements) {
-  EXPECT_EQ(to_record({{"", 2, BodyKind::ball, 24},
-                       {"", 8, BodyKind::ball, 24},
-                       {"", 0.02, BodyKind::lily, 15}}),
+  EXPECT_EQ(to_record({{Requirement::mean_flow, "", 2, BodyKind::ball, 24},
+                       {Requirement::gusts, "", 8, BodyKind::ball, 24},
+                       {Requirement::lily_time, "", 0.02, BodyKind::lily, 15}}),
             "0.1 min more of 15 Lilies and 8 min more of 24 balls");
 }
 

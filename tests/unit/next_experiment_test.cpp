@@ -108,8 +108,9 @@ TEST(NextExperimentFile, IsAnOverlay) {
   balls.balls = 3, balls.ball_minutes = 8;
   ProposedExperiment both = lilies;
   both.balls = 3, both.ball_minutes = 8, both.power = 0.7;
-  const ProposedExperiment longer = to_meet(
-      {{"", 3.2, BodyKind::ball, 3}, {"", 7.5, BodyKind::ball, 3}, {"", 2, BodyKind::lily, 2}});
+  const ProposedExperiment longer = to_meet({{Requirement::mean_flow, "", 3.2, BodyKind::ball, 3},
+                                             {Requirement::gusts, "", 7.5, BodyKind::ball, 3},
+                                             {Requirement::lily_time, "", 2, BodyKind::lily, 2}});
   EXPECT_EQ(longer.text(), "2 min of 2 Lilies and 8 min of 3 balls");
   EXPECT_EQ(both.text(), "12 min of 1 Lily and 8 min of 3 balls, pumps at 70 % of their power");
   const TemporaryDirectory here;

@@ -65,6 +65,31 @@ TEST_F(ProofFiles, AreReadBackAsTheyWere) {
       << proof_text({&q, 1});
 }
 
+// Neither right nor wrong: rates are of the others.
+TEST_F(ProofFiles, InsufficientExperimentsCountByThemselves) {
+  Proof p = three_worlds();
+  ProofWorld& null = p.worlds[0];
+  null.verdict = Verdict::insufficient;
+  null.shortfalls = {Requirement::gusts, Requirement::lily_time};
+  write("a", p);
+  const Proof q = read_proof(here.path("a"));
+  EXPECT_EQ(q.worlds[0].shortfalls, null.shortfalls);
+  EXPECT_EQ(proof_csv(q), proof_csv(p));
+  const std::string text = proof_text({&q, 1});
+  EXPECT_EQ(text, proof_text({&p, 1}));
+  EXPECT_TRUE(text.starts_with("Blinded synthetic benchmark: 2 of 3 experiments diagnosed\n"))
+      << text;
+  EXPECT_EQ(text.find("false positives"), std::string::npos) << text;
+  EXPECT_NE(text.find("Insufficient recordings (1)"), std::string::npos) << text;
+  EXPECT_EQ(proof_figures({&q, 1}).points.size(), 2u);
+  p.worlds.resize(1);
+  EXPECT_NE(proof_text({&p, 1}).find("0 of 3 experiments diagnosed"), std::string::npos);
+  null.shortfalls.clear();
+  write("mute", p);
+  EXPECT_NE(refusal("mute").find("has requirements that are not met"), std::string::npos)
+      << refusal("mute");
+}
+
 // Of another tank, if it is told.
 TEST_F(ProofFiles, AreToldTogether) {
   Proof both[] = {three_worlds(), three_worlds()};
