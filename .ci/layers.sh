@@ -104,7 +104,7 @@ home optimize optimize
 home calibrate calibration emulator response_surface recovery
 home filter predictor
 home finder diagnosis diagnosis_subject next_experiment
-home proof proof
+home proof proof proof_grid
 home bodies bodies
 home view view
 home render render

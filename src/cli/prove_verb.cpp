@@ -4,6 +4,7 @@
 
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
+#include "cli/prove_verb.hpp"
 #include "cli/results.hpp"
 #include "io/atomic_file.hpp"
 #include "jobs/job_directory.hpp"
@@ -51,9 +52,10 @@ int print_together(const std::vector<std::string>& dirs, const std::string& out,
   return report_proofs(proofs, out, style, origin, host);
 }
 
-void add_prove_options(VerbOptions& options, ProofOptions& job) {
+void add_prove_options(VerbOptions& options, ProofOptions& job, std::vector<std::string>* cells) {
   DiagnosisOptions& d = job.diagnosis;
-  options.add({"worlds", "synthetic experiments (100)", "N"}, &job.worlds, 1, 1000000);
+  options.add({"worlds", "synthetic experiments (100), with --grid of each cell (10)", "N"},
+              &job.worlds, 1, 1000000);
   options.add({"only", "null, named, two or unnamed: experiments of this kind only", "KIND"},
               &job.only, {"null", "named", "two", "unnamed"});
   options.add({"minutes", "of each of an experiment's three recordings (4)", "M"}, &job.minutes,
@@ -72,6 +74,12 @@ void add_prove_options(VerbOptions& options, ProofOptions& job) {
   options.add(
       {"closed-loop", "split groups of effects by the experiments that are proposed for them"},
       &job.closed_loop);
+  options.add({"grid", "null experiments by length of recordings, modules and budget"});
+  options.add({"cells",
+               "only these values of an axis of the grid: balls, lilies, modules or budget; can be "
+               "repeated",
+               "AXIS=VALUE,..."},
+              cells);
   options.add({"modelled", "experiments in which the effect is also fitted and shown (10)", "N"},
               &job.modelled, 0, 1000000);
   options.add({"budget", "minutes for the tank's nulls and fingerprints (10)", "MINUTES"},
@@ -109,15 +117,16 @@ int prove_verb(const Arguments& arguments, const Host& host) {
       "--out as a report.");
   ProofOptions job;
   bool quiet = false;
-  add_prove_options(options, job);
+  std::vector<std::string> cells;
+  add_prove_options(options, job, &cells);
   FigureStyle style;
   add_figure_options(options, style);
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
     options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "modules", "known-flow",
-                          "drawn-tank", "foreign", "closed-loop", "modelled", "budget",
-                          "uncertified", "seed", "threads", "dry-run"},
+                          "drawn-tank", "foreign", "closed-loop", "grid", "cells", "modelled",
+                          "budget", "uncertified", "seed", "threads", "dry-run"},
                          "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);
@@ -125,6 +134,8 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");
   }
+  if (options.has("grid")) return prove_on_grid(options, job, cells, arguments, quiet, host);
+  options.refuse_given({"cells"}, "goes with --grid");
   job.diagnosis.out = options.out("out/proof");
   if (options.has("dry-run")) return dry_run(job);
   const std::string& dir = job.diagnosis.out;

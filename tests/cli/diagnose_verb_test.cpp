@@ -29,6 +29,14 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"prove --only nothing", "--only nothing is none of null, named, two, unnamed"},
       {"prove --only unamed", "--only unamed is none of null, named, two, unnamed - did you mean"},
       {"prove --modules 1", "--modules 1 is outside 2 .. 100"},
+      {"prove --cells lilies=4", "--cells goes with --grid"},
+      {"prove --grid --minutes 4", "--minutes is an axis of the grid"},
+      {"prove --grid --only null", "--only has no effect with --grid"},
+      {"prove --grid --cells ball=4",
+       "--cells 'ball' is none of balls, lilies, modules, budget - "
+       "did you mean 'balls'?"},
+      {"prove --grid --cells modules=2.5", "--cells modules: '2.5' is not a whole number"},
+      {"prove --grid --known-flow --cells balls=4", "with --known-flow: no balls are recorded"},
       {"prove --worlds 1 --only named", "none of the first 1 synthetic experiments is \"named\""},
   };
   for (const auto& c : cases) {
@@ -111,9 +119,46 @@ TEST(diagnoseVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
   EXPECT_EQ(lilytank("prove --worlds 3 --minutes 2 --dry-run --out p").out,
             "would simulate and diagnose 3 experiments of 3 recordings of 2 min; the tank's null "
             "experiments take about 10 min on two cores; in p\n");
+  EXPECT_EQ(
+      lilytank("prove --grid --worlds 3 --cells lilies=20s --cells balls=4min "
+               "--cells modules=5,30 --cells budget=1 --seed 23 --dry-run --out g")
+          .out,
+      "would simulate 3 null experiments in each of 2 cells, and diagnose those that are "
+      "sufficient; in g\n"
+      "  lilytank prove --only null --worlds 12 --minutes 0.3333333333333333 --ball-minutes 4 "
+      "--modules 5 --budget 1 --modelled 0 --seed 1708233250 --out "
+      "g/balls-4min_lilies-20s_modules-5_budget-1\n"
+      "  lilytank prove --only null --worlds 12 --minutes 0.3333333333333333 --ball-minutes 4 "
+      "--modules 30 --budget 1 --modelled 0 --seed 1484882597 --out "
+      "g/balls-4min_lilies-20s_modules-30_budget-1\n");
   EXPECT_TRUE(lilytank.names().empty());
   lilytank.here.write("d", "mine");
   EXPECT_EQ(lilytank("diagnose " + kTank + " --dry-run --out d").code, 2);
+}
+
+// Five Lilies for 3 x 20 s are too few whatever the budget: nothing is simulated for them, and one
+// directory serves both budgets.
+TEST(proveVerb, gridCountsInsufficientExperiments) {
+  const Program lilytank;
+  const std::string grid =
+      "prove --grid --known-flow --cells lilies=20s --cells modules=5 --worlds 2 --quiet --out g";
+  const Answer a = lilytank(grid);
+  EXPECT_EQ(a.code, 0) << a.err;
+  EXPECT_TRUE(a.out.starts_with("False positives by the amount of data: 2 of 2 cells finished\n"))
+      << a.out;
+  const std::string csv = lilytank.here.read("g/grid.csv");
+  EXPECT_NE(csv.find("\n,20,5,1,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",2,2,0,0,,,,,time of the Lilies,"), std::string::npos) << csv;
+  EXPECT_TRUE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/key.txt"));
+  EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-10"));
+  EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/work/centre 1.rows"));
+  EXPECT_EQ(lilytank.here.read("g/grid.txt"), a.out);
+  EXPECT_EQ(lilytank(grid).out, a.out);
+  EXPECT_EQ(lilytank.here.read("g/grid.csv"), csv);
+  EXPECT_NE(lilytank(grid + " --dry-run").out.find("# finished"), std::string::npos);
+  const Answer other = lilytank(grid + " --seed 2");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("holds another grid"), std::string::npos) << other.err;
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ shortened() {
     'lilytank run '*) line+=" --set run.duration='305 s' --quiet" ;;
     'lilytank render '*) line="${line/--at 340/--at 300} --size 120 --fps 1 --quiet" ;;
     'lilytank study slurm '*) ;;
+    'lilytank prove --grid '*) line+=' --worlds 1 --cells balls=20s --cells lilies=20s --cells modules=5 --quiet' ;;
     'lilytank prove --'*) line+=' --worlds 2 --minutes 0.4 --known-flow --budget 1 --quiet' ;;
     'lilytank check '*--measure*) line+=' --worlds 1 --quiet' ;;
     'lilytank diagnose '*--tank*) line+=' --tank-results out/first --force --quiet' ;;
