@@ -20,6 +20,7 @@ enum class Estimated : std::uint8_t {
 /// Experiments that distinguish effects of one kind.
 namespace split_by {
 inline constexpr std::string_view kLatches = "latches off, or their times logged";
+inline constexpr std::string_view kEventLog = "the modules' events, logged by radio";
 inline constexpr std::string_view kLoneModule = "a recording of one module alone";
 inline constexpr std::string_view kOtherBodies = "a recording of bodies of another shape or mass";
 inline constexpr std::string_view kTurnedCamera =

@@ -47,6 +47,8 @@ struct RecordingShape {
   bool headings = true;
   /// Whether the modules' latches are on.
   bool latches = false;
+  /// Whether the modules' events are logged.
+  bool logged = false;
   /// Share of the frames of a track in which its body was not seen.
   double missing = 0;
   /// Where worlds may begin: frames in which all bodies were seen, poses and twists by local

@@ -46,7 +46,7 @@ class ModelNumber {
     double& in(Model& model) const { return model.*part.*number; }
   };
   std::variant<ParameterRef, Member<ModuleParameters>, Member<BallParameters>,
-               Member<ContactParameters>, Member<FlowParameters>>
+               Member<ContactParameters>, Member<FlowParameters>, Member<ControlParameters>>
       at_;
 };
 
@@ -66,8 +66,9 @@ struct ModelParameter : ParameterInfo {
   void set(Model& model, double value) const;
 };
 
-/// The parameter of that path: K_v and rho of the flow, and every real number of module, ball,
-/// contact and forces. Throws InputError, with the nearest right path, on any other.
+/// The parameter of that path: K_v and rho of the flow, rates and probabilities of the control, and
+/// every real number of module, ball, contact and forces. Throws InputError, with the nearest right
+/// path, on any other.
 ModelParameter model_parameter(const std::string& path);
 
 /// Its value in a model. Of a force that is off, the value that it would have.

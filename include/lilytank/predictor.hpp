@@ -30,6 +30,26 @@ struct PredictorOptions {
 /// that give the model's innovations the variance that the filter predicts.
 PredictorOptions predictor_options(const Model& model, const std::vector<Recording>& recordings);
 
+/// Place and heading of a body in the next frame, measured minus predicted.
+struct Innovation {
+  double dx = 0, dy = 0, dtheta = 0;      ///< m, rad; NaN where not seen
+  double sd_x = 0, sd_theta = 0;          ///< their deviations by the filter
+  double gain_x = 0, gain_v = 0;          ///< shares of it that correct x (1) and v (1/s)
+  double gain_theta = 0, gain_omega = 0;  ///< likewise of headings
+};
+
+/// Latched modules that are predicted as one rigid body.
+struct PredictedAssembly {
+  std::span<const int> members;  ///< numbers in the frame
+  int first = 0;                 ///< identity of the first member
+  int begun = 0;                 ///< frame from which it has had these members
+  double x = 0, y = 0;           ///< m, centre of mass at `frame`
+  double mass = 0, inertia = 0;  ///< kg; kg m^2, about the centre of mass
+  Innovation innovation;         ///< of the centre of mass; NaN unless all members were seen
+  double contact = 0;            ///< as PredictedFrame::contact
+  bool usable = false;           ///< the filter has settled
+};
+
 /// What the filter knows at one frame, from this frame and earlier ones only, and what the next
 /// frame then showed. Arrays have a value for each module that is carried along.
 struct PredictedFrame {
@@ -46,7 +66,16 @@ struct PredictedFrame {
   std::span<const double> contact;
   std::span<const double> gain_x, gain_v;  ///< of positions: shares of an innovation that correct
   std::span<const double> gain_theta, gain_omega;  ///< x (1), v (1/s); likewise of headings
-  std::span<const std::uint8_t> usable;            ///< 1: the filter has settled
+  /// 1: the filter has settled, and the module is in no assembly.
+  std::span<const std::uint8_t> usable;
+  /// Of recordings with latches on. Innovations of their members are relative to their motion as
+  /// one body.
+  std::span<const PredictedAssembly> assemblies;
+  /// Of module number i.
+  Innovation innovation(std::size_t i) const {
+    return {dx[i],     dy[i],     dtheta[i],     sd_x[i],      sd_theta[i],
+            gain_x[i], gain_v[i], gain_theta[i], gain_omega[i]};
+  }
 };
 
 /// Runs the filter through recordings of modules and calls `visit` frame by frame. `model` is the

@@ -25,6 +25,9 @@ struct ProofOptions {
   /// All recordings are of bodies that Box2D moves, in a flow that is interpolated otherwise, seen
   /// by a camera with pixels. Throws InputError if this program was built without Box2D.
   bool foreign = false;
+  std::string latches;               ///< file of the modules' rules; empty: their latches are off
+  bool event_log = false;            ///< with latches: the modules' events are logged
+  std::vector<std::string> effects;  ///< the catalogue's effects that are drawn; empty: all
   /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
   bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most

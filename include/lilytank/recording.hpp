@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lilytank/error.hpp"
+#include "lilytank/event.hpp"
 
 namespace lilytank {
 
@@ -31,6 +32,15 @@ struct Track {
   int last() const { return first + static_cast<int>(x.size()) - 1; }
 };
 
+/// What a module reported by radio while it was recorded: an event of two modules (latch ..
+/// update).
+struct LoggedEvent {
+  double time = 0;  ///< s, on the recording's clock
+  EventKind kind = EventKind::latch;
+  std::int64_t a = -1,
+               b = -1;  ///< modules as the log numbers them, which need not be ids of tracks
+};
+
 /// Tracks on one even clock: frame f was taken at start + f / rate.
 struct Recording {
   std::string name;                ///< file or run that it came from, for messages and reports
@@ -41,6 +51,8 @@ struct Recording {
   std::vector<Track> tracks;       ///< sorted by id, then first frame
   bool latches = true;             ///< false: the modules' latches were off
   bool held_out = false;  ///< reserved for testing a fit: calibration and diagnosis do not fit it
+  bool logged = false;    ///< the modules' events were logged
+  std::vector<LoggedEvent> events;  ///< of the log, by time
   /// Time of a frame, s.
   double time(int frame) const { return start + frame / rate; }
   /// Whether headings were tracked. All tracks of a recording have them or none.

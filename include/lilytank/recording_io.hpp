@@ -122,6 +122,7 @@ struct RecordingOptions {
   std::string name;                       ///< name of the recording; empty: the file's name
   BodyKind body = BodyKind::lily;         ///< kind of the tracked bodies
   bool latches = true, held_out = false;  ///< as in Recording
+  std::string events;                     ///< file of the modules' event log; empty: none
   ColumnNames columns;                    ///< names that differ from the format's
   TableLayout layout;
   Calibration calibration;

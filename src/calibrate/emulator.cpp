@@ -51,19 +51,43 @@ State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
   return state;
 }
 
-// Poses about each frame; nothing if the world diverges.
-std::optional<Trajectory> moved(const Model& model, const BodiesAt* start, double settle,
-                                double seconds, double rate, std::uint64_t seed) {
-  World world = start != nullptr ? World(model, state_at(model, *start, seed)) : World(model, seed);
-  const auto settling = static_cast<std::int64_t>(std::llround(settle / model.dt));
-  for (std::int64_t step = 0; step < settling; ++step) {
+// Events of two modules in the last step; the log begins at step `first`.
+void log_events(const World& world, std::int64_t first, std::vector<LoggedEvent>& log) {
+  for (const Event& e : world.events()) {
+    if (e.kind > EventKind::update) continue;
+    log.push_back({static_cast<double>(e.step + 1 - first) * world.model().dt, e.kind, e.a, e.b});
+  }
+}
+
+// The world in which a recording begins. Bodies that start at random settle with their latches off:
+// a recording of self-assembly begins with single modules.
+std::optional<World> begun(const Model& model, const BodiesAt* start, double settle,
+                           std::uint64_t seed) {
+  if (start != nullptr) return World(model, state_at(model, *start, seed));
+  Model loose = model;
+  loose.control.latches = false;
+  World world(loose, seed);
+  const auto steps = static_cast<std::int64_t>(std::llround(settle / model.dt));
+  for (std::int64_t step = 0; step < steps; ++step) {
     if (world.step() == RunStatus::diverged) return std::nullopt;
   }
+  return World(model, world.state());
+}
+
+// Poses about each frame; nothing if the world diverges. Events go to `log` if there is one.
+std::optional<Trajectory> moved(const Model& model, const BodiesAt* start, double settle,
+                                double seconds, double rate, std::uint64_t seed,
+                                std::vector<LoggedEvent>* log) {
+  std::optional<World> begin = begun(model, start, settle, seed);
+  if (!begin) return std::nullopt;
+  World& world = *begin;
+  const std::int64_t first = world.steps();
   Trajectory trajectory;
   const auto steps = static_cast<std::int64_t>(std::ceil(seconds / model.dt - 1e-9));
   append_poses(world, trajectory);
   for (std::int64_t step = 1; step <= steps; ++step) {
     if (world.step() == RunStatus::diverged) return std::nullopt;
+    if (log != nullptr) log_events(world, first, *log);
     // A frame lies between two poses: the others are not seen.
     const double at = static_cast<double>(step) * model.dt;
     const double off = at - std::round(at * rate) / rate;
@@ -130,15 +154,17 @@ std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingS
                                             const BodiesAt* start, double seconds,
                                             std::uint64_t seed) const {
   const double settle = start != nullptr ? 0 : options_.settle;
+  std::vector<LoggedEvent> log;
   std::optional<Trajectory> trajectory =
-      options_.engine && start == nullptr
-          ? options_.engine(scene.model, settle, seconds, seed)
-          : moved(scene.model, start, settle, seconds, shape.rate, seed);
+      options_.engine && start == nullptr ? options_.engine(scene.model, settle, seconds, seed)
+                                          : moved(scene.model, start, settle, seconds, shape.rate,
+                                                  seed, shape.logged ? &log : nullptr);
   if (!trajectory) return std::nullopt;
   Camera camera = scene.camera;
   camera.seed = derived_seed(seed, kCameraRun);
   Recording out = film(*trajectory, camera, shape.body);
   out.name = shape.name, out.latches = shape.latches;
+  out.logged = shape.logged, out.events = std::move(log);
   return out;
 }
 

@@ -139,6 +139,10 @@ void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
         hash.add(*of);
       }
     }
+    for (const LoggedEvent& e : one.events) {
+      hash.add(shortest(e.time) + " " + std::to_string(static_cast<int>(e.kind)) + " " +
+               std::to_string(e.a) + " " + std::to_string(e.b));
+    }
   }
 }
 
@@ -211,6 +215,8 @@ CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& 
   find_parameters(experiment, setup);
   find_noise(setup);
   setup.shapes = shapes_of(setup.training), setup.held_out_shapes = shapes_of(setup.held_out);
+  setup.model.control.latches =
+      std::ranges::any_of(setup.shapes, [](const RecordingShape& s) { return s.latches; });
   setup.identity = identity_of(experiment, setup);
   return setup;
 }

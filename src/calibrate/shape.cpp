@@ -47,6 +47,7 @@ RecordingShape shape_of(const Recording& recording, double interval) {
   shape.name = recording.name, shape.body = recording.body;
   shape.frames = recording.frames, shape.rate = recording.rate;
   shape.headings = recording.has_heading(), shape.latches = recording.latches;
+  shape.logged = recording.logged;
   const std::vector<int> seen = seen_by_frame(recording);
   shape.bodies = seen.empty() ? 0 : *std::max_element(seen.begin(), seen.end());
   shape.missing = missing_share(recording);

@@ -72,6 +72,12 @@ void add_prove_options(VerbOptions& options, ProofOptions& job, std::vector<std:
                "record all experiments with another engine (Box2D), flow interpolation and camera"},
               &job.foreign);
   options.add(
+      {"latches", "latches on, with the rules of this file (recordings are then of self-assembly)",
+       "FILE.rules"},
+      &job.latches);
+  options.add({"event-log", "with --latches: the modules' events are logged"}, &job.event_log);
+  options.add({"effect", "draw this effect only (repeat: these effects)", "NAME"}, &job.effects);
+  options.add(
       {"closed-loop", "split groups of effects by the experiments that are proposed for them"},
       &job.closed_loop);
   options.add({"grid", "null experiments by length of recordings, modules and budget"});
@@ -124,12 +130,19 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    options.refuse_given({"worlds", "only", "minutes", "ball-minutes", "modules", "known-flow",
-                          "drawn-tank", "foreign", "closed-loop", "grid", "cells", "modelled",
-                          "budget", "uncertified", "seed", "threads", "dry-run"},
+    options.refuse_given({"worlds",     "only",        "minutes", "ball-minutes", "modules",
+                          "known-flow", "drawn-tank",  "foreign", "latches",      "event-log",
+                          "effect",     "closed-loop", "grid",    "cells",        "modelled",
+                          "budget",     "uncertified", "seed",    "threads",      "dry-run"},
                          "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);
+  }
+  if (job.event_log && job.latches.empty()) {
+    options.refuse("--event-log without --latches: nothing latches");
+  }
+  if (!job.latches.empty() && job.foreign) {
+    options.refuse("--latches with --foreign: Box2D's bodies do not latch");
   }
   if (options.has("ball-minutes") && job.known_flow) {
     options.refuse("--ball-minutes with --known-flow: no balls are recorded");

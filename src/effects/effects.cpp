@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "effects/bond_effects.hpp"
 #include "forces/library.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "text/number.hpp"
@@ -14,6 +15,7 @@
 namespace lilytank {
 namespace {
 
+constexpr std::size_t kRankOfBonds = 280;  // after contacts
 constexpr double kSlowest = 0.05;  // m/s, of water that curves over slip and spin are made for
 constexpr int kStreams = 6;        // places on a circle at which a stream is tried
 constexpr double kStreamsAt = 0.45, kFarthestStream = 0.8;  // of the tank's radius
@@ -141,7 +143,8 @@ std::string Effect::variant() const {
 
 double Effect::absent(const Model& model, std::size_t component) const {
   const std::string& path = paths[component];
-  return path == kFriction || path == kRestitution ? parameter_value(model, path) : 0;
+  const bool of_force = path.starts_with("forces.") || of_camera(path);
+  return of_force ? 0 : parameter_value(model, path);
 }
 
 Effect together(const std::vector<Effect>& effects) {
@@ -182,6 +185,9 @@ std::vector<Effect> effect_catalogue(const Model& model) {
   }
   for (auto& [order, e] : effects_without_force()) {
     all.emplace_back(Place{static_cast<std::size_t>(order), 0, library.size()}, std::move(e));
+  }
+  for (Effect& e : bond_effects(model)) {
+    all.emplace_back(Place{kRankOfBonds, 0, library.size()}, std::move(e));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

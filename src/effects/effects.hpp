@@ -27,7 +27,7 @@ struct HeldParameter {
 struct Effect {
   std::string name;
   int family = -1;                  ///< in a catalogue: the same number for effects of one name
-  const ForceTerm* term = nullptr;  ///< null: the camera or the law of contacts
+  const ForceTerm* term = nullptr;  ///< null: the camera, contacts or bonds
   const ForceTerm* negative_of = nullptr;  ///< the term of the same law with the other sign
   Estimated estimated = Estimated::none;
   std::string equation;
@@ -70,7 +70,7 @@ struct Effect {
 Effect together(const std::vector<Effect>& effects);
 
 /// Every effect that a simulation can have, in the order of the descriptions. `model` gives the
-/// size of the tank.
+/// size of the tank, and whether there are latches.
 std::vector<Effect> effect_catalogue(const Model& model);
 
 /// A stream of this width about a place, m.

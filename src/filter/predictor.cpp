@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "filter/carried.hpp"
 #include "lilytank/start.hpp"
 #include "lilytank/world.hpp"
 #include "statistics/undefined.hpp"
@@ -14,19 +15,6 @@ namespace {
 constexpr double kFirstSpeed = 0.3,
                  kFirstSpin = 5;  // m/s, rad/s: deviation before anything is seen
 
-// Covariance of a coordinate and its velocity.
-struct StateCovariance {
-  double xx = 0, xv = 0, vv = 0;
-  void pass(double dt, double kicks) {  // kicks: variance of the velocity's change in a second
-    xx += 2 * dt * xv + dt * dt * vv + kicks * dt * dt * dt / 3;
-    xv += dt * vv + kicks * dt * dt / 2;
-    vv += kicks * dt;
-  }
-  void see(double gain_x, double gain_v) {
-    vv -= gain_v * xv, xv -= gain_x * xv, xx -= gain_x * xx;
-  }
-};
-
 // Velocity kicks in a second, as if all random force were white.
 double kicks_of(const MotionModel& m) {
   return m.jolts * m.jolts + 2 * m.acceleration * m.acceleration * m.memory;
@@ -36,15 +24,6 @@ constexpr double kLeastJolts = 1e-4, kLeastTurns = 1e-3;  // m/s and rad/s in th
 constexpr double kFitted = 40;  // s of a recording that jolts are fitted to
 constexpr int kFittingRounds = 8;
 constexpr double kPushed = 0.03, kOdd = 8;  // m/s of contact; deviations of a lost identity
-
-// One module as the filter knows it.
-struct Carried {
-  const Track* track = nullptr;
-  int module = 0;
-  double x = 0, y = 0, theta = 0, vx = 0, vy = 0, omega = 0;
-  StateCovariance place, turn;
-  int begun = 0, seen = 0;  // frames
-};
 
 // Arrays of a PredictedFrame.
 struct Scratch {
@@ -88,18 +67,25 @@ class Tanks {
 class Filter {
  public:
   Filter(const Model& model, const PredictorOptions& options, double rate)
-      : options_(options), dt_(1 / rate), tanks_(expected(model, options.substeps, rate)) {
-    kicks_ = kicks_of(options.position), turns_ = kicks_of(options.heading);
-    noise_ = options.position.noise * options.position.noise;
-    heading_noise_ = options.heading.noise * options.heading.noise;
-  }
+      : options_(options),
+        model_(model),
+        dt_(1 / rate),
+        tanks_(expected(model, options.substeps, rate)),
+        noise_{options.position.noise * options.position.noise,
+               options.heading.noise * options.heading.noise, kicks_of(options.position),
+               kicks_of(options.heading)},
+        assemblies_(model, noise_) {}
 
   void run(const Recording& recording, int index, const std::map<std::int64_t, int>& modules,
            const std::function<void(const PredictedFrame&)>& visit) {
     carried_.clear();
+    const bool latched = recording.latches && model_.control.latches;
+    const std::vector<SeenBond> bonds =
+        latched ? seen_bonds(recording, model_.module.side) : std::vector<SeenBond>{};
     for (int frame = 0; frame + 1 < recording.frames; ++frame) {
       take_up(recording, frame, modules);
       if (carried_.empty()) continue;
+      if (latched) assemblies_.regroup(standing(bonds, frame, modules), frame, carried_);
       step(frame, frame * dt_);
       PredictedFrame out = seen(frame);
       out.recording = index, out.frame = frame, out.time = frame * dt_;
@@ -119,6 +105,17 @@ class Filter {
     return model;
   }
 
+  static std::vector<std::pair<int, int>> standing(const std::vector<SeenBond>& bonds, int frame,
+                                                   const std::map<std::int64_t, int>& modules) {
+    std::vector<std::pair<int, int>> out;
+    for (const SeenBond& bond : bonds) {
+      if (bond.begin > frame) break;
+      if (bond.known > frame || bond.end <= frame) continue;
+      out.emplace_back(modules.at(bond.a), modules.at(bond.b));
+    }
+    return out;
+  }
+
   // Modules that are seen for the first time, or again; those long unseen are dropped.
   void take_up(const Recording& recording, int frame, const std::map<std::int64_t, int>& modules) {
     const auto lost = [&](const Carried& c) { return (frame - c.seen) * dt_ > options_.forget; };
@@ -136,8 +133,8 @@ class Filter {
       // It goes on in this piece: its last one is not carried along beside it.
       std::erase_if(carried_, [&](const Carried& old) { return old.module == c.module; });
       c.x = track.x[i], c.y = track.y[i], c.theta = track.theta[i];
-      c.place = {noise_, 0, kFirstSpeed * kFirstSpeed};
-      c.turn = {heading_noise_, 0, kFirstSpin * kFirstSpin};
+      c.place = {noise_.place, 0, kFirstSpeed * kFirstSpeed};
+      c.turn = {noise_.heading, 0, kFirstSpin * kFirstSpin};
       c.begun = c.seen = frame;
       carried_.push_back(c);
     }
@@ -157,8 +154,13 @@ class Filter {
       at_.vx[i] = state.vx[i] = c.vx, at_.vy[i] = state.vy[i] = c.vy;
       at_.omega[i] = state.omega[i] = c.omega;
       at_.module[i] = c.module;
-      at_.usable[i] = (frame - c.begun) * dt_ >= options_.start ? 1 : 0;
+      at_.usable[i] = c.assembly < 0 && (frame - c.begun) * dt_ >= options_.start ? 1 : 0;
+      state.assembly[i] = static_cast<std::int32_t>(i);
+      state.cell_x[i] = state.cell_y[i] = state.turn[i] = 0;
+      at_.covered[i] = 0;
     }
+    std::fill(state.faces.begin(), state.faces.end(), Face{});
+    for (const CarriedAssembly& a : assemblies_.all()) put(a, state);
     state.step = std::llround(time / tank.model.dt);
     World& world = tank.world;
     world.go_on_from(state);
@@ -178,6 +180,37 @@ class Filter {
       c.theta += angle_of(between({at_.c[i], at_.s[i]}, {end.c[i], end.s[i]}));
       c.vx = end.vx[i], c.vy = end.vy[i], c.omega = end.omega[i];
     }
+    for (CarriedAssembly& a : assemblies_.all()) follow(a);
+  }
+
+  // An assembly as one body of the tank's, in the slot of its lowest member.
+  void put(const CarriedAssembly& a, State& state) {
+    const int slot = *std::min_element(a.at.begin(), a.at.end());
+    const auto s = static_cast<std::size_t>(slot);
+    const Rot r = rotation(a.theta);
+    for (std::size_t k = 0; k < a.at.size(); ++k) {
+      const auto i = static_cast<std::size_t>(a.at[k]);
+      state.assembly[i] = slot, state.turn[i] = a.turn[k] & 3;
+      state.cell_x[i] = a.cell_x[k], state.cell_y[i] = a.cell_y[k];
+      at_.covered[i] = static_cast<std::uint8_t>(a.covered[k]);
+      for (std::size_t f = 0; f < 4; ++f) {
+        if (a.covered[k] >> f & 1) state.faces[4 * i + f].status = FaceStatus::latched;
+      }
+    }
+    state.x[s] = a.x, state.y[s] = a.y, state.c[s] = r.c, state.s[s] = r.s;
+    state.vx[s] = a.vx, state.vy[s] = a.vy, state.omega[s] = a.omega;
+  }
+
+  // Takes over how its members were moved.
+  void follow(CarriedAssembly& a) {
+    const double n = a.size();
+    a.x = a.y = a.vx = a.vy = 0;
+    for (const int member : a.at) {
+      const Carried& c = carried_[static_cast<std::size_t>(member)];
+      a.x += c.x / n, a.y += c.y / n, a.vx += c.vx / n, a.vy += c.vy / n;
+    }
+    const Carried& first = carried_[static_cast<std::size_t>(a.at.front())];
+    a.theta = first.theta - a.turn.front() * kPi / 2, a.omega = first.omega;
   }
 
   // Compares with the next frame.
@@ -185,8 +218,8 @@ class Filter {
     const auto n = carried_.size();
     for (std::size_t i = 0; i < n; ++i) {
       Carried& c = carried_[i];
-      c.place.pass(dt_, kicks_), c.turn.pass(dt_, turns_);
-      const double sx = c.place.xx + noise_, st = c.turn.xx + heading_noise_;
+      c.place.pass(dt_, noise_.kicks), c.turn.pass(dt_, noise_.turns);
+      const double sx = c.place.xx + noise_.place, st = c.turn.xx + noise_.heading;
       at_.sd_x[i] = std::sqrt(sx), at_.sd_theta[i] = std::sqrt(st);
       const int k = frame + 1 - c.track->first;
       const bool there = k < static_cast<int>(c.track->x.size()) &&
@@ -212,26 +245,38 @@ class Filter {
     out.sd_x = at_.sd_x, out.sd_theta = at_.sd_theta, out.contact = at_.contact;
     out.gain_x = at_.gain_x, out.gain_v = at_.gain_v;
     out.gain_theta = at_.gain_theta, out.gain_omega = at_.gain_omega, out.usable = at_.usable;
+    out.frame = frame;
+    seen_.clear();
+    for (CarriedAssembly& a : assemblies_.all()) {
+      seen_.push_back(assemblies_.seen(a, out, dt_, options_.start));
+    }
+    out.assemblies = seen_;
     return out;
   }
 
   void correct() {
     for (std::size_t i = 0; i < carried_.size(); ++i) {
-      if (std::isnan(at_.dx[i])) continue;
       Carried& c = carried_[i];
+      if (std::isnan(at_.dx[i]) || c.assembly >= 0) continue;
       c.x += at_.gain_x[i] * at_.dx[i], c.y += at_.gain_x[i] * at_.dy[i];
       c.vx += at_.gain_v[i] * at_.dx[i], c.vy += at_.gain_v[i] * at_.dy[i];
       c.theta += at_.gain_theta[i] * at_.dtheta[i], c.omega += at_.gain_omega[i] * at_.dtheta[i];
       c.place.see(at_.gain_x[i], at_.gain_v[i]), c.turn.see(at_.gain_theta[i], at_.gain_omega[i]);
     }
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      assemblies_.correct(assemblies_.all()[k], seen_[k].innovation, carried_);
+    }
   }
 
   static constexpr double kPush = 0.05;  // m/s in a frame: more than drag changes
   const PredictorOptions& options_;
+  const Model& model_;
   double dt_;
   Tanks tanks_;
-  double kicks_ = 0, turns_ = 0, noise_ = 0, heading_noise_ = 0;
+  ModuleNoise noise_;
+  CarriedAssemblies assemblies_;
   std::vector<Carried> carried_;
+  std::vector<PredictedAssembly> seen_;
   Scratch at_;
 };
 

@@ -23,7 +23,7 @@ Matrix precision(const Matrix& products, const Matrix& known) {
 
 }  // namespace
 
-Sensitivities::Sensitivities(std::size_t features, std::size_t modules, std::size_t partners)
+Sensitivities::Sensitivities(std::size_t features, std::size_t bodies, std::size_t partners)
     : features_(features),
       partners_(partners),
       wide_(Pushes::in_lanes(features)),
@@ -35,12 +35,12 @@ Sensitivities::Sensitivities(std::size_t features, std::size_t modules, std::siz
       recent_shared_(partners * wide_),
       rows_(kRowsAtOnce * wide_),
       now_(wide_) {
-  for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) of->assign(wide_ * modules, 0.0f);
+  for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) of->assign(wide_ * bodies, 0.0f);
 }
 
-void Sensitivities::forget(std::size_t module) {
+void Sensitivities::forget(std::size_t body) {
   for (auto* of : {&x_, &vx_, &y_, &vy_, &t_, &w_}) {
-    const auto begin = of->begin() + static_cast<std::ptrdiff_t>(module * wide_);
+    const auto begin = of->begin() + static_cast<std::ptrdiff_t>(body * wide_);
     std::fill(begin, begin + static_cast<std::ptrdiff_t>(wide_), 0.0f);
   }
 }
@@ -70,9 +70,9 @@ void Sensitivities::flush() {
   move_sums(recent_shared_.data(), recent_shared_.size(), shared_.data());
 }
 
-void Sensitivities::pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame,
-                         std::size_t i, double loss, bool usable) {
-  const std::size_t at = module * wide_;
+void Sensitivities::pass(std::size_t body, const Pushes& pushes, const PredictedFrame& frame,
+                         const Innovation& seen, double loss, bool usable) {
+  const std::size_t at = body * wide_;
   const auto dt = static_cast<float>(frame.interval);
   const auto axis = [&](double innovation, double sd, double gain_x, double gain_v) {
     const double weight = usable ? 1 / (sd * sd) : 0;
@@ -84,13 +84,13 @@ void Sensitivities::pass(std::size_t module, const Pushes& pushes, const Predict
                        static_cast<float>(weight)};
   };
   const auto place = [&](double innovation) {
-    return axis(innovation, frame.sd_x[i], frame.gain_x[i], frame.gain_v[i]);
+    return axis(innovation, seen.sd_x, seen.gain_x, seen.gain_v);
   };
   const bool summed = partners_ > 0 && frame.frame % kEvery == 0;
-  pass_axis(place(frame.dx[i]), summed, pushes.x.data(), &x_[at], &vx_[at]);
-  pass_axis(place(frame.dy[i]), summed, pushes.y.data(), &y_[at], &vy_[at]);
-  pass_axis(axis(frame.dtheta[i], frame.sd_theta[i], frame.gain_theta[i], frame.gain_omega[i]),
-            summed, pushes.turn.data(), &t_[at], &w_[at]);
+  pass_axis(place(seen.dx), summed, pushes.x.data(), &x_[at], &vx_[at]);
+  pass_axis(place(seen.dy), summed, pushes.y.data(), &y_[at], &vy_[at]);
+  pass_axis(axis(seen.dtheta, seen.sd_theta, seen.gain_theta, seen.gain_omega), summed,
+            pushes.turn.data(), &t_[at], &w_[at]);
 }
 
 void Sensitivities::finish() {

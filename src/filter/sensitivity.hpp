@@ -8,7 +8,7 @@
 
 namespace lilytank {
 
-/// Accelerations of one module, one value a feature: m/s^2, m/s^2, rad/s^2.
+/// Accelerations of one body, one value a feature: m/s^2, m/s^2, rad/s^2.
 struct Pushes {
   std::vector<float> x, y, turn;
   explicit Pushes(std::size_t features)
@@ -19,21 +19,20 @@ struct Pushes {
   }
 };
 
-/// For a number of features, each an acceleration of every module: sums of score and information,
-/// and of their products with the last ones, of which some are nuisances: what may be at fault for
-/// another's score.
+/// For a number of features, each an acceleration of every body (a module, or an assembly of
+/// latched ones): sums of score and information, and of their products with the last ones, of which
+/// some are nuisances: what may be at fault for another's score.
 class Sensitivities {
  public:
   /// `partners`: features at the end with which products are summed.
-  Sensitivities(std::size_t features, std::size_t modules, std::size_t partners);
+  Sensitivities(std::size_t features, std::size_t bodies, std::size_t partners);
 
-  /// A module whose prediction cannot be used at this frame: forgets what it was pushed by.
-  void forget(std::size_t module);
-  /// Carries all features of module `module`, which is number `i` of the frame, over a frame and
-  /// takes up what the frame then showed if `usable`. `loss`: share of a velocity that drag takes
-  /// in a second.
-  void pass(std::size_t module, const Pushes& pushes, const PredictedFrame& frame, std::size_t i,
-            double loss, bool usable);
+  /// A body whose prediction cannot be used at this frame: forgets what it was pushed by.
+  void forget(std::size_t body);
+  /// Carries all features of a body over a frame and takes up what the frame then showed of it if
+  /// `usable`. `loss`: share of a velocity that drag takes in a second.
+  void pass(std::size_t body, const Pushes& pushes, const PredictedFrame& frame,
+            const Innovation& seen, double loss, bool usable);
 
   /// Call once all frames are passed, before the first result is read.
   void finish();
@@ -66,7 +65,7 @@ class Sensitivities {
   Eigen::Map<const Eigen::VectorXd> last_scores(Eigen::Index count) const;
 
   std::size_t features_, partners_, wide_;      // wide: features and empty ones
-  std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [module * wide + feature]
+  std::vector<float> x_, vx_, y_, vy_, t_, w_;  // [body * wide + feature]
   std::vector<double> score_, information_;
   std::vector<double> shared_;  // products, [partner * wide + feature]
   // Sums of the last passings, in single precision, and rows that are not summed yet.

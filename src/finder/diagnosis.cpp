@@ -145,10 +145,10 @@ Diagnosis begun(const Experiment& experiment) {
   out.name = experiment.name;
   for (const Recording& r : experiment.recordings) {
     if (r.body != BodyKind::lily) continue;
-    if (r.latches) {
+    if (r.latches && experiment.base.model.rulesets.empty()) {
       throw InputError(r.name +
-                       " was recorded with latches on: a diagnosis needs recordings with "
-                       "latches = \"off\", or modules would move as one for other reasons");
+                       " was recorded with latches on: name the modules' rules by ruleset.file, or "
+                       "set latches = \"off\" if their magnets were off");
     }
     if (!r.has_heading()) {
       throw InputError(r.name + " has no headings: a diagnosis needs them for the drag on faces");

@@ -148,6 +148,9 @@ ScorePlan PreparedTank::plan() const {
                                setup.options.threads);
       });
   p.rate = calibration.training.front().rate;
+  p.logged = p.latched() && std::ranges::all_of(calibration.shapes, [](const RecordingShape& s) {
+    return s.logged || !s.latches;
+  });
   p.modules = std::max({bodies, known, later});
   return p;
 }

@@ -137,33 +137,34 @@ void force_keys(ScenarioDraft& d, Keys& keys) {
 }
 
 void control_keys(ScenarioDraft& d, Keys& keys) {
-  ControlParameters& c = d.scenario.model.control;
+  using C = ControlParameters;
+  C& c = d.scenario.model.control;
   keys.push_back(
       {"control.latches", &c.latches, "", 0, 0, "off: the magnets are off and nothing latches"});
   keys.push_back({"control.clock", choice(c.clock, {"firmware", "events"}), "", 0, 0,
                   "modules as state machines run every 25 ms, or bonds evaluated at random times"});
   keys.push_back({"control.handshake", choice(c.handshake, {"plain", "confirmed"}), "", 0, 0,
                   "the responder's answer decides, or both sides act once it is confirmed"});
-  keys.push_back({"control.capture_distance", &c.capture_distance, "m", 0, 0.05,
-                  "distance of two face centres within which they latch"});
+  keys.push_back(varied(d, "control.capture_distance", {&Model::control, &C::capture_distance}, "m",
+                        0, 0.05, "distance of two face centres within which they latch"));
   keys.push_back({"control.capture_angle", &c.capture_angle, "rad", 0, 0.75,
                   "turn from face to face within which they latch"});
-  keys.push_back({"control.initiative", &c.initiative, "1", 0, 1,
-                  "probability per 25 ms that a module begins an exchange"});
+  keys.push_back(varied(d, "control.initiative", {&Model::control, &C::initiative}, "1", 0, 1,
+                        "probability per 25 ms that a module begins an exchange"));
   keys.push_back({"control.reply_ticks", &c.reply_ticks, "1", 1, kMostReplyTicks,
                   "intervals of 25 ms that an initiator waits for its answer"});
-  keys.push_back({"control.evaluation_rate", &c.evaluation_rate, "1/s", 1e-6, 40,
-                  "evaluations of a bond per second, of the clock \"events\""});
+  keys.push_back(varied(d, "control.evaluation_rate", {&Model::control, &C::evaluation_rate}, "1/s",
+                        1e-6, 40, "evaluations of a bond per second, of the clock \"events\""));
   keys.push_back({"control.off_scale", &c.off_scale, "1", 1, 65535,
                   "an off face returns with probability (25 ms intervals off) / this"});
-  keys.push_back({"control.message_loss", &c.message_loss, "1", 0, 1,
-                  "probability that a message to a neighbour is lost"});
-  keys.push_back({"control.answer_loss", &c.answer_loss, "1", 0, 1,
-                  "probability that a message from responder to initiator is lost"});
-  keys.push_back({"control.latch_failure", &c.latch_failure, "1", 0, 1,
-                  "probability that two faces that meet fail to hold each other"});
-  keys.push_back({"control.release_failure", &c.release_failure, "1", 0, 1,
-                  "probability that a latch fails to release when commanded"});
+  keys.push_back(varied(d, "control.message_loss", {&Model::control, &C::message_loss}, "1", 0, 1,
+                        "probability that a message to a neighbour is lost"));
+  keys.push_back(varied(d, "control.answer_loss", {&Model::control, &C::answer_loss}, "1", 0, 1,
+                        "probability that a message from responder to initiator is lost"));
+  keys.push_back(varied(d, "control.latch_failure", {&Model::control, &C::latch_failure}, "1", 0, 1,
+                        "probability that two faces that meet fail to hold each other"));
+  keys.push_back(varied(d, "control.release_failure", {&Model::control, &C::release_failure}, "1",
+                        0, 1, "probability that a latch fails to release when commanded"));
 }
 
 void start_keys(ScenarioDraft& d, Keys& keys) {

@@ -153,14 +153,28 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
   return s.effects.empty() ? 0 : least;
 }
 
+void refuse_unknown(const std::vector<std::string>& names, const std::vector<Effect>& effects) {
+  std::vector<std::string> known;
+  for (const Effect& e : effects) known.push_back(e.name);
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw InputError("'" + name + "' is no effect of this tank" + did_you_mean(name, known));
+  }
+}
+
 // Those of the requested kind.
 std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
                               const std::vector<Shape>& shapes, std::uint64_t seed) {
-  const std::vector<Effect> effects = effect_catalogue(tank);
+  std::vector<Effect> effects = effect_catalogue(tank);
+  refuse_unknown(options.effects, effects);
+  std::erase_if(effects, [&](const Effect& e) {
+    return !options.effects.empty() &&
+           std::ranges::find(options.effects, e.name) == options.effects.end();
+  });
   std::vector<Sealed> out;
   for (int w = 0; w < options.worlds; ++w) {
     Sealed one = seal(tank, effects, shapes, seed, w);
-    one.foreign = options.foreign;
+    one.foreign = options.foreign, one.logged = options.event_log;
     if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
   }
   if (out.empty()) {

@@ -15,20 +15,25 @@ DrawnTank drawn_for(const ProofOptions& options) {
   return drawn_tank(derived_seed(options.diagnosis.seed, kDrawnSeed));
 }
 
+// So many modules, which latch if there are rules.
+Model with_modules(Model tank, const ProofOptions& options) {
+  tank.module.count = options.modules;
+  if (options.latches.empty()) return tank;
+  tank.control.latches = true, tank.rulesets = {read_ruleset(options.latches)};
+  return tank;
+}
+
 }  // namespace
 
 Model tank_of(const ProofOptions& options) {
-  Model model = options.drawn_tank ? tank_model(drawn_for(options)) : tank_model();
-  model.module.count = options.modules;
-  return model;
+  return with_modules(options.drawn_tank ? tank_model(drawn_for(options)) : tank_model(), options);
 }
 
 Experiment open_tank(const ProofOptions& options, const Model& tank) {
   Experiment e;
   e.name = "proof";
   // What a drawn tank is like is for the diagnosis to find.
-  e.base.model = with_steps(tank_model(), 5);
-  e.base.model.module.count = options.modules;
+  e.base.model = with_steps(with_modules(tank_model(), options), 5);
   if (options.known_flow) e.base.model.field = tank.field;
   const double seconds = 60 * options.minutes;
   const double of_balls = options.ball_minutes > 0 ? 60 * options.ball_minutes : seconds;
@@ -38,6 +43,7 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   auto balls = film_tank(with_steps(tank, kSealedSteps), {}, {}, shapes, seed, options.foreign);
   Sealed nothing;
   nothing.factors.assign(5, 1.0), nothing.foreign = options.foreign;
+  nothing.logged = options.event_log;
   auto lilies = film_sealed(tank, nothing, seconds, derived_seed(seed, 1));
   if (!balls || !lilies) throw InputError("the proof's tank diverges");
   if (options.known_flow) balls->clear();
@@ -64,6 +70,9 @@ std::string words_for_tank(const ProofOptions& options) {
               ? "flow from balls of " + significant(options.ball_minutes, 6) + " min"
               : "flow from balls") +
          (options.foreign ? ", recorded with Box2D" : "") +
+         (options.latches.empty() ? ""
+          : options.event_log     ? ", latches on, events logged"
+                                  : ", latches on") +
          (options.diagnosis.uncertified ? ", insufficient recordings diagnosed" : "");
 }
 

@@ -263,8 +263,9 @@ std::optional<std::vector<Recording>> film_sealed(const Model& tank, const Seale
     cameras.insert(cameras.end(), e.effect.paths.begin(), e.effect.paths.end());
     seen.insert(seen.end(), amplitudes.begin(), amplitudes.end());
   }
-  const std::vector<RecordingShape> shapes(
-      static_cast<std::size_t>(count), shape_named("synthetic", BodyKind::lily, modules, seconds));
+  RecordingShape shape = shape_named("synthetic", BodyKind::lily, modules, seconds);
+  shape.latches = tank.control.latches, shape.logged = shape.latches && s.logged;
+  const std::vector<RecordingShape> shapes(static_cast<std::size_t>(count), shape);
   return film_tank(model, cameras, seen, shapes, seed, s.foreign);
 }
 

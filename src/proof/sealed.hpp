@@ -31,6 +31,7 @@ struct Sealed {
   std::vector<SealedEffect> effects;
   std::vector<double> factors;  ///< on the five parameters
   bool foreign = false;         ///< recorded with another engine (foreign_tank.hpp)
+  bool logged = false;          ///< the modules' events are logged, if the tank's have latches
 };
 
 /// A tank of synthetic experiments without omitted effects: the built-in one.

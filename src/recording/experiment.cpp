@@ -7,6 +7,7 @@
 #include "io/scenario_layers.hpp"
 #include "io/scenario_values.hpp"
 #include "io/standard_input.hpp"
+#include "recording/event_log.hpp"
 #include "recording/recording_keys.hpp"
 
 namespace lilytank {
@@ -14,19 +15,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A message about a missing file should point to the place that names it.
+void check_there(const std::string& file, const SourcePlace& place) {
+  std::error_code ignored;
+  if (file.find('*') != std::string::npos || fs::exists(file, ignored)) return;
+  throw InputError(place, system_problem("cannot read", file, ENOENT));
+}
+
 RecordingSource source_of(const CommandTable& table, const RecordingOptions& defaults) {
   RecordingSource out;
   out.options = defaults;
   out.place = table.place;
+  const auto file_of = [](const Assignment& field, const std::string& key) {
+    const std::string name = text_of(field, key);
+    if (name.empty()) throw InputError(field.place, key + " is empty");
+    return (fs::path(field.directory) / name).lexically_normal().string();
+  };
   for (const Assignment& field : table.fields) {
-    if (field.path() != "file") {
+    if (field.path() == "file") {
+      out.file = file_of(field, "recording.file"), out.place = field.place;
+    } else if (field.path() == "events") {
+      out.options.events = file_of(field, "recording.events");
+      check_there(out.options.events, field.place);
+    } else {
       assign_recording_option(field, "recording", out.options);
-      continue;
     }
-    const std::string name = text_of(field, "recording.file");
-    if (name.empty()) throw InputError(field.place, "recording.file is empty");
-    out.file = (fs::path(field.directory) / name).lexically_normal().string();
-    out.place = field.place;
   }
   if (out.file.empty()) {
     throw InputError(table.place, "recording.file is missing: the file of the tracks");
@@ -59,14 +72,6 @@ void read_experiment_tables(const std::vector<Layer>& layers, Experiment& experi
   }
 }
 
-/// A message about a missing file should point to the place that names it.
-void check_there(const RecordingSource& source) {
-  std::error_code ignored;
-  const bool pattern = source.file.find('*') != std::string::npos;
-  if (pattern || fs::exists(source.file, ignored)) return;
-  throw InputError(source.place, system_problem("cannot read", source.file, ENOENT));
-}
-
 }  // namespace
 
 void take_sizes(const Model& model, RecordingOptions& options) {
@@ -90,9 +95,13 @@ Experiment load_experiment(const std::vector<std::string>& files,
   if (out.name.empty()) out.name = stem_of(files.back());
   for (const RecordingSource& source : out.sources) {
     if (wanted && !wanted(source)) continue;
-    check_there(source);
+    check_there(source.file, source.place);
     CheckedRecording checked = check_recording(source.file, source.options);
     checked.throw_if_refused();
+    if (!source.options.events.empty()) {
+      checked.recording.logged = true;
+      checked.recording.events = read_event_log(source.options.events);
+    }
     out.recordings.push_back(std::move(checked.recording));
     for (Finding& finding : checked.findings) out.findings.push_back(std::move(finding));
   }

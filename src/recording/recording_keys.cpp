@@ -231,6 +231,7 @@ TomlKeys experiment_tables() {
   TomlKeys recording = each;
   recording.insert(recording.begin(),
                    toml_key::needed(text("file", "of the tracks; * is a wildcard")));
+  recording.push_back(text("events", "file of the modules' event log"));
   bool further = false;
   TomlKeys experiment = each;
   experiment.push_back(further_key(further).about);

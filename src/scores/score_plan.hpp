@@ -12,7 +12,7 @@ namespace lilytank {
 
 /// One number of the vector that is compared.
 struct ScoreEntry {
-  std::string group;  ///< score, module, noise, spectrum, contact, camera, shape
+  std::string group;  ///< score, module, noise, spectrum, contact, camera, bond, shape
   std::string name;
 };
 
@@ -31,6 +31,11 @@ struct ScorePlan {
   std::vector<Effect> beside;
   /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.
   Eigen::MatrixXd nuisances_known;
+
+  /// Modules latch: assemblies are predicted as one body each, and bonds are counted.
+  bool latched() const { return model.control.latches; }
+  /// The modules' events were logged, in every recording with latches on.
+  bool logged = false;
 
   std::vector<ScoreEntry> entries() const;
   /// Where the scores of the components of effect `index` begin, if it is scored; of one past the

@@ -6,6 +6,7 @@
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
 #include "forces/pairs.hpp"
+#include "scores/bond_numbers.hpp"
 #include "scores/nuisances.hpp"
 #include "scores/residual_statistics.hpp"
 #include "scores/shape_pushes.hpp"
@@ -22,6 +23,7 @@ constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, b
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
 constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
+constexpr int kNever = -9;         // no frame
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
 
 std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) {
@@ -59,16 +61,19 @@ class Scorer {
         beside_(components_of(plan.beside)),
         known_(known_beside(beside_, plan.nuisances_known)),
         features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
-        sensitivities_(features_in_all_, modules_,
+        sensitivities_(features_in_all_, (plan.latched() ? 2 : 1) * modules_,
                        all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
         shapes_(plan.shapes, scored_),
         pushes_(modules_, Pushes(features_in_all_)),
-        last_(modules_, -9) {}
+        last_(2 * modules_, kNever),
+        reach_(plan.latched() ? std::max(kTouch, plan.model.control.capture_distance) : kTouch),
+        together_(features_in_all_) {}
 
   void run(const std::vector<Recording>& recordings) {
     predict(plan_.model, recordings, plan_.predictor,
             [this](const PredictedFrame& frame) { add(frame); });
     sensitivities_.finish();
+    if (plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
   }
 
   std::vector<ScoredAmplitude> amplitudes() const {
@@ -116,6 +121,7 @@ class Scorer {
     };
     for (std::size_t f = 0; f < scored_; ++f) drawn(f, kScoreKnown);
     for (const auto& part : parts_) part->append_to(values, details);
+    values.insert(values.end(), bonds_.begin(), bonds_.end());
     for (std::size_t f = scored_; f < total_; ++f) drawn(f, kKnotKnown);
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
@@ -139,6 +145,7 @@ class Scorer {
     seen_.resize(n);
     find_touching(frame);
     for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, i);
+    for (const PredictedAssembly& a : frame.assemblies) pass(frame, a);
     for (const auto& part : parts_) part->add(frame, seen_);
   }
 
@@ -165,20 +172,28 @@ class Scorer {
   }
 
   // Modules in contact with another or the wall, or that may be before the next frame at the
-  // present closing speed: contact forces are not part of the model here. The criterion uses past
-  // frames only, so excluding them does not bias encounters.
+  // present closing speed: contact forces, and those of latches that pull two faces together, are
+  // not part of the model here. The criterion uses past frames only, so excluding them does not
+  // bias encounters. Members of one assembly always touch.
   void find_touching(const PredictedFrame& frame) {
     const Kinematics& k = frame.now;
     touching_.assign(static_cast<std::size_t>(k.size()), 0);
+    assembly_.assign(touching_.size(), -1);
+    for (std::size_t a = 0; a < frame.assemblies.size(); ++a) {
+      for (const int member : frame.assemblies[a].members) {
+        assembly_[static_cast<std::size_t>(member)] = static_cast<int>(a);
+      }
+    }
     const double side = model_->module.side;
     for_near_pairs(k, 1.6 * side, [&](const NearPair& pair) {
-      const SquareGap at = square_gap(k, pair, side);
       const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      if (assembly_[i] >= 0 && assembly_[i] == assembly_[j]) return;
+      const SquareGap at = square_gap(k, pair, side);
       const double jx = at.px - pair.dx, jy = at.py - pair.dy;
       const double closing = (k.vx[i] - k.omega[i] * at.py - k.vx[j] + k.omega[j] * jy) * at.nx +
                              (k.vy[i] + k.omega[i] * at.px - k.vy[j] - k.omega[j] * jx) * at.ny;
       const double way = kHaste * frame.interval * std::max(0.0, closing);
-      if (at.gap > kTouch + way) return;
+      if (at.gap > reach_ + way) return;
       touching_[i] = touching_[j] = 1;
     });
     for (std::size_t i = 0; i < touching_.size(); ++i) {
@@ -211,7 +226,7 @@ class Scorer {
       out.zt = frame.dtheta[i] / frame.sd_theta[i];
     }
     const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
-    const bool held = frame.contact[i] > kContactPush || touching_[i] != 0;
+    const bool held = frame.contact[i] > kContactPush || touching_[i] != 0 || assembly_[i] >= 0;
     if (visible && frame.usable[i] != 0 && !held) {
       for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
     }
@@ -219,9 +234,53 @@ class Scorer {
     if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
     last_[out.module] = frame.frame;
     if (!held && !lost) {
-      sensitivities_.pass(out.module, pushes_[i], frame, i, kLoss, out.usable);
+      sensitivities_.pass(out.module, pushes_[i], frame, frame.innovation(i), kLoss, out.usable);
     }
     return out;
+  }
+
+  // An assembly is pushed by what pushes its members, at their arms.
+  void pass(const PredictedFrame& frame, const PredictedAssembly& a) {
+    const std::size_t body = modules_ + static_cast<std::size_t>(a.first);
+    const Innovation& e = a.innovation;
+    const bool visible = !std::isnan(e.dx);
+    double farthest = 0;
+    for (const double z : {e.dx / e.sd_x, e.dy / e.sd_x, e.dtheta / e.sd_theta}) {
+      if (visible) farthest = std::max(farthest, std::fabs(z));
+    }
+    bool held = a.contact > kContactPush;
+    for (const int i : a.members) held = held || touching_[static_cast<std::size_t>(i)] != 0;
+    const bool lost = farthest > kLost, usable = visible && a.usable && !held && !lost;
+    if (usable) {
+      const double x = e.dx / e.sd_x, y = e.dy / e.sd_x, t = e.dtheta / e.sd_theta;
+      misfit_ += x * x + y * y + t * t - 3;
+    }
+    if (last_[body] + 1 != frame.frame || a.begun == frame.frame || held || lost) {
+      sensitivities_.forget(body);
+    }
+    last_[body] = frame.frame;
+    if (held || lost) return;
+    push_together(frame, a);
+    sensitivities_.pass(body, together_, frame, e, kLoss, usable);
+  }
+
+  void push_together(const PredictedFrame& frame, const PredictedAssembly& a) {
+    for (auto* of : {&together_.x, &together_.y, &together_.turn}) {
+      std::fill(of->begin(), of->end(), 0.0f);
+    }
+    const double mass = model_->module.mass, inertia = model_->module.inertia();
+    const auto share = static_cast<float>(mass / a.mass);
+    const auto own = static_cast<float>(inertia / a.inertia);
+    for (const int member : a.members) {
+      const auto i = static_cast<std::size_t>(member);
+      const Pushes& push = pushes_[i];
+      const auto by_y = static_cast<float>(mass / a.inertia * (frame.now.x[i] - a.x));
+      const auto by_x = static_cast<float>(mass / a.inertia * (frame.now.y[i] - a.y));
+      for (std::size_t f = 0; f < push.x.size(); ++f) {
+        together_.x[f] += share * push.x[f], together_.y[f] += share * push.y[f];
+        together_.turn[f] += own * push.turn[f] + by_y * push.y[f] - by_x * push.x[f];
+      }
+    }
   }
 
   const ScorePlan& plan_;
@@ -237,8 +296,12 @@ class Scorer {
   std::vector<Pushes> pushes_;
   std::vector<double> forces_;
   std::vector<Vec2> slips_;
-  std::vector<int> last_;
+  std::vector<int> last_;  // frames, of modules, then of assemblies by their first modules
+  double reach_;           // m
   std::vector<std::uint8_t> touching_;
+  Pushes together_;            // of an assembly
+  std::vector<int> assembly_;  // of each module of the frame; -1: none
+  std::vector<double> bonds_;
   const Model* model_ = nullptr;
   int recording_ = -1;
   std::unique_ptr<Features> features_;
@@ -262,6 +325,9 @@ std::vector<ScoreEntry> ScorePlan::entries() const {
   }
   for (const auto& part : parts_of(*this)) {
     for (ScoreEntry& entry : part->entries()) out.push_back(std::move(entry));
+  }
+  if (latched()) {
+    for (ScoreEntry& entry : bond_entries(*this)) out.push_back(std::move(entry));
   }
   for (const Shape& shape : shapes) {
     for (int k = 1; k <= kKnots; ++k) {

@@ -20,7 +20,7 @@ TEST(diagnoseVerb, refusesWithOneLine) {
   } cases[] = {
       {"diagnose", "of what? write lilytank diagnose EXPERIMENT.toml"},
       {"diagnose nowhere.toml", "nowhere.toml"},
-      {"diagnose latched.toml", "was recorded with latches on"},
+      {"diagnose latched.toml", "was recorded with latches on: name the modules' rules by"},
       {"diagnose balls.toml", "has no recording of body = \"lily\" that is not held out"},
       {"diagnose " + kTank + " --budget none", "--budget"},
       {"prove nowhere --worlds 3", "--worlds is for a new proof"},
@@ -37,6 +37,9 @@ TEST(diagnoseVerb, refusesWithOneLine) {
        "did you mean 'balls'?"},
       {"prove --grid --cells modules=2.5", "--cells modules: '2.5' is not a whole number"},
       {"prove --grid --known-flow --cells balls=4", "with --known-flow: no balls are recorded"},
+      {"prove --event-log", "--event-log without --latches: nothing latches"},
+      {"prove --latches nowhere.rules", "nowhere.rules"},
+      {"prove --effect evaluation_rate", "'evaluation_rate' is no effect of this tank"},
       {"prove --worlds 1 --only named", "none of the first 1 synthetic experiments is \"named\""},
   };
   for (const auto& c : cases) {

@@ -61,7 +61,7 @@ Sensitivities seen(const std::array<double, kFeatures>& amplitudes, std::size_t 
     f.frame = frame, f.interval = kInterval;
     f.dx = dx, f.dy = none, f.dtheta = none, f.sd_x = sd, f.sd_theta = sd;
     f.gain_x = gain_x, f.gain_v = gain_v, f.gain_theta = gain_x, f.gain_omega = gain_v;
-    out.pass(0, pushes, f, 0, kLoss, true);
+    out.pass(0, pushes, f, f.innovation(0), kLoss, true);
   }
   out.finish();
   return out;

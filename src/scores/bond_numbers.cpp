@@ -1,0 +1,181 @@
+#include "scores/bond_numbers.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "text/number.hpp"
+#include "tracks/seen_bonds.hpp"
+
+namespace lilytank {
+namespace {
+
+// s: a bond that parts within these times of its begin
+constexpr std::array<double, 5> kTimes{1, 3, 8, 20, 60};
+constexpr int kSizes = 4;     // of assemblies: 2, 3, 4, 5 and more
+constexpr double kAgain = 2;  // s: a pair that parted latches again within this time
+
+// A rate per s, by its logarithm: half an event is there before any data.
+double log_rate(double events, double seconds) {
+  return std::log((events + 0.5) / (seconds + 1));
+}
+
+double share(double part, double all) {
+  return (part + 0.5) / (all + 1);
+}
+
+// Bonds that a camera sees.
+class Geometry {
+ public:
+  void add(const Recording& r, double side) {
+    const std::vector<SeenBond> bonds = seen_bonds(r, side);
+    for (const Track& t : r.tracks) module_time_ += static_cast<double>(t.x.size()) / r.rate;
+    std::map<std::pair<std::int64_t, std::int64_t>, int> parted;
+    for (const SeenBond& bond : bonds) {
+      const double lasted = (bond.end - bond.begin) / r.rate;
+      begun_ += bond.begin > 0 ? 1 : 0, time_ += lasted, parted_ += bond.parted ? 1 : 0;
+      const auto before = parted.find({bond.a, bond.b});
+      if (before != parted.end()) {
+        again_ += bond.begin - before->second < kAgain * r.rate ? 1 : 0;
+      }
+      if (bond.parted) parted[{bond.a, bond.b}] = bond.end;
+      for (std::size_t k = 0; k < kTimes.size(); ++k) {
+        if (lasted >= kTimes[k] || bond.parted) at_risk_[k] += 1;
+        if (lasted < kTimes[k] && bond.parted) ended_[k] += 1;
+      }
+    }
+    count_sizes(r, bonds);
+  }
+
+  void append_to(std::vector<double>& out) const {
+    out.push_back(log_rate(begun_, module_time_)), out.push_back(log_rate(parted_, time_));
+    out.push_back(share(again_, parted_)), out.push_back(time_ / (module_time_ + 1));
+    for (std::size_t k = 0; k < kTimes.size(); ++k) out.push_back(share(ended_[k], at_risk_[k]));
+    for (const double time : in_size_) out.push_back(time / (module_time_ + 1));
+  }
+
+  static void name(std::vector<ScoreEntry>& out) {
+    for (const char* what : {"new bonds", "partings", "latched again", "bonds per module"}) {
+      out.push_back({"bond", what});
+    }
+    for (const double time : kTimes) {
+      out.push_back({"bond", "parted within " + shortest(time) + " s"});
+    }
+    for (int k = 0; k < kSizes; ++k) {
+      out.push_back({"bond", "time in assemblies of " + std::to_string(k + 2)});
+    }
+  }
+
+ private:
+  // In one frame a second.
+  void count_sizes(const Recording& r, const std::vector<SeenBond>& bonds) {
+    const int step = std::max(1, static_cast<int>(std::lround(r.rate)));
+    for (int frame = 0; frame < r.frames; frame += step) {
+      std::map<std::int64_t, std::int64_t> first;
+      const auto of = [&](std::int64_t id) {
+        while (first.at(id) != id) id = first.at(id);
+        return id;
+      };
+      for (const SeenBond& bond : bonds) {
+        if (bond.begin > frame) break;
+        if (bond.end <= frame) continue;
+        first.emplace(bond.a, bond.a), first.emplace(bond.b, bond.b);
+        const std::int64_t a = of(bond.a), b = of(bond.b);
+        first[std::max(a, b)] = std::min(a, b);
+      }
+      std::map<std::int64_t, int> sizes;
+      for (const auto& [id, parent] : first) sizes[of(id)] += 1;
+      for (const auto& [id, size] : sizes) {
+        in_size_[static_cast<std::size_t>(std::min(size, kSizes + 1) - 2)] += size * step / r.rate;
+      }
+    }
+  }
+
+  double module_time_ = 0, begun_ = 0, parted_ = 0, time_ = 0, again_ = 0;
+  std::array<double, kTimes.size()> at_risk_{}, ended_{};
+  std::array<double, kSizes> in_size_{};
+};
+
+// What the modules reported: how long latches wait for their first decision and bonds for their
+// end.
+class Log {
+ public:
+  void add(const Recording& r) {
+    std::map<std::pair<std::int64_t, std::int64_t>, double> latched, bonded;
+    const double end = r.time(r.frames);
+    for (const Track& t : r.tracks) module_time_ += static_cast<double>(t.x.size()) / r.rate;
+    for (const LoggedEvent& e : r.events) {
+      if (e.time < r.start || e.time > end) continue;
+      const auto pair = std::minmax(e.a, e.b);
+      const auto take = [&](auto& from, double& time) {
+        const auto at = from.find(pair);
+        if (at == from.end()) return;
+        time += e.time - at->second;
+        from.erase(at);
+      };
+      switch (e.kind) {
+        case EventKind::latch:
+          latches_ += 1, latched[pair] = e.time;
+          break;
+        case EventKind::unlatch:
+          unlatched_ += 1, take(latched, waited_);
+          break;
+        case EventKind::link:
+          linked_ += 1, take(latched, waited_to_link_), bonded[pair] = e.time;
+          break;
+        case EventKind::unlink:
+          unlinked_ += 1, take(bonded, bonded_), take(latched, waited_);
+          break;
+        default:
+          break;
+      }
+    }
+    for (const auto& [pair, time] : latched) waiting_ += end - time;
+    for (const auto& [pair, time] : bonded) bonded_ += end - time;
+  }
+
+  void append_to(std::vector<double>& out) const {
+    const double decided = linked_ + unlatched_;
+    out.push_back(log_rate(latches_, module_time_));
+    out.push_back(log_rate(decided, waited_ + waited_to_link_ + waiting_));
+    out.push_back(log_rate(unlatched_, waited_)), out.push_back(log_rate(linked_, waited_to_link_));
+    out.push_back(share(linked_, decided)), out.push_back(log_rate(unlinked_, bonded_));
+  }
+
+  static void name(std::vector<ScoreEntry>& out) {
+    for (const char* what : {"logged latches", "decisions on a latch", "time to unlatch",
+                             "time to link", "latches that are linked", "unlinked bonds"}) {
+      out.push_back({"bond", what});
+    }
+  }
+
+ private:
+  double module_time_ = 0, latches_ = 0, unlatched_ = 0, linked_ = 0, unlinked_ = 0;
+  double waited_ = 0, waited_to_link_ = 0, waiting_ = 0, bonded_ = 0;
+};
+
+}  // namespace
+
+std::vector<ScoreEntry> bond_entries(const ScorePlan& plan) {
+  std::vector<ScoreEntry> out;
+  Geometry::name(out);
+  if (plan.logged) Log::name(out);
+  return out;
+}
+
+std::vector<double> bond_numbers(const ScorePlan& plan, const std::vector<Recording>& recordings) {
+  Geometry geometry;
+  Log log;
+  for (const Recording& r : recordings) {
+    if (!r.latches) continue;
+    geometry.add(r, plan.model.module.side);
+    log.add(r);
+  }
+  std::vector<double> out;
+  geometry.append_to(out);
+  if (plan.logged) log.append_to(out);
+  return out;
+}
+
+}  // namespace lilytank
