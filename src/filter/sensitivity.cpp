@@ -1,6 +1,7 @@
 #include "filter/sensitivity.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "statistics/linear.hpp"
 
@@ -10,8 +11,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Products are summed in one frame of so many: sums of a hundred thousand are known well enough.
-constexpr int kEvery = 3;
+// s between frames in which products are summed: sensitivities hardly change meanwhile.
+constexpr double kApart = 0.3;
 constexpr std::size_t kFlush = 768;  // passings whose sums are in single precision
 constexpr double kLeastLeft = 1e-3;  // share of an information that nuisances leave at least
 
@@ -86,7 +87,8 @@ void Sensitivities::pass(std::size_t body, const Pushes& pushes, const Predicted
   const auto place = [&](double innovation) {
     return axis(innovation, seen.sd_x, seen.gain_x, seen.gain_v);
   };
-  const bool summed = partners_ > 0 && frame.frame % kEvery == 0;
+  const int every = std::max(1, static_cast<int>(std::lround(kApart / frame.interval)));
+  const bool summed = partners_ > 0 && frame.frame % every == 0;
   pass_axis(place(seen.dx), summed, pushes.x.data(), &x_[at], &vx_[at]);
   pass_axis(place(seen.dy), summed, pushes.y.data(), &y_[at], &vy_[at]);
   pass_axis(axis(seen.dtheta, seen.sd_theta, seen.gain_theta, seen.gain_omega), summed,

@@ -65,15 +65,15 @@ void move(float* recent, std::size_t count, double* all) {
   }
 }
 
-void divide(const double* values, std::size_t count, double divisor, float* out) {
+void scale(const double* values, std::size_t count, double factor, float* out) {
   const hn::CappedTag<double, kFeatureLanes / 2> d;
   const hn::Rebind<float, decltype(d)> half;
-  const auto by = hn::Set(d, divisor);
+  const auto by = hn::Set(d, factor);
   std::size_t k = 0;
   for (; k + hn::Lanes(d) <= count; k += hn::Lanes(d)) {
-    hn::StoreU(hn::DemoteTo(half, hn::Div(hn::LoadU(d, values + k), by)), half, out + k);
+    hn::StoreU(hn::DemoteTo(half, hn::Mul(hn::LoadU(d, values + k), by)), half, out + k);
   }
-  for (; k < count; ++k) out[k] = static_cast<float>(values[k] / divisor);
+  for (; k < count; ++k) out[k] = static_cast<float>(values[k] * factor);
 }
 
 }  // namespace lilytank::HWY_NAMESPACE
@@ -85,7 +85,7 @@ namespace lilytank {
 HWY_EXPORT(pass);
 HWY_EXPORT(products);
 HWY_EXPORT(move);
-HWY_EXPORT(divide);
+HWY_EXPORT(scale);
 
 void pass_features(const FeatureAxis& axis, std::size_t count, const float* push, float* x,
                    float* v, float* now, float* score, float* information) {
@@ -102,8 +102,8 @@ void move_sums(float* recent, std::size_t count, double* all) {
   HWY_DYNAMIC_DISPATCH(move)(recent, count, all);
 }
 
-void divide_all(const double* values, std::size_t count, double divisor, float* out) {
-  HWY_DYNAMIC_DISPATCH(divide)(values, count, divisor, out);
+void scale_all(const double* values, std::size_t count, double factor, float* out) {
+  HWY_DYNAMIC_DISPATCH(scale)(values, count, factor, out);
 }
 
 }  // namespace lilytank

@@ -28,7 +28,7 @@ void add_products(const float* rows, std::size_t count, std::size_t first, std::
 /// them to 0.
 void move_sums(float* recent, std::size_t count, double* all);
 
-/// Quotients in double precision, as single ones.
-void divide_all(const double* values, std::size_t count, double divisor, float* out);
+/// Products of numbers with a factor, in double precision, as single ones.
+void scale_all(const double* values, std::size_t count, double factor, float* out);
 
 }  // namespace lilytank

@@ -71,7 +71,7 @@ void push_flow(const Polynomials& p, const Features& features, std::size_t i, st
     for (std::size_t t = 0; t < kTerms; ++t) {
       sums[2 * t] = u[t] * x + by_u[t] * turn, sums[2 * t + 1] = u[t] * y + by_v[t] * turn;
     }
-    divide_all(sums.data(), sums.size(), inertia, &to[first]);
+    scale_all(sums.data(), sums.size(), 1 / inertia, &to[first]);
   };
   push(&Wrench::fx, model.module.mass, pushes.x), push(&Wrench::fy, model.module.mass, pushes.y);
   push(&Wrench::torque, model.module.inertia(), pushes.turn);

@@ -167,8 +167,8 @@ class Scorer {
     std::vector<double>& forces = forces_;
     forces.resize(features_->size());
     for (std::size_t f = 0; f < forces.size(); ++f) forces[f] = features_->at(f, i).*part;
-    divide_all(forces.data(), scored_, inertia, to.data());
-    divide_all(forces.data() + scored_, beside_, inertia, to.data() + total_);
+    scale_all(forces.data(), scored_, 1 / inertia, to.data());
+    scale_all(forces.data() + scored_, beside_, 1 / inertia, to.data() + total_);
   }
 
   // Modules in contact with another or the wall, or that may be before the next frame at the

@@ -89,7 +89,7 @@ TEST(Sensitivities, TellWhatIsThereAlone) {
   EXPECT_EQ(told[2].estimate, 0);
 }
 
-// Products are summed in every third frame, so they are known to some per cent only.
+// Products are summed in a frame every 0.3 s, so they are known to some per cent only.
 TEST(Sensitivities, AreClearedOfNuisances) {
   const auto plain = seen({0, 0, 0, 3}, 1).amplitudes(kNoNuisance);
   EXPECT_GT(plain[0].estimate, 1.5);
