@@ -98,7 +98,14 @@ SealedEffect drawn_effect(const std::vector<Effect>& effects, const Model& tank,
 // Whether two effects can be there at once: other terms, and none of the camera's, which would be
 // the verdict.
 bool beside(const Effect& a, const Effect& b) {
-  return !a.camera() && !b.camera() && a.term != b.term;
+  const bool other = a.term != b.term || (a.term == nullptr && a.name != b.name);
+  return !a.camera() && !b.camera() && other;
+}
+
+bool may_be_two(const std::vector<Effect>& effects) {
+  return std::ranges::any_of(effects, [&](const Effect& a) {
+    return std::ranges::any_of(effects, [&](const Effect& b) { return beside(a, b); });
+  });
 }
 
 // Amplitudes in their own units.
@@ -210,7 +217,7 @@ Sealed seal(const Model& tank, const std::vector<Effect>& effects, const std::ve
     out.effects.push_back(odd_effect(shape, seed, world));
     return out;
   }
-  const bool two = world % 8 == 3;
+  const bool two = world % 8 == 3 && may_be_two(effects);
   out.kind = two ? "two" : "named";
   std::uint32_t number = 0;
   const auto next = [&] { return drawn_effect(effects, tank, seed, world, number++); };

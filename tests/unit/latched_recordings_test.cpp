@@ -8,6 +8,7 @@
 #include "effects/bond_effects.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/predictor.hpp"
+#include "proof/sealed.hpp"
 #include "scores/bond_numbers.hpp"
 #include "scores/scores.hpp"
 #include "support/filmed.hpp"
@@ -176,6 +177,17 @@ TEST(BondEffects, AreThoseOfTheModelsControl) {
   ASSERT_NE(rate, all.end());
   EXPECT_EQ(rate->absent(model, 0), model.control.evaluation_rate);
   EXPECT_EQ(with_effect(model, *rate, {0.2}).control.evaluation_rate, 0.2);
+}
+
+// Two effects at once need two that can be there at once: faults of the control can, one alone
+// cannot.
+TEST(Sealed, AreTwoEffectsOnlyWhereThereAreTwo) {
+  Model tank = latching(2);
+  const std::vector<Effect> all = bond_effects(tank);
+  ASSERT_EQ(all.size(), 2u);
+  const std::vector<Shape> laws = shape_catalogue(tank, 60);
+  EXPECT_EQ(seal(tank, all, laws, 1, 3).names.size(), 2u);
+  EXPECT_EQ(seal(tank, {all.front()}, laws, 1, 3).kind, "named");
 }
 
 }  // namespace
