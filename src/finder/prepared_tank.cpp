@@ -149,8 +149,8 @@ ScorePlan PreparedTank::plan() const {
       });
   p.rate = calibration.training.front().rate;
   p.logged = p.latched() && std::ranges::all_of(calibration.shapes, [](const RecordingShape& s) {
-    return s.logged || !s.latches;
-  });
+               return s.logged || !s.latches;
+             });
   p.modules = std::max({bodies, known, later});
   return p;
 }
