@@ -37,8 +37,7 @@ struct Track {
 struct LoggedEvent {
   double time = 0;  ///< s, on the recording's clock
   EventKind kind = EventKind::latch;
-  std::int64_t a = -1,
-               b = -1;  ///< modules as the log numbers them, which need not be ids of tracks
+  std::int64_t a = -1, b = -1;  ///< modules by the log's numbers, which need not be ids of tracks
 };
 
 /// Tracks on one even clock: frame f was taken at start + f / rate.

@@ -62,6 +62,43 @@ int number_of(int module, const std::vector<Carried>& carried) {
   return -1;
 }
 
+// Cells and turns from neighbour to neighbour, so that errors of headings do not add up. False if
+// two modules would lie on one cell: these poses are of no rigid assembly.
+bool lay_on_lattice(const std::vector<const Carried*>& of,
+                    const std::vector<std::pair<int, int>>& bonds, CarriedAssembly& out) {
+  const std::vector<int>& modules = out.modules;
+  const std::size_t n = modules.size();
+  out.cell_x.assign(n, 0), out.cell_y.assign(n, 0), out.turn.assign(n, 0);
+  const auto place = [&](int module) {
+    return static_cast<std::size_t>(std::lower_bound(modules.begin(), modules.end(), module) -
+                                    modules.begin());
+  };
+  std::vector<std::size_t> found{0};
+  std::vector<bool> known(n, false);
+  known[0] = true;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const std::size_t from = found[k];
+    for (const auto& [a, b] : bonds) {
+      if (a != modules[from] && b != modules[from]) continue;
+      const std::size_t to = place(a == modules[from] ? b : a);
+      if (known[to]) continue;
+      const Carried &p = *of[from], &q = *of[to];
+      const Vec2 step = unrotate(rotation(p.theta), {q.x - p.x, q.y - p.y});
+      const Rot along = quarter(direction(step) + out.turn[from]);
+      out.cell_x[to] = out.cell_x[from] + static_cast<int>(along.c);
+      out.cell_y[to] = out.cell_y[from] + static_cast<int>(along.s);
+      out.turn[to] = out.turn[from] + quarters(q.theta - p.theta);
+      known[to] = true, found.push_back(to);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (out.cell_x[i] == out.cell_x[j] && out.cell_y[i] == out.cell_y[j]) return false;
+    }
+  }
+  return true;
+}
+
 // Faces between neighbours on the lattice: those that are not latched are as hidden.
 void cover(CarriedAssembly& a) {
   a.covered.assign(a.modules.size(), 0);
@@ -130,68 +167,44 @@ void CarriedAssemblies::regroup(const std::vector<std::pair<int, int>>& bonds, i
   all_ = std::move(now);
 }
 
-// Cells are found from neighbour to neighbour, so that errors of headings do not add up. False if
-// two modules would lie on one cell: these poses are of no rigid assembly.
 bool CarriedAssemblies::form(const std::vector<int>& modules,
                              const std::vector<std::pair<int, int>>& bonds, int frame,
                              const std::vector<Carried>& carried, CarriedAssembly& out) const {
-  const std::size_t n = modules.size();
   out = {};
   out.modules = modules, out.begun = frame;
-  out.cell_x.assign(n, 0), out.cell_y.assign(n, 0), out.turn.assign(n, 0);
   std::vector<const Carried*> of;
   for (const int module : modules) {
     of.push_back(&carried[static_cast<std::size_t>(number_of(module, carried))]);
   }
-  const auto place = [&](int module) {
-    return static_cast<std::size_t>(std::lower_bound(modules.begin(), modules.end(), module) -
-                                    modules.begin());
-  };
-  std::vector<std::size_t> found{0};
-  std::vector<bool> known(n, false);
-  known[0] = true;
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    for (const auto& [a, b] : bonds) {
-      if (a != modules[found[k]] && b != modules[found[k]]) continue;
-      const std::size_t from = found[k], to = place(a == modules[from] ? b : a);
-      if (known[to]) continue;
-      const Carried &p = *of[from], &q = *of[to];
-      const Vec2 step = unrotate(rotation(p.theta), {q.x - p.x, q.y - p.y});
-      const Rot along = quarter(direction(step) + out.turn[from]);
-      out.cell_x[to] = out.cell_x[from] + static_cast<int>(along.c);
-      out.cell_y[to] = out.cell_y[from] + static_cast<int>(along.s);
-      out.turn[to] = out.turn[from] + quarters(q.theta - p.theta);
-      known[to] = true, found.push_back(to);
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (out.cell_x[i] == out.cell_x[j] && out.cell_y[i] == out.cell_y[j]) return false;
-    }
-  }
+  if (!lay_on_lattice(of, bonds, out)) return false;
   cover(out);
-  const double share = 1 / static_cast<double>(n), side = model_.module.side;
+  take_motion(of, out);
+  return true;
+}
+
+// With the momentum and the angular momentum of the single modules.
+void CarriedAssemblies::take_motion(const std::vector<const Carried*>& of,
+                                    CarriedAssembly& out) const {
+  const double share = 1 / out.size(), side = model_.module.side;
   double centre_x = 0, centre_y = 0;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < of.size(); ++k) {
     centre_x += share * side * out.cell_x[k], centre_y += share * side * out.cell_y[k];
     out.x += share * of[k]->x, out.y += share * of[k]->y;
     out.vx += share * of[k]->vx, out.vy += share * of[k]->vy;
     out.theta += share * (of[k]->theta - out.turn[k] * kPi / 2);
   }
   double spin = 0;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < of.size(); ++k) {
     out.arm_x.push_back(out.cell_x[k] * side - centre_x);
     out.arm_y.push_back(out.cell_y[k] * side - centre_y);
     out.spread += out.arm_x[k] * out.arm_x[k] + out.arm_y[k] * out.arm_y[k];
     const Carried& c = *of[k];
-    spin +=
-        model_.module.inertia() * c.omega +
-        model_.module.mass * ((c.x - out.x) * (c.vy - out.vy) - (c.y - out.y) * (c.vx - out.vx));
+    const double across = (c.x - out.x) * (c.vy - out.vy) - (c.y - out.y) * (c.vx - out.vx);
+    spin += model_.module.inertia() * c.omega + model_.module.mass * across;
   }
   out.omega = spin / inertia(out);
   out.place = {share * noise_.place, 0, share * kAnySpeed * kAnySpeed};
   out.rotation = {share * noise_.heading, 0, share * kAnySpin * kAnySpin};
-  return true;
 }
 
 PredictedAssembly CarriedAssemblies::seen(CarriedAssembly& a, const PredictedFrame& frame,

@@ -74,6 +74,7 @@ class CarriedAssemblies {
  private:
   bool form(const std::vector<int>& modules, const std::vector<std::pair<int, int>>& bonds,
             int frame, const std::vector<Carried>& carried, CarriedAssembly& out) const;
+  void take_motion(const std::vector<const Carried*>& of, CarriedAssembly& out) const;
   double inertia(const CarriedAssembly& a) const;
 
   const Model& model_;
