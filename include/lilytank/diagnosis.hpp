@@ -19,6 +19,10 @@ namespace lilytank {
 
 class DirectoryLock;
 
+/// A smaller budget has as many simulations as this one, of recordings in a tank: fewer null
+/// experiments would not give thresholds that 2 % of them exceed.
+inline constexpr double kLeastTankMinutes = 3;
+
 struct DiagnosisOptions : JobControl {
   int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
   double minutes = 10;  ///< time budget on two cores: scales the simulations

@@ -26,8 +26,9 @@ void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
   DiagnosisOptions& d = job.diagnosis;
   options.add({"out", "directory of the results (default: out/diagnose-<name>)", "DIR"});
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
-  options.add({"budget", "minutes that it may take on two cores (10)", "MINUTES"}, &d.minutes, 1,
-              1e4);
+  options.add(
+      {"budget", "minutes that it may take on two cores (10); at least 3 for a tank", "MINUTES"},
+      &d.minutes, 1, 1e4);
   options.add({"hold-out", "recordings kept for showing, if none is marked held_out (1)", "N"},
               &d.hold_out, 0, 1000);
   options.add(
@@ -73,9 +74,11 @@ int dry_run(const Experiment& experiment, const DiagnosisOptions& job) {
     recordings += 1, held_out += r.held_out ? 1 : 0;
   }
   if (held_out == 0) held_out = std::min<std::int64_t>(job.hold_out, recordings);
+  DiagnosisOptions effective = job;
+  effective.minutes = std::max(effective.minutes, kLeastTankMinutes);
   return dry_run(experiment.name + ": " + counted(recordings, "recording") + " of Lilies, " +
                      std::to_string(held_out) + " held out",
-                 job);
+                 effective);
 }
 
 }  // namespace

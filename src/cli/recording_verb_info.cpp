@@ -2,15 +2,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "cli/recording_verb.hpp"
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
+#include "recording/event_log.hpp"
 #include "statistics/median.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
 #include "text/printable.hpp"
 #include "text/words.hpp"
+#include "tracks/seen_bonds.hpp"
 
 namespace lilytank::cli {
 namespace {
@@ -97,6 +100,33 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
             << significant(n.typical_step * r.rate, 3) << " m/s)\n";
 }
 
+// How modules were latched, as their poses show it.
+struct SeenBonds {
+  std::size_t bonds = 0;
+  double share = 0;  // bonds per module, mean over time
+};
+std::optional<SeenBonds> bonds_of(const Recording& r, const RecordingOptions& options) {
+  if (r.body != BodyKind::lily || !r.latches || !r.has_heading()) return std::nullopt;
+  SeenBonds out;
+  double frames = 0, modules = 0;
+  for (const SeenBond& bond : seen_bonds(r, 2 * options.body_radius)) {
+    out.bonds += 1, frames += bond.end - bond.begin;
+  }
+  for (const Track& t : r.tracks) modules += static_cast<double>(t.x.size());
+  out.share = modules > 0 ? frames / modules : 0;
+  return out;
+}
+
+void print_bonds(const NamedRecording& named, const Recording& r) {
+  if (const auto seen = bonds_of(r, named.options)) {
+    std::cout << "  bonds     " << seen->bonds << " seen, on average "
+              << significant(seen->share, 2) << " per module\n";
+  }
+  if (named.options.events.empty()) return;
+  std::cout << "  events    " << read_event_log(named.options.events).size() << " in "
+            << named.options.events << "\n";
+}
+
 void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   const Recording& r = checked.recording;
   std::cout << named.name << "\n  format    " << format_word(checked.format) << ", "
@@ -116,6 +146,7 @@ void print_info(const NamedRecording& named, const CheckedRecording& checked) {
   }
   if (!checked.refused()) {
     print_tracks(checked, named.options);
+    print_bonds(named, r);
   } else if (checked.identities > 0) {
     std::cout << "  bodies    " << checked.identities << "\n";
   }
@@ -150,6 +181,12 @@ Json info_json(const NamedRecording& named, const CheckedRecording& checked) {
               {"sightings", n.seen},
               {"farthest", n.farthest},
               {"median_step", n.typical_step}});
+  if (const auto seen = bonds_of(r, named.options)) {
+    out["bonds"] = seen->bonds, out["bonds_per_module"] = seen->share;
+  }
+  if (!named.options.events.empty()) {
+    out["events"] = read_event_log(named.options.events).size();
+  }
   return out;
 }
 

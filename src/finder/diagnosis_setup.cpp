@@ -33,7 +33,7 @@ int most_bodies(const std::vector<RecordingShape>& shapes) {
 }
 
 DiagnosisBudget::DiagnosisBudget(double minutes) {
-  const double s = std::clamp(minutes / 10, 0.3, 4.0);
+  const double s = std::clamp(minutes, kLeastTankMinutes, 40.0) / 10;
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
