@@ -132,6 +132,12 @@ std::string kind_of(const std::vector<RecordingShape>& shapes) {
 
 // Null experiments hold for recordings like those that they were simulated for.
 void refuse_unlike(const CalibrationSetup& tank, const CalibrationSetup& recordings) {
+  for (const RecordingShape& shape : recordings.shapes) {
+    if (!shape.latches) continue;
+    throw InputError(shape.name +
+                     " was recorded with latches on: null experiments begin with the poses of "
+                     "their own recordings, so those of another experiment do not hold for it");
+  }
   const std::string of_tank = kind_of(tank.shapes), own = kind_of(recordings.shapes);
   if (own != of_tank) {
     throw InputError("the fitted recordings of " + recordings.name + " are " + own + ", those of " +

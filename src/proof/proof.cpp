@@ -203,6 +203,7 @@ class Examination {
     const Experiment open = open_tank(options_, tank_);
     const DiagnosisOptions job = diagnosis_options();
     DiagnosisSetup setup(open, job);
+    begin_anywhere(setup.calibration);
     const std::string identity = setup.identity() + (job.uncertified ? " uncertified" : "");
     const auto lock = claim_directory(job.out, job.force, {"proof", identity, proof_files()});
     if (job.lock != nullptr) *job.lock = lock;
@@ -252,6 +253,14 @@ class Examination {
       };
     }
     return job;
+  }
+
+  // How self-assembly begins shows for minutes, and every experiment begins with other poses than
+  // the open recordings: so do the null experiments that serve all of them.
+  static void begin_anywhere(CalibrationSetup& setup) {
+    for (RecordingShape& shape : setup.shapes) {
+      if (shape.latches) shape.starts.clear();
+    }
   }
 
   // Results of this call, then those of earlier ones: an experiment may be diagnosed again for its
