@@ -29,8 +29,11 @@ std::vector<Effect> bond_effects(const Model& model) {
     out.push_back(of_control("evaluation_rate", rate, kOtherRate * parameter_value(model, rate),
                              "bonds are evaluated at another rate than the model's"));
     out.back().two_sided = true;
-    out.push_back(of_control("message_loss", "control.message_loss", kFaulty,
-                             "messages to a neighbour are lost with this probability"));
+    // Of random evaluations, those whose message is lost are as if there were fewer.
+    if (!events) {
+      out.push_back(of_control("message_loss", "control.message_loss", kFaulty,
+                               "messages to a neighbour are lost with this probability"));
+    }
     out.push_back(of_control("answer_loss", "control.answer_loss", kFaulty,
                              "answers to the initiator are lost with this probability"));
     out.push_back(of_control("release_failure", "control.release_failure", kFaulty,

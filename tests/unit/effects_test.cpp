@@ -39,7 +39,8 @@ TEST(Effects, stayInTheirOrder) {
                        {"flow_pulsation", 1},     {"correlated_gusts", 4},
                        {"vortex_shedding", 2},    {"state_dependent_noise", 2},
                        {"heavy_tailed_kicks", 1}, {"lens_distortion", 1},
-                       {"camera_tilt", 1},        {"contact_law", 1}};
+                       {"camera_tilt", 1},        {"contact_law", 1},
+                       {"capture_distance", 1},   {"latch_failure", 1}};
   Names found;
   for (const Effect& e : effect_catalogue(standard_model())) {
     if (found.empty() || found.back().first != e.name) found.emplace_back(e.name, 0);
