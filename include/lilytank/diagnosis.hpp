@@ -75,7 +75,8 @@ struct DiagnosisFinding {
   std::string equation, split;  ///< the experiment that would split a group; "" if there is none
   std::vector<FoundParameter> parameters;
   FoundCurve curve;                              ///< the region's map; of unnamed effects their law
-  double gain = 0, gain_low = 0, gain_high = 0;  ///< nat on held-out recordings, one step ahead
+  /// nat on held-out recordings, one step ahead; NaN of faults of the control, which move nothing.
+  double gain = 0, gain_low = 0, gain_high = 0;
 };
 
 /// The smallest size of an effect that would have been seen in half of all cases, along the axis

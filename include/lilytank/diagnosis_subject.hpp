@@ -66,8 +66,9 @@ inline constexpr std::array<ReportName, 6> kBodyVariables{{
     {"position", "position x"},
     {"turn", "speed"},
 }};
-inline constexpr std::array<ReportName, 12> kTankGroups{{
+inline constexpr std::array<ReportName, 13> kTankGroups{{
     {"balance", "balance of momentum"},
+    {"bond", "joins and releases"},
     {"camera", "gaps at contact, across the image"},
     {"contact", "bounces"},
     {"displacement", "displacement (MSD)"},

@@ -57,7 +57,10 @@ DiagnosedTank diagnosed_tank(const DiagnoseJob& job, const std::vector<std::stri
 }
 
 void add_sources(const Experiment& experiment, std::vector<std::string>& inputs) {
-  for (const RecordingSource& source : experiment.sources) inputs.push_back(source.file);
+  for (const RecordingSource& source : experiment.sources) {
+    inputs.push_back(source.file);
+    if (!source.options.events.empty()) inputs.push_back(source.options.events);
+  }
 }
 
 int dry_run(const std::string& what, const DiagnosisOptions& job) {

@@ -9,6 +9,7 @@
 #include "finder/show.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
+#include "statistics/undefined.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -117,6 +118,11 @@ void show(PreparedTank& tank, const JointFit& fit, const std::vector<double>& be
     kept.push_back(paths[i]), values.push_back(fit.value[i]);
   }
   const Model after = with_parameters(fit.model, kept, values);
+  // The predictor decides no bonds: what is said of these does not change it.
+  if (std::ranges::all_of(out.findings, [](const auto& f) { return f.variable == "bond"; })) {
+    for (DiagnosisFinding& f : out.findings) f.gain = f.gain_low = f.gain_high = kUndefined;
+    return;
+  }
   // Compared with the better of two baselines: under a strong omitted effect a calibration can be
   // worse than the start.
   const auto gain_over = [&](const Model& without) {

@@ -192,6 +192,7 @@ ReportSection fit_section(const Diagnosis& d) {
                             digits(100 * d.msd_high) + "]");
   }
   const DiagnosisFinding& f = d.findings.front();
+  if (std::isnan(f.gain)) return section;
   section.below.push_back(std::string(of.gain) + ": log-likelihood gain " + digits(f.gain) +
                           " nat [" + digits(f.gain_low) + ", " + digits(f.gain_high) + "]");
   return section;

@@ -1,5 +1,7 @@
 // The files of a diagnosis.
 
+#include <cmath>
+
 #include "io/atomic_file.hpp"
 #include "io/json.hpp"
 #include "jobs/job_directory.hpp"
@@ -19,8 +21,12 @@ Json finding_json(const DiagnosisFinding& f) {
     out["parameters"].push_back(
         {{"name", p.name}, {"value", p.value}, {"low", p.low}, {"high", p.high}, {"unit", p.unit}});
   }
-  out["held_out"] = {
-      {"log_likelihood_gain", f.gain}, {"low", f.gain_low}, {"high", f.gain_high}, {"unit", "nat"}};
+  if (!std::isnan(f.gain)) {
+    out["held_out"] = {{"log_likelihood_gain", f.gain},
+                       {"low", f.gain_low},
+                       {"high", f.gain_high},
+                       {"unit", "nat"}};
+  }
   return out;
 }
 

@@ -124,7 +124,8 @@ void model_world(PreparedTank& tank, const Judged& judged, const Model& truth_mo
       compare(truth, {p.path, 0, p.value, p.low, p.high}, world);
   }
   world.removed = d.removed();
-  world.gain = d.findings.front().gain, world.gain_low = d.findings.front().gain_low;
+  const DiagnosisFinding& first = d.findings.front();
+  if (!std::isnan(first.gain)) world.gain = first.gain, world.gain_low = first.gain_low;
 }
 
 // Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
