@@ -74,7 +74,7 @@ struct DiagnosisFinding {
   std::string unit, text;       ///< of the variable; in words
   std::string equation, split;  ///< the experiment that would split a group; "" if there is none
   std::vector<FoundParameter> parameters;
-  FoundCurve curve;                              ///< the region's map; of unnamed effects their law
+  FoundCurve curve;  ///< the region's map; of unnamed effects their law
   /// nat on held-out recordings, one step ahead; NaN of faults of the control, which move nothing.
   double gain = 0, gain_low = 0, gain_high = 0;
 };
