@@ -13,6 +13,7 @@
 #include "proof/proof_files.hpp"
 #include "proof/proof_tank.hpp"
 #include "proof/sealed.hpp"
+#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -128,10 +129,16 @@ void model_world(PreparedTank& tank, const Judged& judged, const Model& truth_mo
   if (!std::isnan(first.gain)) world.gain = first.gain, world.gain_low = first.gain_low;
 }
 
+// What the draws of a seed depend on beside it: " of evaluation_rate, message_loss". Experiments of
+// one number differ by it.
+std::string drawn_from(const ProofOptions& options) {
+  return options.effects.empty() ? "" : " of " + joined(options.effects, ", ");
+}
+
 // Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
 // effect has by the curve that shows it best.
-double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s, std::size_t world,
-                  std::uint64_t seed) {
+double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
+                  const std::string& name, std::uint64_t seed) {
   const CalibrationSetup& setup = tank.setup.calibration;
   const auto truth = truth_of(truth_model, s);
   std::vector<double> values = setup.start;
@@ -144,7 +151,7 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
   for (const SealedEffect& own : s.effects) {
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
-    const std::string stage = "expected " + std::to_string(world) + " " + std::to_string(own.like);
+    const std::string stage = "expected " + name + " " + std::to_string(own.like);
     const Eigen::VectorXd mean =
         tank.ensemble.mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
     const ModelSelection& selection = tank.selection;
@@ -166,15 +173,21 @@ void refuse_unknown(const std::vector<std::string>& names, const std::vector<Eff
 // Those of the requested kind.
 std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
                               const std::vector<Shape>& shapes, std::uint64_t seed) {
-  std::vector<Effect> effects = effect_catalogue(tank);
-  refuse_unknown(options.effects, effects);
-  std::erase_if(effects, [&](const Effect& e) {
-    return !options.effects.empty() &&
-           std::ranges::find(options.effects, e.name) == options.effects.end();
-  });
+  const std::vector<Effect> catalogue = effect_catalogue(tank);
+  refuse_unknown(options.effects, catalogue);
+  std::vector<Effect> effects;
+  std::vector<int> places;  // of these in the catalogue
+  for (const Effect& e : catalogue) {
+    const auto& names = options.effects;
+    if (!names.empty() && std::ranges::find(names, e.name) == names.end()) continue;
+    effects.push_back(e), places.push_back(static_cast<int>(&e - catalogue.data()));
+  }
   std::vector<Sealed> out;
   for (int w = 0; w < options.worlds; ++w) {
     Sealed one = seal(tank, effects, shapes, seed, w);
+    for (SealedEffect& e : one.effects) {
+      if (e.like >= 0) e.like = places[static_cast<std::size_t>(e.like)];
+    }
     one.foreign = options.foreign, one.logged = options.event_log;
     if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
   }
@@ -291,7 +304,7 @@ class Examination {
   }
 
   std::string stage_of(const std::string& name) const {
-    return options_.only.empty() ? name : name + " " + options_.only;
+    return (options_.only.empty() ? name : name + " " + options_.only) + drawn_from(options_);
   }
 
   // Those that an experiment does not meet are a row. One that diverged has none: it is undecided.
@@ -355,8 +368,8 @@ class Examination {
     const Sealed& s = sealed_[w];
     ProofWorld world;
     world.kind = s.kind, world.effects = s.names;
-    world.expected_z =
-        expected_z(tank, tank_, s, number(w), derived_seed(seed_, kExpectedSeed + number(w)));
+    world.expected_z = expected_z(tank, tank_, s, std::to_string(number(w)) + drawn_from(options_),
+                                  derived_seed(seed_, kExpectedSeed + number(w)));
     Diagnosis d;
     std::vector<Recording> recordings;
     std::optional<Judged> judged;
