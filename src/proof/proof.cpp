@@ -13,6 +13,7 @@
 #include "proof/proof_files.hpp"
 #include "proof/proof_tank.hpp"
 #include "proof/sealed.hpp"
+#include "text/fnv.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
@@ -129,10 +130,13 @@ void model_world(PreparedTank& tank, const Judged& judged, const Model& truth_mo
   if (!std::isnan(first.gain)) world.gain = first.gain, world.gain_low = first.gain_low;
 }
 
-// What the draws of a seed depend on beside it: " of evaluation_rate, message_loss". Experiments of
-// one number differ by it.
+// Experiments of one seed and number differ by the effects that they are drawn from; for names of
+// stages.
 std::string drawn_from(const ProofOptions& options) {
-  return options.effects.empty() ? "" : " of " + joined(options.effects, ", ");
+  if (options.effects.empty()) return "";
+  Fnv hash;
+  hash.add(joined(options.effects, " "));
+  return " of " + hex(hash.value());
 }
 
 // Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
