@@ -20,6 +20,7 @@
 #include "lilytank/run.hpp"
 #include "lilytank/study.hpp"
 #include "lilytank/target.hpp"
+#include "recording/event_log.hpp"
 #include "study/kept_rows.hpp"
 #include "study/row_text.hpp"
 #include "study/study_record.hpp"
@@ -203,6 +204,9 @@ bool read_events(std::string_view bytes) {
   return read_file("run/events.csv", bytes,
                    [](const std::string&) { rates_of_run(scratch() + "/run"); });
 }
+bool read_log(std::string_view bytes) {
+  return read_file("log.csv", bytes, [](const std::string& file) { read_event_log(file); });
+}
 bool read_rates(std::string_view bytes) {
   return accepts("rates.csv", [&] { rate_table_from(std::string(bytes), "rates.csv"); });
 }
@@ -296,6 +300,7 @@ std::vector<Reader> file_readers() {
       {"trajectory-csv", read_csv, stored("run/trajectory.csv")},
       {"metrics", read_metrics, stored("run/metrics.csv")},
       {"events", read_events, stored("run/events.csv")},
+      {"event-log", read_log, kLogColumns + "\n0.5,latch,0,1\n1.25,link,1,0\n9,unlink,0,1\n"},
       {"rates", read_rates, rate_rows()},
       {"checkpoint", read_checkpoint, checkpoint()},
       {"study-rows", read_rows,
