@@ -10,6 +10,7 @@
 #include "lilytank/random.hpp"
 #include "proof/baseline_method.hpp"
 #include "proof/closed_loop.hpp"
+#include "proof/measured_experiment.hpp"
 #include "proof/proof_files.hpp"
 #include "proof/proof_tank.hpp"
 #include "proof/sealed.hpp"
@@ -24,38 +25,6 @@ constexpr std::uint64_t kKeySeed = 2, kWorldSeed = 3, kFurtherSeed = 1u << 20,
 // A world takes as long as so many simulated experiments, on the average.
 constexpr double kOfAWorld = 70;
 constexpr int kExpectedRuns = 8;  // experiments by which the expected z is estimated
-
-// What is measured of a synthetic experiment before it is diagnosed.
-struct MeasuredExperiment {
-  int regression = -1;  // the catalogue's effect that a sparse regression finds; -1: none
-  Vectors observed;
-  ScoreDetails details;
-};
-
-// As a stage of simulations keeps it: the sizes and details, the summary, the scores.
-constexpr Eigen::Index kRowBegins = 5;
-std::vector<double> row_of(const MeasuredExperiment& m) {
-  std::vector<double> row{static_cast<double>(m.regression),
-                          static_cast<double>(m.observed.summary.size()), m.details.pulsation,
-                          m.details.swinging, static_cast<double>(m.details.heaviest)};
-  row.insert(row.end(), m.observed.summary.begin(), m.observed.summary.end());
-  row.insert(row.end(), m.observed.scores.begin(), m.observed.scores.end());
-  return row;
-}
-
-// Nothing of an experiment that diverged, whose row is empty.
-std::optional<MeasuredExperiment> measured_of(const std::vector<double>& row) {
-  if (row.empty()) return std::nullopt;
-  MeasuredExperiment m;
-  m.regression = static_cast<int>(row[0]);
-  const auto summary = static_cast<Eigen::Index>(row[1]);
-  m.details.pulsation = row[2], m.details.swinging = row[3];
-  m.details.heaviest = static_cast<int>(row[4]);
-  const Eigen::Map<const Eigen::VectorXd> all(row.data() + kRowBegins,
-                                              static_cast<Eigen::Index>(row.size()) - kRowBegins);
-  m.observed = {all.head(summary), all.tail(all.size() - summary)};
-  return m;
-}
 
 // The verdicts of the diagnosis and of the simpler methods.
 Judged judge_world(PreparedTank& tank, const MeasuredExperiment& measured,
@@ -163,43 +132,6 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
                                          : selection.expected_z(own.like, mean, kExpectedRuns));
   }
   return s.effects.empty() ? 0 : least;
-}
-
-void refuse_unknown(const std::vector<std::string>& names, const std::vector<Effect>& effects) {
-  std::vector<std::string> known;
-  for (const Effect& e : effects) known.push_back(e.name);
-  for (const std::string& name : names) {
-    if (std::ranges::find(known, name) != known.end()) continue;
-    throw InputError("'" + name + "' is no effect of this tank" + did_you_mean(name, known));
-  }
-}
-
-// Those of the requested kind.
-std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
-                              const std::vector<Shape>& shapes, std::uint64_t seed) {
-  const std::vector<Effect> catalogue = effect_catalogue(tank);
-  refuse_unknown(options.effects, catalogue);
-  std::vector<Effect> effects;
-  std::vector<int> places;  // of these in the catalogue
-  for (const Effect& e : catalogue) {
-    const auto& names = options.effects;
-    if (!names.empty() && std::ranges::find(names, e.name) == names.end()) continue;
-    effects.push_back(e), places.push_back(static_cast<int>(&e - catalogue.data()));
-  }
-  std::vector<Sealed> out;
-  for (int w = 0; w < options.worlds; ++w) {
-    Sealed one = seal(tank, effects, shapes, seed, w);
-    for (SealedEffect& e : one.effects) {
-      if (e.like >= 0) e.like = places[static_cast<std::size_t>(e.like)];
-    }
-    one.foreign = options.foreign, one.logged = options.event_log;
-    if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
-  }
-  if (out.empty()) {
-    throw InputError("none of the first " + std::to_string(options.worlds) +
-                     " synthetic experiments is \"" + options.only + "\"");
-  }
-  return out;
 }
 
 // One tank and its blinded experiments, diagnosed one after another.

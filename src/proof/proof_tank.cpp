@@ -1,7 +1,8 @@
 #include "proof/proof_tank.hpp"
 
+#include <algorithm>
+
 #include "lilytank/random.hpp"
-#include "proof/sealed.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
@@ -21,6 +22,15 @@ Model with_modules(Model tank, const ProofOptions& options) {
   if (options.latches.empty()) return tank;
   tank.control.latches = true, tank.rulesets = {read_ruleset(options.latches)};
   return tank;
+}
+
+void refuse_unknown(const std::vector<std::string>& names, const std::vector<Effect>& effects) {
+  std::vector<std::string> known;
+  for (const Effect& e : effects) known.push_back(e.name);
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw InputError("'" + name + "' is no effect of this tank" + did_you_mean(name, known));
+  }
 }
 
 }  // namespace
@@ -74,6 +84,33 @@ std::string words_for_tank(const ProofOptions& options) {
           : options.event_log     ? ", latches on, events logged"
                                   : ", latches on") +
          (options.diagnosis.uncertified ? ", insufficient recordings diagnosed" : "");
+}
+
+std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
+                              const std::vector<Shape>& shapes, std::uint64_t seed) {
+  const std::vector<Effect> catalogue = effect_catalogue(tank);
+  refuse_unknown(options.effects, catalogue);
+  std::vector<Effect> effects;
+  std::vector<int> places;  // of these in the catalogue
+  for (const Effect& e : catalogue) {
+    const auto& names = options.effects;
+    if (!names.empty() && std::ranges::find(names, e.name) == names.end()) continue;
+    effects.push_back(e), places.push_back(static_cast<int>(&e - catalogue.data()));
+  }
+  std::vector<Sealed> out;
+  for (int w = 0; w < options.worlds; ++w) {
+    Sealed one = seal(tank, effects, shapes, seed, w);
+    for (SealedEffect& e : one.effects) {
+      if (e.like >= 0) e.like = places[static_cast<std::size_t>(e.like)];
+    }
+    one.foreign = options.foreign, one.logged = options.event_log;
+    if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));
+  }
+  if (out.empty()) {
+    throw InputError("none of the first " + std::to_string(options.worlds) +
+                     " synthetic experiments is \"" + options.only + "\"");
+  }
+  return out;
 }
 
 }  // namespace lilytank

@@ -1,9 +1,11 @@
-// What all experiments of a proof share: the tank, and what is open about it.
+// The tank that all experiments of a proof share, what is open about it, and the experiments.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "lilytank/experiment.hpp"
 #include "lilytank/proof.hpp"
+#include "proof/sealed.hpp"
 
 namespace lilytank {
 
@@ -19,5 +21,9 @@ Experiment open_tank(const ProofOptions& options, const Model& tank);
 std::string key_of_tank(const ProofOptions& options);
 /// Proof::tank.
 std::string words_for_tank(const ProofOptions& options);
+/// The experiments of the requested kind. Throws InputError if there are none, or on an effect that
+/// the tank cannot have.
+std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
+                              const std::vector<Shape>& shapes, std::uint64_t seed);
 
 }  // namespace lilytank

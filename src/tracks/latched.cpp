@@ -2,34 +2,15 @@
 
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "lilytank/math.hpp"
+#include "tracks/sets.hpp"
 
 namespace lilytank {
 namespace {
 
 constexpr int kMostFrames = 2000;  // the share of time in an assembly is then known to 0.02
-
-// Sets of modules; a set is known by its first module.
-class Sets {
- public:
-  explicit Sets(int modules) : parent_(static_cast<std::size_t>(modules)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int first(int module) {
-    int& parent = parent_[static_cast<std::size_t>(module)];
-    return parent == module ? module : parent = first(parent);
-  }
-  void join(int a, int b) {
-    a = first(a), b = first(b);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct Direction {
   double x, y;
