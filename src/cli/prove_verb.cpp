@@ -102,6 +102,7 @@ int dry_run(const ProofOptions& job) {
   const DiagnosisOptions& d = job.diagnosis;
   check_directory_of("proof", d.out, d.force);
   if (job.foreign) static_cast<void>(foreign_engine());  // is there one?
+  static_cast<void>(finished_proof(job));                // are there such rules, effects, kinds?
   std::cout << "would simulate and diagnose " << counted(job.worlds, "experiment")
             << (job.only.empty() ? "" : " (of these, " + job.only + " only)")
             << " of 3 recordings of " << significant(job.minutes, 3) << " min"

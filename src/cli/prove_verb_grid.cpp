@@ -42,6 +42,8 @@ std::string command_of(const ProofOptions& p) {
   value("--modules", std::to_string(p.modules));
   value("--budget", shortest(p.diagnosis.minutes)), value("--modelled", "0");
   flag("--known-flow", p.known_flow), flag("--drawn-tank", p.drawn_tank);
+  if (!p.latches.empty()) value("--latches", p.latches);
+  flag("--event-log", p.event_log);
   flag("--foreign", p.foreign), flag("--uncertified", p.diagnosis.uncertified);
   value("--seed", std::to_string(p.diagnosis.seed)), value("--out", p.diagnosis.out);
   return joined(words, " ");
@@ -69,7 +71,7 @@ int prove_on_grid(const VerbOptions& options, const ProofOptions& proof,
                   const Host& host) {
   options.refuse_given({"minutes", "ball-minutes", "modules", "budget"},
                        "is an axis of the grid: write --cells AXIS=VALUE");
-  options.refuse_given({"only", "closed-loop", "modelled", "figure-width", "no-titles"},
+  options.refuse_given({"only", "effect", "closed-loop", "modelled", "figure-width", "no-titles"},
                        "has no effect with --grid");
   GridOptions job;
   job.proof = proof, job.axes = axes_of(options, cells, proof.known_flow);

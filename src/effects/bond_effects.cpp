@@ -29,7 +29,7 @@ std::vector<Effect> bond_effects(const Model& model) {
     out.push_back(of_control("evaluation_rate", rate, kOtherRate * parameter_value(model, rate),
                              "bonds are evaluated at another rate than the model's"));
     out.back().two_sided = true;
-    // Of random evaluations, those whose message is lost are as if there were fewer.
+    // Of random evaluations, a lost message makes one less.
     if (!events) {
       out.push_back(of_control("message_loss", "control.message_loss", kFaulty,
                                "messages to a neighbour are lost with this probability"));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "lilytank/math.hpp"
 #include "statistics/undefined.hpp"
+#include "tracks/sets.hpp"
 
 namespace lilytank {
 namespace {
@@ -15,33 +15,14 @@ constexpr double kAnySpeed = 0.3, kAnySpin = 5;
 
 // Sets of modules that bonds connect, of two and more, ascending.
 std::vector<std::vector<int>> connected(const std::vector<std::pair<int, int>>& bonds) {
-  std::vector<int> modules;
-  for (const auto& [a, b] : bonds) modules.push_back(a), modules.push_back(b);
-  std::sort(modules.begin(), modules.end());
-  modules.erase(std::unique(modules.begin(), modules.end()), modules.end());
-  std::vector<std::size_t> first(modules.size());
-  std::iota(first.begin(), first.end(), 0u);
-  const auto number = [&](int module) {
-    return static_cast<std::size_t>(std::lower_bound(modules.begin(), modules.end(), module) -
-                                    modules.begin());
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& [a, b] : bonds) {
-      std::size_t &of_a = first[number(a)], &of_b = first[number(b)];
-      changed = changed || of_a != of_b;
-      of_a = of_b = std::min(of_a, of_b);
-    }
-  }
-  std::vector<std::vector<int>> out;
-  for (std::size_t k = 0; k < modules.size(); ++k) {
-    if (first[k] != k) continue;
-    out.emplace_back();
-    for (std::size_t m = k; m < modules.size(); ++m) {
-      if (first[m] == k) out.back().push_back(modules[m]);
-    }
-  }
-  return out;
+  int modules = 0;
+  for (const auto& [a, b] : bonds) modules = std::max({modules, a + 1, b + 1});
+  Sets sets(modules);
+  for (const auto& [a, b] : bonds) sets.join(a, b);
+  std::vector<std::vector<int>> by_first(static_cast<std::size_t>(modules));
+  for (int m = 0; m < modules; ++m) by_first[static_cast<std::size_t>(sets.first(m))].push_back(m);
+  std::erase_if(by_first, [](const std::vector<int>& set) { return set.size() < 2; });
+  return by_first;
 }
 
 // The nearest of the four directions, 0..3, of a vector.

@@ -24,6 +24,24 @@ Matrix precision(const Matrix& products, const Matrix& known) {
 
 }  // namespace
 
+void Pushes::of_members(const PredictedFrame& frame, const PredictedAssembly& assembly,
+                        const std::vector<Pushes>& each) {
+  for (auto* of : {&x, &y, &turn}) std::fill(of->begin(), of->end(), 0.0f);
+  const double mass = frame.model->module.mass, inertia = frame.model->module.inertia();
+  const auto share = static_cast<float>(mass / assembly.mass);
+  const auto own = static_cast<float>(inertia / assembly.inertia);
+  for (const int member : assembly.members) {
+    const auto i = static_cast<std::size_t>(member);
+    const Pushes& push = each[i];
+    const auto by_y = static_cast<float>(mass / assembly.inertia * (frame.now.x[i] - assembly.x));
+    const auto by_x = static_cast<float>(mass / assembly.inertia * (frame.now.y[i] - assembly.y));
+    for (std::size_t f = 0; f < x.size(); ++f) {
+      x[f] += share * push.x[f], y[f] += share * push.y[f];
+      turn[f] += own * push.turn[f] + by_y * push.y[f] - by_x * push.x[f];
+    }
+  }
+}
+
 Sensitivities::Sensitivities(std::size_t features, std::size_t bodies, std::size_t partners)
     : features_(features),
       partners_(partners),

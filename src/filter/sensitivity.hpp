@@ -13,6 +13,10 @@ struct Pushes {
   std::vector<float> x, y, turn;
   explicit Pushes(std::size_t features)
       : x(in_lanes(features)), y(in_lanes(features)), turn(in_lanes(features)) {}
+  /// Those of an assembly, by those of every module of the frame: what pushes its members pushes
+  /// it, at their arms.
+  void of_members(const PredictedFrame& frame, const PredictedAssembly& assembly,
+                  const std::vector<Pushes>& each);
   /// Features and empty ones, for vectors of any length.
   static std::size_t in_lanes(std::size_t features) {
     return (features + kFeatureLanes - 1) / kFeatureLanes * kFeatureLanes;
@@ -27,7 +31,7 @@ class Sensitivities {
   /// `partners`: features at the end with which products are summed.
   Sensitivities(std::size_t features, std::size_t bodies, std::size_t partners);
 
-  /// A body whose prediction cannot be used at this frame: forgets what it was pushed by.
+  /// Forgets what pushed a body. Call it where its prediction cannot be used.
   void forget(std::size_t body);
   /// Carries all features of a body over a frame and takes up what the frame then showed of it if
   /// `usable`. `loss`: share of a velocity that drag takes in a second.

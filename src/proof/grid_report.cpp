@@ -5,22 +5,13 @@
 #include "io/file_digest.hpp"
 #include "lilytank/proof_grid.hpp"
 #include "lilytank/statistics.hpp"
+#include "proof/rate_text.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
 namespace {
-
-std::string interval_text(const Estimate& e) {
-  return fixed(100 * e.low, 1) + " to " + fixed(100 * e.high, 1) + " %";
-}
-
-// "1 of 30 (95 %: 0.6 to 16.7 %)"
-std::string rate_of(int positives, int answered) {
-  return std::to_string(positives) + " of " + std::to_string(answered) +
-         " (95 %: " + interval_text(wilson(positives, answered)) + ")";
-}
 
 std::string reported_text(const GridRow& row) {
   return joined(row.reported, "; ", [](const auto& one) {
@@ -51,8 +42,8 @@ ReportSection table_of(const ProofGrid& grid) {
                               std::to_string(r.cell.modules), significant(r.cell.budget, 4),
                               std::to_string(r.experiments), std::to_string(r.insufficient),
                               std::to_string(r.complete), std::to_string(r.false_positives),
-                              n > 0 ? interval_text(wilson(r.false_positives, n)) : "",
-                              reported_text(r), unmet_text(r)});
+                              n > 0 ? range_text(r.false_positives, n) : "", reported_text(r),
+                              unmet_text(r)});
   }
   out.below = {
       "balls and Lilies: length of each of three recordings. Intervals (Wilson) are of the false "
@@ -78,10 +69,9 @@ ReportCard card_of_grid(const ProofGrid& grid) {
   for (const auto& [budget, p] : by_budget) {
     const std::string of = ", budget " + significant(budget, 4) + " min";
     if (p.answered > 0) {
-      card.facts.emplace_back("false positives" + of, rate_of(p.positives, p.answered));
+      card.facts.emplace_back("false positives" + of, rate_text(p.positives, p.answered));
     }
-    card.facts.emplace_back("insufficient" + of, std::to_string(p.insufficient) + " of " +
-                                                     std::to_string(p.experiments));
+    card.facts.emplace_back("insufficient" + of, count_text(p.insufficient, p.experiments));
   }
   return card;
 }

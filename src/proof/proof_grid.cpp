@@ -24,6 +24,7 @@ std::string identity_of(const GridOptions& options) {
   const ProofOptions& p = options.proof;
   return "1 " + std::to_string(p.diagnosis.seed) + (p.known_flow ? " known-flow" : "") +
          (p.drawn_tank ? " drawn-tank" : "") + (p.foreign ? " foreign" : "") +
+         (p.latches.empty() ? "" : " " + words_for_latches(p)) +
          (p.diagnosis.uncertified ? " uncertified" : "");
 }
 

@@ -8,6 +8,7 @@
 
 #include "lilytank/proof.hpp"
 #include "lilytank/statistics.hpp"
+#include "proof/rate_text.hpp"
 #include "statistics/text_table.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -21,6 +22,7 @@ bool ProofFinding::names(const std::string& of) const {
 
 bool ProofInterval::of_effect(const std::vector<std::string>& effects) const {
   return path.starts_with("forces.empirical_force.") || path.starts_with("contact.") ||
+         path.starts_with("control.") ||
          std::any_of(effects.begin(), effects.end(),
                      [&](const std::string& of) { return path.starts_with("forces." + of + "."); });
 }
@@ -62,7 +64,7 @@ std::string said_of(const ProofWorld& w) {
   return names.empty() ? name_of(w.verdict) : joined(names, " + ");
 }
 
-// Without those whose recordings are insufficient: they are neither right nor wrong.
+// Without insufficient ones, which are neither right nor wrong.
 std::vector<Proof> answered_of(std::span<const Proof> proofs) {
   std::vector<Proof> out(proofs.begin(), proofs.end());
   for (Proof& p : out) {
@@ -72,15 +74,6 @@ std::vector<Proof> answered_of(std::span<const Proof> proofs) {
 }
 
 // "95.1 to 99.0 %", of a fraction.
-std::string range_text(int n, int all) {
-  const Estimate e = wilson(n, all);
-  return fixed(100 * e.low, 1) + " to " + fixed(100 * e.high, 1) + " %";
-}
-
-std::string count_text(int n, int all) {
-  return std::to_string(n) + " of " + std::to_string(all);
-}
-
 // How many intervals hold the truth: the baseline's by path, all others together.
 struct Coverage {
   int worlds = 0, all = 0, held = 0;
@@ -255,11 +248,7 @@ void add_worlds(const Proof& proof, ReportDocument& report) {
   report.sections.push_back(std::move(confusion));
 }
 
-std::string rate_text(int n, int all) {
-  return count_text(n, all) + " (95 %: " + range_text(n, all) + ")";
-}
-
-// Those whose recordings are insufficient, and what they do not meet.
+// Insufficient experiments, and the requirements that they do not meet.
 void add_insufficient(std::span<const Proof> proofs, ReportDocument& report) {
   int all = 0;
   std::map<Requirement, int> by;

@@ -63,8 +63,15 @@ Experiment open_tank(const ProofOptions& options, const Model& tank) {
   return e;
 }
 
+std::string words_for_latches(const ProofOptions& options) {
+  if (options.latches.empty()) return "";
+  return "latches on with the rules " + read_ruleset(options.latches).name +
+         (options.event_log ? ", events logged" : "");
+}
+
 std::string key_of_tank(const ProofOptions& options) {
   std::string out = options.foreign ? "engine Box2D\n" : "";
+  if (!options.latches.empty()) out += words_for_latches(options) + "\n";
   if (options.drawn_tank) out += key_text(drawn_for(options));
   return out;
 }
@@ -80,9 +87,7 @@ std::string words_for_tank(const ProofOptions& options) {
               ? "flow from balls of " + significant(options.ball_minutes, 6) + " min"
               : "flow from balls") +
          (options.foreign ? ", recorded with Box2D" : "") +
-         (options.latches.empty() ? ""
-          : options.event_log     ? ", latches on, events logged"
-                                  : ", latches on") +
+         (options.latches.empty() ? "" : ", " + words_for_latches(options)) +
          (options.diagnosis.uncertified ? ", insufficient recordings diagnosed" : "");
 }
 

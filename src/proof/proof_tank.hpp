@@ -17,6 +17,8 @@ Model tank_of(const ProofOptions& options);
 /// The open part of the exam: balls, and Lilies in which nothing is missing. Throws InputError if
 /// the tank diverges.
 Experiment open_tank(const ProofOptions& options, const Model& tank);
+/// "latches on with the rules chain5, events logged"; "" where they are off. Throws InputError.
+std::string words_for_latches(const ProofOptions& options);
 /// Its lines of the key; nothing else about a drawn tank is printed before the key is opened.
 std::string key_of_tank(const ProofOptions& options);
 /// Proof::tank.

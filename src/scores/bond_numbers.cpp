@@ -7,6 +7,7 @@
 
 #include "text/number.hpp"
 #include "tracks/seen_bonds.hpp"
+#include "tracks/sets.hpp"
 
 namespace lilytank {
 namespace {
@@ -70,23 +71,20 @@ class Geometry {
  private:
   // In one frame a second.
   void count_sizes(const Recording& r, const std::vector<SeenBond>& bonds) {
+    std::map<std::int64_t, int> numbers;
+    for (const Track& t : r.tracks) numbers.emplace(t.id, static_cast<int>(numbers.size()));
     const int step = std::max(1, static_cast<int>(std::lround(r.rate)));
     for (int frame = 0; frame < r.frames; frame += step) {
-      std::map<std::int64_t, std::int64_t> first;
-      const auto of = [&](std::int64_t id) {
-        while (first.at(id) != id) id = first.at(id);
-        return id;
-      };
+      Sets sets(static_cast<int>(numbers.size()));
       for (const SeenBond& bond : bonds) {
         if (bond.begin > frame) break;
-        if (bond.end <= frame) continue;
-        first.emplace(bond.a, bond.a), first.emplace(bond.b, bond.b);
-        const std::int64_t a = of(bond.a), b = of(bond.b);
-        first[std::max(a, b)] = std::min(a, b);
+        if (bond.end > frame) sets.join(numbers.at(bond.a), numbers.at(bond.b));
       }
-      std::map<std::int64_t, int> sizes;
-      for (const auto& [id, parent] : first) sizes[of(id)] += 1;
-      for (const auto& [id, size] : sizes) {
+      std::vector<int> sizes(numbers.size(), 0);
+      for (const auto& [id, number] : numbers)
+        ++sizes[static_cast<std::size_t>(sets.first(number))];
+      for (const int size : sizes) {
+        if (size < 2) continue;
         in_size_[static_cast<std::size_t>(std::min(size, kSizes + 1) - 2)] += size * step / r.rate;
       }
     }

@@ -239,7 +239,6 @@ class Scorer {
     return out;
   }
 
-  // An assembly is pushed by what pushes its members, at their arms.
   void pass(const PredictedFrame& frame, const PredictedAssembly& a) {
     const std::size_t body = modules_ + static_cast<std::size_t>(a.first);
     const Innovation& e = a.innovation;
@@ -260,27 +259,8 @@ class Scorer {
     }
     last_[body] = frame.frame;
     if (held || lost) return;
-    push_together(frame, a);
+    together_.of_members(frame, a, pushes_);
     sensitivities_.pass(body, together_, frame, e, kLoss, usable);
-  }
-
-  void push_together(const PredictedFrame& frame, const PredictedAssembly& a) {
-    for (auto* of : {&together_.x, &together_.y, &together_.turn}) {
-      std::fill(of->begin(), of->end(), 0.0f);
-    }
-    const double mass = model_->module.mass, inertia = model_->module.inertia();
-    const auto share = static_cast<float>(mass / a.mass);
-    const auto own = static_cast<float>(inertia / a.inertia);
-    for (const int member : a.members) {
-      const auto i = static_cast<std::size_t>(member);
-      const Pushes& push = pushes_[i];
-      const auto by_y = static_cast<float>(mass / a.inertia * (frame.now.x[i] - a.x));
-      const auto by_x = static_cast<float>(mass / a.inertia * (frame.now.y[i] - a.y));
-      for (std::size_t f = 0; f < push.x.size(); ++f) {
-        together_.x[f] += share * push.x[f], together_.y[f] += share * push.y[f];
-        together_.turn[f] += own * push.turn[f] + by_y * push.y[f] - by_x * push.x[f];
-      }
-    }
   }
 
   const ScorePlan& plan_;

@@ -40,6 +40,9 @@ TEST(diagnoseVerb, refusesWithOneLine) {
       {"prove --event-log", "--event-log without --latches: nothing latches"},
       {"prove --latches nowhere.rules", "nowhere.rules"},
       {"prove --effect evaluation_rate", "'evaluation_rate' is no effect of this tank"},
+      {"prove --effect pair_atraction --dry-run", "did you mean 'pair_attraction'?"},
+      {"prove --latches nowhere.rules --dry-run", "nowhere.rules"},
+      {"prove --grid --effect pair_attraction", "--effect has no effect with --grid"},
       {"prove --worlds 1 --only named", "none of the first 1 synthetic experiments is \"named\""},
   };
   for (const auto& c : cases) {

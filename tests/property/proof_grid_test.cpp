@@ -1,4 +1,4 @@
-// A cell of a grid whose recordings are sufficient.
+// A cell of a grid with sufficient recordings.
 #include <gtest/gtest.h>
 
 #include "lilytank/proof_grid.hpp"
