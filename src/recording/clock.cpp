@@ -138,6 +138,12 @@ class ClockFinder {
 
   // Frames are counted from the first one by the greatest step that all of them have in common.
   void take_step() {
+    if (instants_.size() > 1 && instants_.back().frame == clock_.first) {
+      throw InputError(
+          file_, "its " + std::to_string(instants_.size()) + " times lie within one frame" +
+                     (options_->rate > 0 ? " at " + brief(options_->rate) + " frames/s" : "") +
+                     ": check rate and time_unit");
+    }
     if (instants_.size() > 2) {
       std::int64_t step = 0;
       for (const Instant& i : instants_) step = std::gcd(step, i.frame - clock_.first);

@@ -106,6 +106,23 @@ TEST(Times, thatAreMinutesOrDaysAreRefusedWithTheKey) {
   }
 }
 
+TEST(Times, thatAllLieWithinOneFrameAreRefused) {
+  RecordingOptions options;
+  options.rate = 30;
+  for (const int bodies : {2, 3, 40}) {
+    std::string table = "time,id,x,y\n";
+    for (int b = 0; b < bodies; ++b) {
+      table += std::to_string(2e-4 * b) + "," + std::to_string(b) + "," + std::to_string(0.01 * b) +
+               ",0\n";
+    }
+    EXPECT_NE(complaint(table, options)
+                  .find("its " + std::to_string(bodies) +
+                        " times lie within one frame at 30 frames/s: check rate and time_unit"),
+              std::string::npos)
+        << complaint(table, options);
+  }
+}
+
 TEST(Times, thatCountFrom1970CountFromTheFirstRow) {
   for (const auto& [first, seconds] :
        {std::pair{1700000000000, 1e-3}, {1700000000000000, 1e-6}, {1700000000000000000, 1e-9}}) {
