@@ -112,8 +112,8 @@ TEST(Times, thatAllLieWithinOneFrameAreRefused) {
   for (const int bodies : {2, 3, 40}) {
     std::string table = "time,id,x,y\n";
     for (int b = 0; b < bodies; ++b) {
-      table += std::to_string(2e-4 * b) + "," + std::to_string(b) + "," + std::to_string(0.01 * b) +
-               ",0\n";
+      table += std::to_string(2e-4 * b) + "," + std::to_string(b) + "," +
+               std::to_string(0.005 * b) + ",0\n";
     }
     EXPECT_NE(complaint(table, options)
                   .find("its " + std::to_string(bodies) +
