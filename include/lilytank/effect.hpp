@@ -8,10 +8,11 @@ namespace lilytank {
 
 class ForceTerm;
 
-/// What a routine measures directly in recordings, besides amplitudes. Each serves one term.
+/// What a routine measures directly in recordings, besides amplitudes. All but the
+/// place serve one term.
 enum class Estimated : std::uint8_t {
   none,
-  place,               ///< where a stream is, and how wide
+  place,               ///< where in the tank, and how wide: held are x, y and the width
   gain_and_frequency,  ///< the strongest line in the flow's gain
   slip_and_frequency,  ///< the clearest line in the force across the slip
   module,              ///< the one module that differs

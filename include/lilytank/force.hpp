@@ -89,6 +89,8 @@ struct StepContext {
   std::span<const double> ux, uy;
   /// [bodies] What it adds to the water's rotation about each body, rad/s; empty where ux is.
   std::span<const double> turning;
+  /// [bodies] Factor on the drag of Eqs. 2 and 5; empty: 1.
+  std::span<const double> drag;
   /// The gusts' random numbers, where the steps of a tick share them; null: drawn in each step.
   KeptGusts* kept = nullptr;
 };
@@ -106,6 +108,8 @@ struct FlowPerturbation {
   std::span<double> turning;
   /// Factor on the field's standard deviation alone.
   double gust_gain = 1;
+  /// [bodies] Factor on the drag; terms multiply it.
+  std::span<double> drag;
 };
 
 /// Factors on linear and angular velocity at the end of a step; 1 leaves them unchanged. Those of
@@ -150,8 +154,8 @@ class ForceTerm {
   /// Whether that is to multiply `water.gain` alone: such terms come first, so that what others do
   /// to the water is done to as much of it as there is.
   virtual bool sets_gain() const { return false; }
-  /// Changes the water that all other terms see: multiplies `water.gain`, adds to its velocities
-  /// and its rotation, which are to agree: bodies turn with half the curl of what moves them.
+  /// Changes the water that all other terms see: multiplies `water.gain` and `water.drag`, adds to
+  /// its velocities and its rotation, which are to agree: bodies turn with half the curl of what moves them.
   /// Called before any add(); `now` holds what terms before this one did. Never throws or
   /// allocates.
   virtual void perturb_flow(const Model&, const Kinematics&, const StepContext& now,

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kRankOfBonds = 280;  // after contacts
 constexpr double kSlowest = 0.05;  // m/s, of water that curves over slip and spin are made for
-constexpr int kStreams = 6;        // places on a circle at which a stream is tried
-constexpr double kStreamsAt = 0.45, kFarthestStream = 0.8;  // of the tank's radius
+constexpr int kPlaces = 6;         // on a circle, at which an effect that has a place is tried
+constexpr double kPlacesAt = 0.45, kFarthestPlace = 0.8;  // of the tank's radius
 const std::string kFriction = "contact.friction", kRestitution = "contact.restitution";
 
 ParameterRef parameter_named(const ForceTerm& term, std::string_view name) {
@@ -42,7 +42,7 @@ Effect described(const ForceTerm& term, const EffectDescription& d, const Model&
     const ParameterRef of = parameter_named(term, name);
     e.paths.push_back(of.path()), e.sizes.push_back(size), e.units.emplace_back(of->unit);
   }
-  const double edge = kFarthestStream * model.tank.radius;
+  const double edge = kFarthestPlace * model.tank.radius;
   for (const auto& [name, value, low, high, scanned_from] : d.held) {
     if (name.empty()) continue;
     const ParameterRef of = parameter_named(term, name);
@@ -59,24 +59,13 @@ Effect described(const ForceTerm& term, const EffectDescription& d, const Model&
   return e;
 }
 
-// The effect of a stream, wherever that is.
-Effect any_stream(const Model& model) {
-  for (const ForceTerm* term : force_library()) {
-    for (const EffectDescription& d : term->effects()) {
-      if (d.estimated == Estimated::place) return described(*term, d, model);
-    }
-  }
-  throw std::logic_error("no force describes a stream");
-}
-
-std::vector<Effect> streams(const Model& model) {
+std::vector<Effect> at_places(const Effect& effect, const Model& model) {
   const auto whole = [](double place) { return std::round(place * 1e6) / 1e6; };  // um
-  const double out = kStreamsAt * model.tank.radius;
+  const double out = kPlacesAt * model.tank.radius, width = effect.held[2].value;
   std::vector<Effect> all;
-  for (int k = 0; k < kStreams; ++k) {
-    const Rot at = rotation(2 * k * kPi / kStreams);
-    all.push_back(any_stream(model));
-    all.back().held[0].value = whole(out * at.c), all.back().held[1].value = whole(out * at.s);
+  for (int k = 0; k < kPlaces; ++k) {
+    const Rot at = rotation(2 * k * kPi / kPlaces);
+    all.push_back(placed(effect, whole(out * at.c), whole(out * at.s), width));
   }
   return all;
 }
@@ -160,10 +149,9 @@ Effect together(const std::vector<Effect>& effects) {
   return out;
 }
 
-Effect stream_effect(const Model& model, double x, double y, double width) {
-  Effect stream = any_stream(model);
-  stream.held[0].value = x, stream.held[1].value = y, stream.held[2].value = width;
-  return stream;
+Effect placed(Effect effect, double x, double y, double width) {
+  effect.held[0].value = x, effect.held[1].value = y, effect.held[2].value = width;
+  return effect;
 }
 
 std::vector<Effect> effect_catalogue(const Model& model) {
@@ -176,10 +164,11 @@ std::vector<Effect> effect_catalogue(const Model& model) {
     const std::span<const EffectDescription> own = library[t]->effects();
     for (std::size_t k = 0; k < own.size(); ++k) {
       const Place place{static_cast<std::size_t>(own[k].order), k, t};
-      if (own[k].estimated == Estimated::place) {
-        for (Effect& e : streams(model)) all.emplace_back(place, std::move(e));
+      Effect effect = described(*library[t], own[k], model);
+      if (effect.estimated == Estimated::place) {
+        for (Effect& e : at_places(effect, model)) all.emplace_back(place, std::move(e));
       } else {
-        all.emplace_back(place, described(*library[t], own[k], model));
+        all.emplace_back(place, std::move(effect));
       }
     }
   }

@@ -73,8 +73,8 @@ Effect together(const std::vector<Effect>& effects);
 /// size of the tank, and whether there are latches.
 std::vector<Effect> effect_catalogue(const Model& model);
 
-/// A stream of this width about a place, m.
-Effect stream_effect(const Model& model, double x, double y, double width);
+/// An effect that has a place (Estimated::place), at this one, with this width, m.
+Effect placed(Effect effect, double x, double y, double width);
 
 /// The model with an effect at `amplitudes` (one a path); as it is if the effect is the camera's.
 Model with_effect(const Model& model, const Effect& effect, const std::vector<double>& amplitudes);

@@ -33,7 +33,7 @@ Features::Features(const std::vector<Effect>& effects, const std::vector<Effect>
   for (auto* of : {&baseline_, &drag_, &by_x_, &by_y_, &by_turning_, &by_gain_, &by_gusts_}) {
     of->resize(n);
   }
-  for (auto* of : {&ux_, &uy_, &turning_}) of->resize(n);
+  for (auto* of : {&ux_, &uy_, &turning_, &factor_}) of->resize(n);
   wrenches_.assign(features_.size(), std::vector<Wrench>(n));
 }
 
@@ -102,7 +102,7 @@ StepContext Features::derive(const Kinematics& k, const StepContext& now) {
       turning_[i] = (stirred ? water.turning[i] : 0) + turning;
     }
     StepContext other = now;
-    other.ux = ux_, other.uy = uy_, other.turning = turning_;
+    other.ux = ux_, other.uy = uy_, other.turning = turning_, other.drag = water.drag;
     other.gain = water.gain + gain, other.gust_gain = water.gust_gain + gusts;
     (*drag_sum_)(k, other, out);
   };
@@ -127,15 +127,18 @@ StepContext Features::derive(const Kinematics& k, const StepContext& now) {
 void Features::perturb_flow(const ForceTerm& term, const std::vector<double>& p,
                             const Kinematics& k, const StepContext& now, std::vector<Wrench>& out) {
   for (auto* of : {&ux_, &uy_, &turning_}) std::fill(of->begin(), of->end(), 0.0);
-  FlowPerturbation water{1, ux_, uy_, turning_, 1};
+  std::fill(factor_.begin(), factor_.end(), 1.0);
+  FlowPerturbation water{1, ux_, uy_, turning_, 1, factor_};
   term.perturb_flow(model_, k, now, p, water);
   const double gain = water.gain - 1;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Wrench &x = by_x_[i], &y = by_y_[i], &turned = by_turning_[i], &all = by_gain_[i];
-    const double ux = ux_[i], uy = uy_[i], turning = turning_[i];
-    out[i].fx = x.fx * ux + y.fx * uy + turned.fx * turning + all.fx * gain;
-    out[i].fy = x.fy * ux + y.fy * uy + turned.fy * turning + all.fy * gain;
-    out[i].torque = x.torque * ux + y.torque * uy + turned.torque * turning + all.torque * gain;
+    const double ux = ux_[i], uy = uy_[i], turning = turning_[i], more = factor_[i] - 1;
+    const auto sum = [&](double Wrench::*part) {
+      return x.*part * ux + y.*part * uy + turned.*part * turning + all.*part * gain +
+             drag_[i].*part * more;
+    };
+    out[i] = {sum(&Wrench::fx), sum(&Wrench::fy), sum(&Wrench::torque)};
   }
 }
 

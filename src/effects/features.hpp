@@ -48,7 +48,7 @@ class Features {
   std::vector<ActiveForce> drag_only_;
   std::unique_ptr<ForceSum> base_, drag_sum_;
   std::vector<Wrench> baseline_, drag_, by_x_, by_y_, by_turning_, by_gain_, by_gusts_;
-  std::vector<double> ux_, uy_, turning_;
+  std::vector<double> ux_, uy_, turning_, factor_;
   std::vector<std::vector<Wrench>> wrenches_;
 };
 

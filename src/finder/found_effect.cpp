@@ -11,12 +11,15 @@ const Effect& effect_in(const ScorePlan& plan, const EffectFit& f) {
   return plan.effects[static_cast<std::size_t>(f.effect)];
 }
 
-std::optional<ScannedEffect> scanned(const ScorePlan& plan, const Effect& effect,
-                                     const ScoreDetails& details) {
+std::optional<ScannedEffect> scanned(const Effect& effect, const ScoreDetails& details) {
   if (effect.estimated == Estimated::place) {
-    const StreamPlace& s = details.scans.stream;
-    return ScannedEffect{stream_effect(plan.model, s.x, s.y, s.width).held,
-                         JointAmplitudes{Eigen::Vector2d(s.speed_x, s.speed_y), s.gain}};
+    const auto scan = details.scans.places.find(effect.term);
+    if (scan == details.scans.places.end()) return std::nullopt;
+    const FoundPlace& at = scan->second;
+    const auto size = static_cast<Eigen::Index>(at.amplitudes.size());
+    return ScannedEffect{
+        placed(effect, at.x, at.y, at.width).held,
+        JointAmplitudes{Eigen::VectorXd::Map(at.amplitudes.data(), size), at.gain}};
   }
   if (effect.estimated == Estimated::slip_and_frequency && details.swinging > 0) {
     return ScannedEffect{{{effect.held[0].of, details.swinging}}, std::nullopt};
@@ -33,7 +36,7 @@ Effect found_effect(const ScorePlan& plan, const EffectFit& f, const ScoreDetail
   if (f.effect < 0) return effect_of(plan.shapes[static_cast<std::size_t>(f.shape)]);
   Effect out = effect_in(plan, f);
   if (out.estimated == Estimated::gain_and_frequency) out.held[0].value = details.pulsation;
-  if (const auto scan = scanned(plan, out, details)) out.held = scan->held;
+  if (const auto scan = scanned(out, details)) out.held = scan->held;
   for (auto& [of, value] : out.held) {
     const auto better = details.refined.find(of.path());
     if (better != details.refined.end()) value = better->second;
@@ -55,7 +58,7 @@ std::string stage_name(const ScorePlan& plan, const EffectFit& f, const ScoreDet
   const bool own = std::any_of(held.begin(), held.end(), [&](const HeldParameter& one) {
     return details.refined.count(one.of.path()) > 0;
   });
-  if (!own && !scanned(plan, effect_in(plan, f), details)) return out;
+  if (!own && !scanned(effect_in(plan, f), details)) return out;
   std::string place = effect_in(plan, f).name;
   for (const auto& [of, value] : held) place += " " + fixed(value, 4);
   return place;

@@ -19,10 +19,9 @@ struct ScannedEffect {
   std::optional<JointAmplitudes> amplitudes;
 };
 
-/// A stream at its place with its speed, a force between modules of its range, vortices of their
-/// frequency; nothing of other effects, or where the recordings do not show it.
-std::optional<ScannedEffect> scanned(const ScorePlan& plan, const Effect& effect,
-                                     const ScoreDetails& details);
+/// A stream or patch at its place with its strength, a force between modules of its range, vortices
+/// of their frequency; nothing of other effects, or where the recordings do not show it.
+std::optional<ScannedEffect> scanned(const Effect& effect, const ScoreDetails& details);
 
 /// What a fit is of, at the direct estimates: the line of pumps, the module that differs, what is
 /// scanned.

@@ -63,7 +63,7 @@ void Refinement::find_homes() {
   std::map<int, double> least;
   const std::vector<Effect>& effects = plan_.effects;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    const auto direct = scanned(plan_, effects[e], state_.details);
+    const auto direct = scanned(effects[e], state_.details);
     if (!direct) continue;
     const double off = far_apart(effects[e].held, direct->held);
     const auto [at, first] = least.emplace(effects[e].family, off);
@@ -180,7 +180,7 @@ const JointAmplitudes& Refinement::filtered(const EffectFit& f, const Effect& ef
 }
 
 JointAmplitudes Refinement::scanned_or(JointAmplitudes linear, const Effect& effect) const {
-  const auto direct = scanned(plan_, effect, state_.details);
+  const auto direct = scanned(effect, state_.details);
   return direct && direct->amplitudes ? *direct->amplitudes : std::move(linear);
 }
 

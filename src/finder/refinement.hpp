@@ -127,7 +127,7 @@ class Refinement {
   // Beside a strong effect, the place of a stream and the ranges of forces are not where they seem
   // to be without it. True if one of them is elsewhere.
   bool rescan(const SelectedModel& m);
-  bool rescan_stream(const SelectedModel& m, const Effect& stream);
+  bool rescan_place(const SelectedModel& m, const Effect& effect);
   // The range of this effect.
   bool rescan(const SelectedModel& m, const Effect& scanned);
   // Scores beside all strong ones but those of the law that is scanned, and curves that may stand

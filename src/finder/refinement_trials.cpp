@@ -13,7 +13,7 @@ using Vector = Eigen::VectorXd;
 
 constexpr std::size_t kMostInteractions = 3;
 constexpr double kStrong = 12;       // z of an effect beside which others are looked for anew
-constexpr double kElsewhere = 0.02;  // m, by which a stream is another one
+constexpr double kElsewhere = 0.02;  // m, by which a stream or patch is another one
 constexpr double kOtherRange = 1.4;  // likewise of a force between modules, a factor
 constexpr double kFurther = 1.5;     // from one range to the next that is tried
 constexpr int kMostTries = 7;
@@ -38,7 +38,7 @@ bool Refinement::rescan(const SelectedModel& m) {
   std::set<int> done;
   for (const Effect& one : plan_.effects) {
     if (one.estimated == Estimated::place && done.insert(one.family).second) {
-      moved = rescan_stream(m, one) || moved;
+      moved = rescan_place(m, one) || moved;
     }
   }
   for (const Effect& one : plan_.effects) {
@@ -47,14 +47,14 @@ bool Refinement::rescan(const SelectedModel& m) {
   return moved;
 }
 
-bool Refinement::rescan_stream(const SelectedModel& m, const Effect& stream) {
-  const ScorePlan plan = beside(m, stream);
+bool Refinement::rescan_place(const SelectedModel& m, const Effect& effect) {
+  const ScorePlan plan = beside(m, effect);
   if (plan.beside.empty()) return false;
-  StreamPlace& was = state_.details.scans.stream;
-  const StreamPlace now = find_stream(plan, sensitivity_.recordings(), threads_);
+  FoundPlace& was = state_.details.scans.places[effect.term];
+  const FoundPlace now = find_place(plan, effect, sensitivity_.recordings(), threads_);
   if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
   was = now;
-  find_homes(), forget(stream.family);
+  find_homes(), forget(effect.family);
   return true;
 }
 

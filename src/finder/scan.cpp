@@ -19,58 +19,59 @@ constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank 
 constexpr double kLonger = 1.25;                         // from a range to the next that is tried
 constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
-std::vector<StreamPlace> grid_of(const Model& model) {
-  std::vector<StreamPlace> places;
+std::vector<FoundPlace> grid_of(const Model& model) {
+  std::vector<FoundPlace> places;
   const double R = model.tank.radius, step = kSpacing * R, row = step * std::sqrt(0.75);
   const int most = static_cast<int>(std::ceil(kFarthest * R / row));
   for (int j = -most; j <= most; ++j) {
     for (int i = -most; i <= most; ++i) {
       const double x = step * (i + (j % 2 == 0 ? 0 : 0.5)), y = row * j;
       if (std::hypot(x, y) > kFarthest * R) continue;
-      for (const double width : kWidths) places.push_back({x, y, width});
+      for (const double width : kWidths) places.push_back({x, y, width, {}});
     }
   }
   return places;
 }
 
-Effect effect_at(const Model& model, const StreamPlace& place) {
-  return stream_effect(model, place.x, place.y, place.width);
+Effect at(const Effect& effect, const FoundPlace& place) {
+  return placed(effect, place.x, place.y, place.width);
 }
 
-Model with_stream(const Model& model, const StreamPlace& place) {
-  const Effect effect = effect_at(model, place);
-  return with_effect(model, effect,
-                     {place.speed_x * effect.sizes[0], place.speed_y * effect.sizes[1]});
+Model with_placed(const Model& model, const Effect& effect, const FoundPlace& place) {
+  std::vector<double> amplitudes = place.amplitudes;
+  for (std::size_t c = 0; c < amplitudes.size(); ++c) amplitudes[c] *= effect.sizes[c];
+  return with_effect(model, at(effect, place), amplitudes);
 }
 
-// Places of the grid with linear estimates of their speeds, by descending gain. A smooth error of
-// the flow is almost collinear with a wide stream: orthogonalised against it, speed and place are
-// biased; without that, an error of the flow is scored as a stream.
-std::vector<StreamPlace> ranked(const ScorePlan& plan, const std::vector<Recording>& recordings,
-                                bool flow_as_drawn) {
+// Places of the grid with linear estimates of the amplitudes, by descending gain. A smooth error
+// of the flow is almost collinear with a wide stream: orthogonalised against it, speed and place
+// are biased; without that, an error of the flow is scored as a stream.
+std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
+                               const std::vector<Recording>& recordings, bool flow_as_drawn) {
   ScorePlan scan = plan;
   scan.effects.clear(), scan.shapes.clear();
-  std::vector<StreamPlace> out = grid_of(plan.model);
-  for (const StreamPlace& place : out) scan.effects.push_back(effect_at(plan.model, place));
+  std::vector<FoundPlace> out = grid_of(plan.model);
+  for (const FoundPlace& place : out) scan.effects.push_back(at(effect, place));
   if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
   const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const ScoredAmplitude &x = scored[2 * k], &y = scored[2 * k + 1];
-    out[k].speed_x = x.estimate, out[k].speed_y = y.estimate, out[k].gain = x.gain + y.gain;
+  const std::size_t components = effect.paths.size();
+  for (std::size_t k = 0; k < scored.size(); ++k) {
+    FoundPlace& place = out[k / components];
+    place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain;
   }
-  largest_first(out, &StreamPlace::gain);
+  largest_first(out, &FoundPlace::gain);
   return out;
 }
 
-double apart(const StreamPlace& a, const StreamPlace& b) {
+double apart(const FoundPlace& a, const FoundPlace& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
 // The first places that are not close to an earlier one.
-std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
-  std::vector<StreamPlace> out;
-  for (const StreamPlace& place : ranking) {
-    const bool near = std::any_of(out.begin(), out.end(), [&](const StreamPlace& one) {
+std::vector<FoundPlace> leading(const std::vector<FoundPlace>& ranking) {
+  std::vector<FoundPlace> out;
+  for (const FoundPlace& place : ranking) {
+    const bool near = std::any_of(out.begin(), out.end(), [&](const FoundPlace& one) {
       return apart(one, place) < kPlacesApart;
     });
     if (!near) out.push_back(place);
@@ -80,10 +81,9 @@ std::vector<StreamPlace> leading(const std::vector<StreamPlace>& ranking) {
 }
 
 // The first places near `centre`.
-std::vector<StreamPlace> around(const StreamPlace& centre,
-                                const std::vector<StreamPlace>& ranking) {
-  std::vector<StreamPlace> out;
-  for (const StreamPlace& place : ranking) {
+std::vector<FoundPlace> around(const FoundPlace& centre, const std::vector<FoundPlace>& ranking) {
+  std::vector<FoundPlace> out;
+  for (const FoundPlace& place : ranking) {
     if (apart(centre, place) < kPlacesApart) out.push_back(place);
     if (out.size() == kTriedNear) break;
   }
@@ -92,24 +92,25 @@ std::vector<StreamPlace> around(const StreamPlace& centre,
 
 }  // namespace
 
-StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
-                        int threads) {
-  const auto misfits = [&](const std::vector<StreamPlace>& tried) {
+FoundPlace find_place(const ScorePlan& plan, const Effect& effect,
+                      const std::vector<Recording>& recordings, int threads) {
+  const auto misfits = [&](const std::vector<FoundPlace>& tried) {
     std::vector<double> out(tried.size());
     for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
       const auto k = static_cast<std::size_t>(i);
       ScorePlan with = plan;
-      with.model = with_stream(plan.model, tried[k]);
+      with.model = with_placed(plan.model, effect, tried[k]);
       out[k] = misfit_of(with, recordings);
     });
     return out;
   };
-  std::vector<StreamPlace> cleared, as_drawn;
-  for_each_world(2, threads,
-                 [&](int i) { (i == 0 ? cleared : as_drawn) = ranked(plan, recordings, i == 1); });
-  StreamPlace best;
+  std::vector<FoundPlace> cleared, as_drawn;
+  for_each_world(2, threads, [&](int i) {
+    (i == 0 ? cleared : as_drawn) = ranked(plan, effect, recordings, i == 1);
+  });
+  FoundPlace best;
   double least = std::numeric_limits<double>::infinity();
-  const auto attempt = [&](std::vector<StreamPlace> tried, const std::vector<StreamPlace>& more) {
+  const auto attempt = [&](std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more) {
     tried.insert(tried.end(), more.begin(), more.end());
     std::erase(tried, best);  // known already
     const std::vector<double> misfit = misfits(tried);
@@ -154,11 +155,23 @@ std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
 }
 
 Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads) {
+  std::vector<const Effect*> somewhere;  // an effect of each term that has a place
+  for (const Effect& effect : plan.effects) {
+    const bool of_term =
+        std::ranges::any_of(somewhere, [&](const Effect* one) { return one->term == effect.term; });
+    if (effect.estimated == Estimated::place && !of_term) somewhere.push_back(&effect);
+  }
   Scans out;
-  for_each_world(2, threads, [&](int i) {
-    if (i == 0) out.stream = find_stream(plan, recordings, threads);
-    if (i == 1) out.values = find_values(plan, recordings);
+  std::vector<FoundPlace> places(somewhere.size());
+  for_each_world(static_cast<int>(somewhere.size()) + 1, threads, [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (k == somewhere.size()) {
+      out.values = find_values(plan, recordings);
+    } else {
+      places[k] = find_place(plan, *somewhere[k], recordings, threads);
+    }
   });
+  for (std::size_t k = 0; k < places.size(); ++k) out.places[somewhere[k]->term] = places[k];
   return out;
 }
 

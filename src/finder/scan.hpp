@@ -1,5 +1,5 @@
-// Numbers of effects that recordings show directly: where in the tank a stream would explain most,
-// over which range a force between modules would, beside the effects of plan.beside.
+// Numbers of effects that recordings show directly: where in the tank a stream or a patch would
+// explain most, over which range a force between modules would, beside the effects of plan.beside.
 #pragma once
 #include <map>
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace lilytank {
 
-/// The stream among those of several widths about the places of a hexagonal grid with which the
-/// recordings are likeliest, one step ahead and errors of the flow allowed for. The scores of all
-/// places, which are linear, propose; the predictor with each proposal's stream in its model
-/// decides (scores.hpp, misfit_of). `threads`: 0 is one a core.
-StreamPlace find_stream(const ScorePlan& plan, const std::vector<Recording>& recordings,
-                        int threads);
+/// The place of an effect that has one, and its width, with which the recordings are likeliest,
+/// one step ahead and errors of the flow allowed for, of several widths about the places of a
+/// hexagonal grid. The scores of all places, which are linear, propose; the predictor with the
+/// effect in its model at each proposal decides (scores.hpp, misfit_of). `threads`: 0 is one a
+/// core.
+FoundPlace find_place(const ScorePlan& plan, const Effect& effect,
+                      const std::vector<Recording>& recordings, int threads);
 
 /// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
 /// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.

@@ -38,7 +38,8 @@ class BallDrag final : public ForceTerm {
       double wx = K_v * (f.mu_x + f.sigma_x * share * xi[0]) - k.vx[i];
       double wy = K_v * (f.mu_y + f.sigma_y * share * xi[1]) - k.vy[i];
       if (!now.ux.empty()) wx += now.ux[i], wy += now.uy[i];
-      const double size = scale * std::sqrt(wx * wx + wy * wy);
+      const double own = now.drag.empty() ? scale : scale * now.drag[i];
+      const double size = own * std::sqrt(wx * wx + wy * wy);
       out[i].fx += size * wx;
       out[i].fy += size * wy;
     }

@@ -107,9 +107,10 @@ class FaceDrag final : public ForceTerm {
       face_drag_sums(settings, block.block(), now.kept, sums);
       for (int i = 0; i < count; ++i) {
         Wrench& w = out[first + i];
-        w.fx += scale * static_cast<double>(sums.fx[i]);
-        w.fy += scale * static_cast<double>(sums.fy[i]);
-        w.torque += scale * static_cast<double>(sums.torque[i]);
+        const double own = now.drag.empty() ? scale : scale * now.drag[first + i];
+        w.fx += own * static_cast<double>(sums.fx[i]);
+        w.fy += own * static_cast<double>(sums.fy[i]);
+        w.torque += own * static_cast<double>(sums.torque[i]);
       }
     }
   }

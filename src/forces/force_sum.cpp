@@ -36,6 +36,7 @@ ForceSum::ForceSum(const Model& model, const std::vector<ActiveForce>& forces)
                         [](const ActiveForce* force) { return force->term->sets_gain(); });
   stirred_x_.resize(static_cast<std::size_t>(model.bodies()));
   stirred_y_.resize(stirred_x_.size()), stirred_turning_.resize(stirred_x_.size());
+  drag_.resize(stirred_x_.size());
 }
 
 void ForceSum::perturb_flow(const Kinematics& k, StepContext& now) {
@@ -43,8 +44,9 @@ void ForceSum::perturb_flow(const Kinematics& k, StepContext& now) {
   std::fill(stirred_x_.begin(), stirred_x_.end(), 0.0);
   std::fill(stirred_y_.begin(), stirred_y_.end(), 0.0);
   std::fill(stirred_turning_.begin(), stirred_turning_.end(), 0.0);
-  now.ux = stirred_x_, now.uy = stirred_y_, now.turning = stirred_turning_;
-  FlowPerturbation water{1, stirred_x_, stirred_y_, stirred_turning_, 1};
+  std::fill(drag_.begin(), drag_.end(), 1.0);
+  now.ux = stirred_x_, now.uy = stirred_y_, now.turning = stirred_turning_, now.drag = drag_;
+  FlowPerturbation water{1, stirred_x_, stirred_y_, stirred_turning_, 1, drag_};
   for (const ActiveForce* force : stirring_) {
     force->term->perturb_flow(*model_, k, now, force->p, water);
     now.gain = water.gain, now.gust_gain = water.gust_gain;

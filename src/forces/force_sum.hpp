@@ -38,7 +38,7 @@ class ForceSum {
   const std::vector<ActiveForce>* forces_;
   std::vector<const ActiveForce*> stirring_, transforming_;
   // [bodies] added to the water's velocity, m/s, and rotation, rad/s.
-  std::vector<double> stirred_x_, stirred_y_, stirred_turning_;
+  std::vector<double> stirred_x_, stirred_y_, stirred_turning_, drag_;
   KeptGusts gusts_;
   std::vector<std::unique_ptr<LaneForce>> lanes_;  // [force]; null: in double precision
   std::vector<Wrench> wrenches_;                   // [bodies] of the terms in double precision

@@ -38,7 +38,8 @@ std::span<const ForceTerm* const> force_library() {
                                 &added_mass(),
                                 &heterogeneous_module(),
                                 &mass_offset(),
-                                &empirical_force()};
+                                &empirical_force(),
+                                &drag_patch()};
   return terms;
 }
 

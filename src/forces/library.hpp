@@ -34,5 +34,6 @@ const ForceTerm& added_mass();
 const ForceTerm& heterogeneous_module();
 const ForceTerm& mass_offset();
 const ForceTerm& empirical_force();
+const ForceTerm& drag_patch();
 
 }  // namespace lilytank

@@ -45,12 +45,12 @@ struct ScorePlan {
   std::size_t first_of_shape(std::size_t index) const;
 };
 
-/// A stream that the flow field does not know, as effects have it.
-struct StreamPlace {
+/// Where an effect is, as Estimated::place has it.
+struct FoundPlace {
   double x = 0, y = 0, width = 0.06;  ///< m
-  double speed_x = 0, speed_y = 0;    ///< in sizes of the effect
+  std::vector<double> amplitudes;     ///< in sizes of the effect
   double gain = 0;                    ///< rise of twice the log-likelihood
-  bool operator==(const StreamPlace&) const = default;
+  bool operator==(const FoundPlace&) const = default;
 };
 
 /// The range or thickness of an effect, and its amplitude in sizes.
@@ -60,7 +60,9 @@ struct ScannedValue {
 
 /// Direct estimates from recordings for effects that have a place or a range.
 struct Scans {
-  StreamPlace stream;  ///< with which the recordings are likeliest
+  /// Of effects that have a place, by their terms: the place with which the recordings are
+  /// likeliest.
+  std::map<const ForceTerm*, FoundPlace> places;
   /// By the effect's term, of those that are clear; a repulsion is a negative attraction.
   std::map<const ForceTerm*, ScannedValue> values;
 };

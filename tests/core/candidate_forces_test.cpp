@@ -17,14 +17,14 @@ using test::wrenches;
 
 // What a term does to the water at each body.
 struct Stirred {
-  std::vector<double> x, y, turning;
+  std::vector<double> x, y, turning, drag;
   double gain = 1, gust_gain = 1;
 };
 Stirred stirred(const Model& model, const MovingBodies& bodies, const ActiveForce& f,
                 const StepContext& now) {
   const std::vector<double> none(bodies.x.size(), 0.0);
-  Stirred s{none, none, none};
-  FlowPerturbation water{1, s.x, s.y, s.turning, 1};
+  Stirred s{none, none, none, std::vector<double>(bodies.x.size(), 1.0)};
+  FlowPerturbation water{1, s.x, s.y, s.turning, 1, s.drag};
   f.term->perturb_flow(model, bodies.view(), now, f.p, water);
   s.gain = water.gain, s.gust_gain = water.gust_gain;
   return s;
@@ -70,8 +70,11 @@ TEST(CandidateForces, WhatTermsDoToTheWaterIsFiniteLinearAndNothingWithoutThem) 
     for (std::size_t i = 0; i < a.x.size(); ++i) {
       size += std::fabs(a.x[i]) + std::fabs(a.y[i]);
       EXPECT_NEAR(b.x[i], 2 * a.x[i], 1e-12) << term->name();
+      size += std::fabs(a.drag[i] - 1);
       EXPECT_NEAR(b.y[i], 2 * a.y[i], 1e-12) << term->name();
+      EXPECT_NEAR(b.drag[i] - 1, 2 * (a.drag[i] - 1), 1e-12) << term->name();
       EXPECT_EQ(std::fabs(zero.x[i]) + std::fabs(zero.y[i]), 0) << term->name();
+      EXPECT_EQ(zero.drag[i], 1) << term->name();
     }
     EXPECT_GT(size, 0) << term->name();
   }
@@ -244,6 +247,29 @@ TEST(CandidateForces, PumpsByHand) {
   const Stirred s = stirred(model, b, force("local_flow", {0.1, -0.2, 0.1, 0.1, 0.03}), now);
   EXPECT_NEAR(s.x[0], 0.1 * std::exp(-0.5), 1e-12);
   EXPECT_NEAR(s.y[0], -0.2 * std::exp(-0.5), 1e-12);
+}
+
+// Drag of modules and of balls; other forces as elsewhere.
+TEST(CandidateForces, PatchByHand) {
+  Model model = uniform_flow(0.2);
+  model.module.count = 2, model.ball.count = 1;
+  MovingBodies b(2, 1, 1, 0);
+  b.x = {0.1, 0.16, 0.1}, b.y = {0.1, 0.1, 0.16}, b.c = {1, 1, 1}, b.s = {0, 0, 0};
+  const ActiveForce patch = force("drag_patch", {1.5, 0.1, 0.1, 0.06});
+  const double edge = 1 + 1.5 * std::exp(-1);
+  const std::vector<double> factor = stirred(model, b, patch, {}).drag;
+  EXPECT_NEAR(factor[0], 2.5, 1e-15);
+  EXPECT_NEAR(factor[1], edge, 1e-12);
+  model.forces = {force("face_drag", {0.5, 10}), force("ball_drag", {0.47, 10}),
+                  force("body_force", {0.001, 0})};
+  std::vector<Wrench> without(3), with(3);
+  const StepContext now{.gusts = false};
+  ForceSum(model, model.forces)(b.view(), now, without);
+  model.forces.push_back(patch);
+  ForceSum(model, model.forces)(b.view(), now, with);
+  EXPECT_NEAR(with[0].fx - 0.001, 2.5 * (without[0].fx - 0.001), 1e-12);
+  EXPECT_NEAR(with[1].fx - 0.001, edge * (without[1].fx - 0.001), 1e-12);
+  EXPECT_NEAR(with[2].fx, edge * without[2].fx, 1e-12);
 }
 
 TEST(CandidateForces, BodiesByHand) {

@@ -36,6 +36,16 @@ std::size_t entry_named(const ScorePlan& plan, const std::string& name) {
   return 0;
 }
 
+Effect somewhere(const Model& model, const std::string& name, double x, double y, double width) {
+  const std::vector<Effect> catalogue = effect_catalogue(model);
+  const auto one = std::find_if(catalogue.begin(), catalogue.end(),
+                                [&](const Effect& e) { return e.name == name; });
+  return placed(*one, x, y, width);
+}
+Effect stream_at(const Model& model, double x, double y, double width) {
+  return somewhere(model, "local_flow", x, y, width);
+}
+
 TEST(ExpectedTank, KnowsNoChance) {
   Model model = drifting(6);
   model.expected = true;
@@ -178,12 +188,25 @@ TEST(Scores, AreClearedOfWhatACalibrationAbsorbs) {
 // A stream is found where it is, at its strength; the grid of places is 5 cm wide.
 TEST(Scores, TellThePlaceOfAStream) {
   const Model model = drifting(8);
-  Effect stream = stream_effect(model, -0.05, 0.12, 0.06);
+  Effect stream = stream_at(model, -0.05, 0.12, 0.06);
   const auto recordings = filmed(with_effect(model, stream, {0.12, -0.06}), 60, 5);
-  const StreamPlace found = find_stream(plan_for(model, recordings), recordings, 1);
+  const FoundPlace found = find_place(plan_for(model, recordings), stream, recordings, 1);
   EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.05);
-  EXPECT_NEAR(found.speed_x, 2, 1);  // in sizes of 6 cm/s
-  EXPECT_NEAR(found.speed_y, -1, 1);
+  EXPECT_NEAR(found.amplitudes[0], 2, 1);  // in sizes of 6 cm/s
+  EXPECT_NEAR(found.amplitudes[1], -1, 1);
+}
+
+// A disc of stronger drag likewise; it is no stream.
+TEST(Scores, TellThePlaceOfAPatch) {
+  const Model model = drifting(12);
+  const Effect patch = somewhere(model, "drag_patch", -0.1, 0.08, 0.06);
+  const auto recordings = filmed(with_effect(model, patch, {1.5}), 60, 5);
+  const ScorePlan plan = plan_for(model, recordings);
+  const FoundPlace found = find_place(plan, patch, recordings, 1);
+  EXPECT_LT(std::hypot(found.x + 0.1, found.y - 0.08), 0.04);
+  EXPECT_NEAR(found.amplitudes[0], 1.5, 0.5);
+  const FoundPlace stream = find_place(plan, stream_at(model, 0, 0, 0.06), recordings, 1);
+  EXPECT_GT(found.gain, 2 * stream.gain);
 }
 
 // A smooth error of the flow can do nearly all that a wide stream does: the place is known to the
@@ -191,17 +214,17 @@ TEST(Scores, TellThePlaceOfAStream) {
 TEST(Scores, TellThePlaceOfAStrongWideStream) {
   constexpr double kWidth = 0.085;
   const Model model = drifting(12);
-  const Effect stream = stream_effect(model, 0.13, 0.08, kWidth);
+  const Effect stream = stream_at(model, 0.13, 0.08, kWidth);
   const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 11);
   ScorePlan known = plan_for(model, recordings);
   known.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
   ScorePlan hardly_known = known;
   hardly_known.nuisances_known.bottomRightCorner(90, 90) *= 1e-3;  // of the flow's polynomials
   const auto expect = [&](const ScorePlan& plan, double off, double share, double gain) {
-    const StreamPlace found = find_stream(plan, recordings, 1);
+    const FoundPlace found = find_place(plan, stream, recordings, 1);
     EXPECT_LT(std::hypot(found.x - 0.13, found.y - 0.08), off);
-    EXPECT_NEAR(found.speed_x, -2, 2 * share);  // in sizes of 6 cm/s
-    EXPECT_NEAR(found.speed_y, -1, share);
+    EXPECT_NEAR(found.amplitudes[0], -2, 2 * share);  // in sizes of 6 cm/s
+    EXPECT_NEAR(found.amplitudes[1], -1, share);
     EXPECT_GT(found.gain, gain);
   };
   expect(known, 0.03, 0.15, 800), expect(hardly_known, kWidth, 0.45, 50);
@@ -215,7 +238,7 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
 // likelier than nothing. One that flows the other way is not.
 TEST(Show, ARightEffectIsToldFromErrorsOfParameters) {
   const Model model = drifting(12);
-  const Effect stream = stream_effect(model, 0.05, 0.05, 0.04);
+  const Effect stream = stream_at(model, 0.05, 0.05, 0.04);
   const auto recordings = filmed(with_effect(model, stream, {0.06, 0}), 30, 5);
   ScorePlan plan = plan_for(model, recordings);
   plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
@@ -261,9 +284,9 @@ TEST(Scores, TellAWallThatAttractsModulesThoughItHoldsThem) {
 // of one that is not there.
 TEST(Scores, TellStrongEffectsByTheirComponentsTogether) {
   const Model model = drifting(15);
-  const Effect stream = stream_effect(model, -0.05, 0.12, 0.09);
+  const Effect stream = stream_at(model, -0.05, 0.12, 0.09);
   const auto recordings = filmed(with_effect(model, stream, {0.18, -0.12}), 60, 5);
-  const Effect elsewhere = stream_effect(model, 0.1, -0.12, 0.05);
+  const Effect elsewhere = stream_at(model, 0.1, -0.12, 0.05);
   const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {stream, elsewhere});
   ASSERT_EQ(told.size(), 2u);
   EXPECT_NEAR(told[0].estimate(0), 3, 0.6);  // in sizes of 6 cm/s
