@@ -17,7 +17,7 @@ class DragPatch final : public ForceTerm {
   static constexpr EffectDescription kEffects[] = {
       {.order = 290,
        .variable = "position",
-       .amplitudes = {{"strength", 1}},
+       .amplitudes = {{"strength", 0.3}},
        .held = {{"x"}, {"y"}, {"radius", 0.06, 0.02, 0.2}},
        .two_sided = true,
        .split = split_by::kPumpPower,
