@@ -82,6 +82,57 @@ PlotPage laws_page(const Diagnosis& d) {
   return page;
 }
 
+// Of cells, the mean over the places of the hexagonal grid by their distance.
+constexpr int kMapCells = 60;
+
+MapPanel places_panel(const DiagnosisFinding& f) {
+  const PlaceMap& map = f.places;
+  MapPanel out;
+  out.title = f.effect;
+  out.cells = kMapCells, out.extent = map.tank_radius;
+  const bool vector = map.components.size() == 2;
+  if (!vector) out.scale = ColourScale::diverging;
+  out.label = (vector ? "speed" : map.components[0]) +
+              (map.units[0] == "1" ? "" : " (" + with_superscripts(map.units[0]) + ")");
+  for (int k = 0; k < kMapCells * kMapCells; ++k) {
+    const double cell = 2 * out.extent / kMapCells;
+    const double x = (k % kMapCells + 0.5) * cell - out.extent;
+    const double y = (k / kMapCells + 0.5) * cell - out.extent;
+    double all = 0, sum[2] = {0, 0};
+    for (const PlaceMap::Place& place : map.places) {
+      const double off = std::hypot(place.x - x, place.y - y) / (0.5 * map.width);
+      const double weight = std::exp(-0.5 * off * off);
+      all += weight;
+      for (std::size_t c = 0; c < place.value.size() && c < 2; ++c) {
+        sum[c] += weight * place.value[c];
+      }
+    }
+    const double least = std::exp(-0.5 * 4);  // one place at the effect's width
+    const double vx = all > least ? sum[0] / all : NAN, vy = all > least ? sum[1] / all : NAN;
+    out.values.push_back(vector ? std::hypot(vx, vy) : vx);
+    if (vector) out.arrow_x.push_back(vx), out.arrow_y.push_back(vy);
+  }
+  if (vector) out.arrow_unit = map.units[0];
+  double ring[3] = {NAN, NAN, NAN};
+  for (const FoundParameter& p : f.parameters) {
+    if (p.name == "x") ring[0] = p.value;
+    if (p.name == "y") ring[1] = p.value;
+    if (p.name == "width" || p.name == "radius") ring[2] = p.value;
+  }
+  if (!std::isnan(ring[0] + ring[1] + ring[2])) out.rings = {{ring[0], ring[1], ring[2]}};
+  return out;
+}
+
+Map places_map(const Diagnosis& d) {
+  Map map;
+  for (const DiagnosisFinding& f : d.findings) {
+    if (f.places.places.empty()) continue;
+    map.panels.push_back(places_panel(f)), map.tank_radius = f.places.tank_radius;
+  }
+  map.columns = static_cast<int>(map.panels.size());
+  return map;
+}
+
 // Mean squares of deviations, a row a group of numbers; of bodies, a row a group of them.
 Plot fit_plot(const Diagnosis& d) {
   Plot plot;
@@ -129,6 +180,15 @@ void draw_diagnosis(const Diagnosis& d, const ReportDocument& report, const std:
       "Where each finding acts: what the baseline leaves unexplained (dots), and how far it would "
       "be off by chance (band).",
       laws_page(d), null);
+  if (Map places = places_map(d); !places.panels.empty()) {
+    figures.push_back({"places",
+                       "Where in the tank the effect would be, estimated about each place alone, "
+                       "and its place and width in the fit (circle).",
+                       {},
+                       std::move(places),
+                       {},
+                       n});
+  }
   if (!d.held_out.empty()) {
     add("fit", std::string(d.subject->fit(d.nothing_held_out).figure_caption), {{fit_plot(d)}}, "");
   }

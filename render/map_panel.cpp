@@ -312,6 +312,10 @@ void draw_panel(const Canvas& canvas, const MapPanel& panel, double tank_radius,
       canvas.circle(x, y, r);
       canvas.stroke(palette::ink, 1.3);
     }
+    for (const MapPanel::Ring& ring : panel.rings) {
+      canvas.circle(view.x(ring.x), view.y(ring.y), view.length(ring.radius));
+      stroke_on_any(canvas, 1.6, 0.8);
+    }
   }
   draw_arrows(canvas, panel, place);
   draw_axes(canvas, panel, place);

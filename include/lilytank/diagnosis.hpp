@@ -63,6 +63,19 @@ struct FoundCurve {
   double z = 0;                              ///< of the curve as a whole
 };
 
+/// Estimates of an effect that has a place, each as if it were alone: a map of the mismatch over
+/// the tank.
+struct PlaceMap {
+  struct Place {
+    double x = 0, y = 0;        ///< m
+    std::vector<double> value;  ///< a component
+    double z = 0;
+  };
+  std::vector<std::string> components, units;  ///< of the amplitudes
+  double width = 0, tank_radius = 0;           ///< m; width: of the effect at each place
+  std::vector<Place> places;                   ///< of a hexagonal grid, row by row
+};
+
 struct DiagnosisFinding {
   std::string effect;  ///< of the catalogue, or "unnamed"
   std::vector<std::string> alternatives;
@@ -75,6 +88,7 @@ struct DiagnosisFinding {
   std::string equation, split;  ///< the experiment that would split a group; "" if there is none
   std::vector<FoundParameter> parameters;
   FoundCurve curve;  ///< the region's map; of unnamed effects their law
+  PlaceMap places;   ///< of an effect that has a place; else empty
   /// nat on held-out recordings, one step ahead; NaN of faults of the control, which move nothing.
   double gain = 0, gain_low = 0, gain_high = 0;
 };
@@ -164,7 +178,8 @@ std::string diagnosis_text(const Diagnosis& diagnosis);
 /// diagnosis.json (schema diagnosis/1).
 std::string diagnosis_json(const Diagnosis& diagnosis);
 /// Writes diagnosis.txt (the report), diagnosis.json, and where they are known missing.toml,
-/// flow.csv, maps.csv, ranking.csv and fit.csv. Returns the files' names. Throws InputError.
+/// flow.csv, maps.csv, places.csv, ranking.csv and fit.csv. Returns the files' names. Throws
+/// InputError.
 std::vector<std::string> write_diagnosis(const Diagnosis& diagnosis, const ReportDocument& report,
                                          const std::string& dir);
 /// Names of all files that write_diagnosis and draw_diagnosis may leave in a directory.

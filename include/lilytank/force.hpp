@@ -155,9 +155,9 @@ class ForceTerm {
   /// to the water is done to as much of it as there is.
   virtual bool sets_gain() const { return false; }
   /// Changes the water that all other terms see: multiplies `water.gain` and `water.drag`, adds to
-  /// its velocities and its rotation, which are to agree: bodies turn with half the curl of what moves them.
-  /// Called before any add(); `now` holds what terms before this one did. Never throws or
-  /// allocates.
+  /// its velocities and its rotation, which are to agree: bodies turn with half the curl of what
+  /// moves them. Called before any add(); `now` holds what terms before this one did. Never throws
+  /// or allocates.
   virtual void perturb_flow(const Model&, const Kinematics&, const StepContext& now,
                             std::span<const double> p, FlowPerturbation& water) const {
     static_cast<void>(now), static_cast<void>(p), static_cast<void>(water);

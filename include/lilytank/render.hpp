@@ -164,6 +164,11 @@ struct MapPanel {
   std::string arrow_unit = "m/s";
   /// What grey cells are, for a legend of classes; empty: not named.
   std::string no_data;
+  /// Drawn over the cells.
+  struct Ring {
+    double x = 0, y = 0, radius = 0;  ///< m
+  };
+  std::vector<Ring> rings;
 };
 /// Maps of one tank side by side, `columns` in a row; panels of a row with equal scales share a
 /// colour bar.

@@ -15,7 +15,7 @@ std::optional<ScannedEffect> scanned(const Effect& effect, const ScoreDetails& d
   if (effect.estimated == Estimated::place) {
     const auto scan = details.scans.places.find(effect.term);
     if (scan == details.scans.places.end()) return std::nullopt;
-    const FoundPlace& at = scan->second;
+    const FoundPlace& at = scan->second.best;
     const auto size = static_cast<Eigen::Index>(at.amplitudes.size());
     return ScannedEffect{
         placed(effect, at.x, at.y, at.width).held,

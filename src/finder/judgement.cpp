@@ -84,8 +84,8 @@ Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Rec
       refined_selection({ensemble, sensitivity, measured.observed, residual,
                          tank.selection.baseline_misfit(residual), options.threads},
                         {std::move(first), std::move(selection), std::move(measured.details)});
-  std::vector<EffectFit> open =
-      report_selection(ensemble, r.selection, residual, r.model, options.false_alarms, out);
+  std::vector<EffectFit> open = report_selection(ensemble, r.selection, residual, r.model,
+                                                 r.details, options.false_alarms, out);
   std::string tag = hex(fnv_of(measured.observed.scores));
   return {std::move(measured.observed), std::move(r.details), std::move(r.model), std::move(open),
           std::move(tag)};

@@ -50,10 +50,10 @@ bool Refinement::rescan(const SelectedModel& m) {
 bool Refinement::rescan_place(const SelectedModel& m, const Effect& effect) {
   const ScorePlan plan = beside(m, effect);
   if (plan.beside.empty()) return false;
-  FoundPlace& was = state_.details.scans.places[effect.term];
-  const FoundPlace now = find_place(plan, effect, sensitivity_.recordings(), threads_);
-  if (!(std::hypot(now.x - was.x, now.y - was.y) > kElsewhere)) return false;
-  was = now;
+  PlaceScan& was = state_.details.scans.places[effect.term];
+  PlaceScan now = find_place(plan, effect, sensitivity_.recordings(), threads_);
+  if (!(std::hypot(now.best.x - was.best.x, now.best.y - was.best.y) > kElsewhere)) return false;
+  was = std::move(now);
   find_homes(), forget(effect.family);
   return true;
 }

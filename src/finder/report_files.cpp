@@ -58,6 +58,20 @@ std::string maps_csv(const Diagnosis& d) {
   return out;
 }
 
+std::string places_csv(const Diagnosis& d) {
+  std::string out;
+  for (const DiagnosisFinding& f : d.findings) {
+    for (const PlaceMap::Place& place : f.places.places) {
+      for (std::size_t c = 0; c < place.value.size(); ++c) {
+        out += f.effect + "," + number(place.x) + "," + number(place.y) + "," +
+               number(f.places.width) + "," + f.places.components[c] + "," +
+               number(place.value[c]) + "," + f.places.units[c] + "," + number(place.z) + "\n";
+      }
+    }
+  }
+  return out.empty() ? out : "effect,x,y,width,component,value,unit,z\n" + out;
+}
+
 std::string ranking_csv(const Diagnosis& d) {
   std::string out = "effect,variant,z\n";
   for (const RankedEffect& r : d.ranking) {
@@ -113,8 +127,8 @@ std::string diagnosis_json(const Diagnosis& d) {
 std::vector<std::string> diagnosis_files() {
   return with_figures(
       {"diagnosis.json", "diagnosis.txt", "missing.toml", "next_experiment.toml", "flow.csv",
-       "maps.csv", "ranking.csv", "fit.csv", "report.html", "view.html"},
-      {"laws", "fit", "maps"});
+       "maps.csv", "places.csv", "ranking.csv", "fit.csv", "report.html", "view.html"},
+      {"laws", "places", "fit", "maps"});
 }
 
 std::vector<std::string> write_diagnosis(const Diagnosis& d, const ReportDocument& report,
@@ -127,6 +141,8 @@ std::vector<std::string> write_diagnosis(const Diagnosis& d, const ReportDocumen
   }
   if (!d.flow_csv.empty()) files.emplace_back("flow.csv", d.flow_csv);
   if (!d.maps.empty()) files.emplace_back("maps.csv", maps_csv(d));
+  const std::string places = places_csv(d);
+  if (!places.empty()) files.emplace_back("places.csv", places);
   if (!d.ranking.empty()) files.emplace_back("ranking.csv", ranking_csv(d));
   if (!d.held_out.empty()) files.emplace_back("fit.csv", fit_csv(d));
   return write_files(dir, files);

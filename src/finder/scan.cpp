@@ -12,8 +12,9 @@
 namespace lilytank {
 namespace {
 
-constexpr double kSpacing = 0.16, kFarthest = 0.8;       // of the tank's radius
-constexpr double kWidths[] = {0.04, 0.06, 0.09};         // m
+constexpr double kSpacing = 0.16, kFarthest = 0.8;  // of the tank's radius
+constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
+constexpr double kMapWidth = kWidths[1];
 constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
 constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
 constexpr double kLonger = 1.25;                         // from a range to the next that is tried
@@ -63,6 +64,13 @@ std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
   return out;
 }
 
+std::vector<FoundPlace> map_of(std::vector<FoundPlace> places) {
+  std::erase_if(places, [](const FoundPlace& place) { return place.width != kMapWidth; });
+  std::ranges::sort(places, {},
+                    [](const FoundPlace& place) { return std::pair(place.y, place.x); });
+  return places;
+}
+
 double apart(const FoundPlace& a, const FoundPlace& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -92,8 +100,8 @@ std::vector<FoundPlace> around(const FoundPlace& centre, const std::vector<Found
 
 }  // namespace
 
-FoundPlace find_place(const ScorePlan& plan, const Effect& effect,
-                      const std::vector<Recording>& recordings, int threads) {
+PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
+                     const std::vector<Recording>& recordings, int threads) {
   const auto misfits = [&](const std::vector<FoundPlace>& tried) {
     std::vector<double> out(tried.size());
     for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
@@ -122,7 +130,7 @@ FoundPlace find_place(const ScorePlan& plan, const Effect& effect,
   attempt(leading(cleared), leading(as_drawn));
   attempt(around(best, cleared), around(best, as_drawn));
   best.gain = misfit_of(plan, recordings) - least;
-  return best;
+  return {best, map_of(std::move(cleared))};
 }
 
 std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
@@ -162,7 +170,7 @@ Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, 
     if (effect.estimated == Estimated::place && !of_term) somewhere.push_back(&effect);
   }
   Scans out;
-  std::vector<FoundPlace> places(somewhere.size());
+  std::vector<PlaceScan> places(somewhere.size());
   for_each_world(static_cast<int>(somewhere.size()) + 1, threads, [&](int i) {
     const auto k = static_cast<std::size_t>(i);
     if (k == somewhere.size()) {

@@ -13,8 +13,8 @@ namespace lilytank {
 /// hexagonal grid. The scores of all places, which are linear, propose; the predictor with the
 /// effect in its model at each proposal decides (scores.hpp, misfit_of). `threads`: 0 is one a
 /// core.
-FoundPlace find_place(const ScorePlan& plan, const Effect& effect,
-                      const std::vector<Recording>& recordings, int threads);
+PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
+                     const std::vector<Recording>& recordings, int threads);
 
 /// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
 /// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.

@@ -47,6 +47,7 @@ struct SelectionReport {
   const ModelSelection& selection;
   const Vector& residual;
   const SelectedModel& model;
+  const ScoreDetails& details;
   Diagnosis& out;
   const ScorePlan& plan = ensemble.plan();
   std::vector<EffectFit> open{};  // the strongest finding and its alternatives
@@ -132,6 +133,23 @@ void add_place(const FoundCurve& curve, DiagnosisFinding& f) {
   f.text = text;
 }
 
+void add_places(const Effect& effect, const Scans& scans, const Model& model, DiagnosisFinding& f) {
+  const auto scan = scans.places.find(effect.term);
+  if (scan == scans.places.end()) return;
+  const FoundPlace& best = scan->second.best;
+  char text[120];
+  std::snprintf(text, sizeof text, "likeliest about (x, y) = (%.3g, %.3g) m", best.x, best.y);
+  f.text = text;
+  PlaceMap& map = f.places;
+  map.units = effect.units, map.tank_radius = model.tank.radius;
+  for (const std::string& path : effect.paths) map.components.push_back(own_name(path));
+  for (const FoundPlace& one : scan->second.map) {
+    PlaceMap::Place place{one.x, one.y, one.amplitudes, std::sqrt(std::max(0.0, one.gain))};
+    for (std::size_t c = 0; c < place.value.size(); ++c) place.value[c] *= effect.sizes[c];
+    map.width = one.width, map.places.push_back(std::move(place));
+  }
+}
+
 // Whether the findings include an effect of the same family.
 bool SelectionReport::is_reported(const Effect& one) const {
   return std::any_of(model.found.begin(), model.found.end(), [&](const EffectFit& fit) {
@@ -160,7 +178,11 @@ void SelectionReport::add_findings() {
         f.alternatives.push_back(rival.name), open.push_back(other);
       }
       if (!f.alternatives.empty()) f.split = effect.split;
-      if (const FoundCurve* map = map_of(f.variable)) add_place(*map, f);
+      if (effect.estimated == Estimated::place) {
+        add_places(effect, details.scans, plan.model, f);
+      } else if (const FoundCurve* map = map_of(f.variable)) {
+        add_place(*map, f);
+      }
     } else {
       const auto s = static_cast<std::size_t>(fit.shape);
       f.effect = "unnamed", f.variable = plan.shapes[s].variable;
@@ -236,10 +258,10 @@ void SelectionReport::blame_camera() {
 
 std::vector<EffectFit> report_selection(const ReferenceEnsemble& ensemble,
                                         const ModelSelection& selection, const Vector& residual,
-                                        const SelectedModel& e, double false_alarms,
-                                        Diagnosis& out) {
+                                        const SelectedModel& e, const ScoreDetails& details,
+                                        double false_alarms, Diagnosis& out) {
   out.false_alarms = false_alarms;
-  SelectionReport report{ensemble, selection, residual, e, out};
+  SelectionReport report{ensemble, selection, residual, e, details, out};
   report.add_ranking();
   report.add_detectable();
   report.add_findings();

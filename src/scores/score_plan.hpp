@@ -53,6 +53,13 @@ struct FoundPlace {
   bool operator==(const FoundPlace&) const = default;
 };
 
+/// The places of an effect that were tried.
+struct PlaceScan {
+  FoundPlace best;
+  /// Linear estimates about the places of a hexagonal grid, each alone, of one width, row by row.
+  std::vector<FoundPlace> map;
+};
+
 /// The range or thickness of an effect, and its amplitude in sizes.
 struct ScannedValue {
   double value = 0, amplitude = 0;
@@ -60,9 +67,8 @@ struct ScannedValue {
 
 /// Direct estimates from recordings for effects that have a place or a range.
 struct Scans {
-  /// Of effects that have a place, by their terms: the place with which the recordings are
-  /// likeliest.
-  std::map<const ForceTerm*, FoundPlace> places;
+  /// Of effects that have a place, by their terms.
+  std::map<const ForceTerm*, PlaceScan> places;
   /// By the effect's term, of those that are clear; a repulsion is a negative attraction.
   std::map<const ForceTerm*, ScannedValue> values;
 };

@@ -190,7 +190,7 @@ TEST(Scores, TellThePlaceOfAStream) {
   const Model model = drifting(8);
   Effect stream = stream_at(model, -0.05, 0.12, 0.06);
   const auto recordings = filmed(with_effect(model, stream, {0.12, -0.06}), 60, 5);
-  const FoundPlace found = find_place(plan_for(model, recordings), stream, recordings, 1);
+  const FoundPlace found = find_place(plan_for(model, recordings), stream, recordings, 1).best;
   EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.05);
   EXPECT_NEAR(found.amplitudes[0], 2, 1);  // in sizes of 6 cm/s
   EXPECT_NEAR(found.amplitudes[1], -1, 1);
@@ -203,11 +203,15 @@ TEST(Scores, TellThePlaceOfAPatch) {
   const auto recordings = filmed(with_effect(model, patch, {1.5}), 60, 5);
   ScorePlan plan = plan_for(model, recordings);
   plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
-  const FoundPlace found = find_place(plan, patch, recordings, 1);
+  const PlaceScan scan = find_place(plan, patch, recordings, 1);
+  const FoundPlace& found = scan.best;
   EXPECT_LT(std::hypot(found.x + 0.1, found.y - 0.08), 0.03);
   EXPECT_NEAR(found.amplitudes[0], 5, 2);  // in sizes of 0.3
-  const FoundPlace stream = find_place(plan, stream_at(model, 0, 0, 0.06), recordings, 1);
+  const FoundPlace stream = find_place(plan, stream_at(model, 0, 0, 0.06), recordings, 1).best;
   EXPECT_GT(found.gain, stream.gain + 100);
+  // The map over the tank peaks there.
+  const auto peak = std::ranges::max_element(scan.map, {}, &FoundPlace::gain);
+  EXPECT_LT(std::hypot(peak->x + 0.1, peak->y - 0.08), 0.05);
 }
 
 // A smooth error of the flow can do nearly all that a wide stream does: the place is known to the
@@ -222,7 +226,7 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
   ScorePlan hardly_known = known;
   hardly_known.nuisances_known.bottomRightCorner(90, 90) *= 1e-3;  // of the flow's polynomials
   const auto expect = [&](const ScorePlan& plan, double off, double share, double gain) {
-    const FoundPlace found = find_place(plan, stream, recordings, 1);
+    const FoundPlace found = find_place(plan, stream, recordings, 1).best;
     EXPECT_LT(std::hypot(found.x - 0.13, found.y - 0.08), off);
     EXPECT_NEAR(found.amplitudes[0], -2, 2 * share);  // in sizes of 6 cm/s
     EXPECT_NEAR(found.amplitudes[1], -1, share);
