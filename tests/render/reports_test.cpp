@@ -70,6 +70,30 @@ TEST(DiagnosisFigures, OfOneGroupHaveRoomForTheirLegend) {
   EXPECT_GE(sample::png_size(folder.file("fit.png")).height, 400);
 }
 
+// A map where the effect has a place, with a circle at the place of the fit.
+TEST(DiagnosisFigures, MapThePlaceOfAnEffect) {
+  Diagnosis d = found(kLiliesInTank);
+  EXPECT_EQ(drawn(d, "report.html").find("places.png"), std::string::npos);
+  DiagnosisFinding& f = d.findings[0];
+  f.effect = "drag_patch";
+  f.places = {{"strength"}, {"1"}, 0.06, 0.3, {}};
+  for (int k = 0; k < 49; ++k) {
+    const double x = 0.08 * (k % 7 - 3), y = 0.08 * (k / 7 - 3);
+    f.places.places.push_back({x, y, {std::exp(-50 * (x * x + y * y))}, 5});
+  }
+  const std::string alone = drawn(d, "places.png");
+  f.parameters = {{"x", "forces.drag_patch.x", 0.1, 0.05, 0.15, "m"},
+                  {"y", "forces.drag_patch.y", 0, -0.05, 0.05, "m"},
+                  {"radius", "forces.drag_patch.radius", 0.06, 0.03, 0.1, "m"}};
+  EXPECT_FALSE(alone == drawn(d, "places.png"));
+  const Folder folder;
+  const std::vector<std::string> files = write_diagnosis(d, diagnosis_report(d), folder.path());
+  EXPECT_EQ(std::ranges::count(files, "places.csv"), 1);
+  EXPECT_NE(
+      sample::bytes_of(folder.file("places.csv")).find("\ndrag_patch,0,0,0.06,strength,1,1,5\n"),
+      std::string::npos);
+}
+
 ProofWorld told(const std::string& kind, std::vector<std::string> effects, double z,
                 std::vector<std::string> names) {
   ProofWorld w;
