@@ -42,6 +42,9 @@ EffectCandidate renewed(const EffectCandidate& candidate, const Whitening& white
 /// Index of the last candidate of this effect or shape; their number if there is none.
 std::size_t place_of(const std::vector<EffectCandidate>& candidates, int effect, int shape);
 
+/// Gains that differ by less do not distinguish effects.
+inline constexpr double kSameGain = 4;
+
 /// Standard errors below which a statistic of a fingerprint is noise.
 inline constexpr double kNoisy = 2.5;
 

@@ -82,10 +82,11 @@ Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Rec
   const DiagnosisOptions& options = tank.setup.options;
   RefinedSelection r =
       refined_selection({ensemble, sensitivity, measured.observed, residual,
-                         tank.selection.baseline_misfit(residual), options.threads},
+                         tank.selection.baseline_misfit(residual), options.false_alarms,
+                         options.threads},
                         {std::move(first), std::move(selection), std::move(measured.details)});
-  std::vector<EffectFit> open = report_selection(ensemble, r.selection, residual, r.model,
-                                                 r.details, options.false_alarms, out);
+  std::vector<EffectFit> open =
+      report_selection(ensemble, r, residual, options.false_alarms, out);
   std::string tag = hex(fnv_of(measured.observed.scores));
   return {std::move(measured.observed), std::move(r.details), std::move(r.model), std::move(open),
           std::move(tag)};

@@ -125,7 +125,7 @@ NullCalibration calibrate_on_nulls(const Matrix& nulls, const Whitening& whiteni
   NullThresholds& t = out.thresholds;
   t.largest_effect = ExtremeLaw(largest_effect), t.largest_shape = ExtremeLaw(largest_shape);
   t.effect = t.largest_effect.exceeded_with(0.5 * false_alarms);
-  t.shape = t.largest_shape.exceeded_with(0.3 * false_alarms);
+  t.shape = t.largest_shape.exceeded_with(0.2 * false_alarms);
   t.misfit = ExtremeLaw(gains.misfits).exceeded_with(0.2 * false_alarms);
   t.mean_misfit = std::accumulate(gains.misfits.begin(), gains.misfits.end(), 0.0) /
                   static_cast<double>(nulls.rows());

@@ -19,6 +19,10 @@ class ExtremeLaw {
   double mean_ = 0, scale_ = 0;
 };
 
+/// Share of the false positives that is left to the scan of places (place_test.hpp); effects,
+/// curves and the squared distance have the rest.
+inline constexpr double kOfPlaces = 0.1;
+
 /// What nulls reach by chance.
 struct NullThresholds {
   ExtremeLaw largest_effect, largest_shape;  ///< largest z of a null

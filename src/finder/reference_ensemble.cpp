@@ -21,7 +21,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kEffectSeed = 100, kFieldSeed = 7,
+constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kFurtherSeed = 3, kEffectSeed = 100, kFieldSeed = 7,
                         kCurveSeed = 500;
 constexpr int kEnsembleFolds = 8;
 constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
@@ -100,10 +100,8 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
       centre_(centre),
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
-  const Simulation nulls =
-      simulation("nulls", setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre,
-                 spread, Matrix(options.nulls, 0), nullptr, derived_seed(options.seed, kNullSeed));
-  const Design all = design_of(nulls.points, stages.rows("nulls", {nulls.rows}).front());
+  const Simulation without = nulls("nulls", options.nulls, kNullSeed, row_measure());
+  const Design all = design_of(without.points, stages.rows("nulls", {without.rows}).front());
   const auto p = centre.size();
   summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
   const Design numbers{summaries_.points,
@@ -165,7 +163,8 @@ Vectors ReferenceEnsemble::vectors(const std::vector<Recording>& recordings,
 
 ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
     const std::string& stage, const Emulator& emulator, const Vector& about, const Matrix& spread,
-    const Matrix& amplitudes, const Effect* effect, std::uint64_t seed) const {
+    const Matrix& amplitudes, const Effect* effect, std::uint64_t seed,
+    const Measure& numbers) const {
   const Matrix points =
       scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   Matrix values(amplitudes.rows(), amplitudes.cols());  // of the effect's parameters
@@ -177,17 +176,13 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
                         .cwiseMax(bounds.low)
                         .cwiseMin(bounds.high);
   }
-  const auto work = [this, emulator, points, values, seed](int i) {
+  const auto work = [this, emulator, points, values, seed, numbers](int i) {
     std::vector<double> at = stages_.from_scale(points.row(i));
     for (Eigen::Index k = 0; k < values.cols(); ++k) at.push_back(values(i, k));
     const auto field = perturbed_flow(maps_, derived_seed(seed, kFieldSeed), seed, i);
     const auto made =
         emulator.record(at, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
-    if (!made) return std::vector<double>{};
-    const Vectors both = vectors(*made);
-    std::vector<double> row(both.summary.begin(), both.summary.end());
-    row.insert(row.end(), both.scores.begin(), both.scores.end());
-    return row;
+    return made ? numbers(*made) : std::vector<double>{};
   };
   Matrix where(points.rows(), points.cols() + amplitudes.cols());
   where << points, amplitudes;
@@ -233,7 +228,30 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::simulation_with(
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  return simulation(stage, emulator, about, spread, amplitudes, &effect, seed);
+  return simulation(stage, emulator, about, spread, amplitudes, &effect, seed, row_measure());
+}
+
+ReferenceEnsemble::Measure ReferenceEnsemble::row_measure() const {
+  return [this](const std::vector<Recording>& recordings) {
+    const Vectors both = vectors(recordings);
+    std::vector<double> row(both.summary.begin(), both.summary.end());
+    row.insert(row.end(), both.scores.begin(), both.scores.end());
+    return row;
+  };
+}
+
+ReferenceEnsemble::Simulation ReferenceEnsemble::nulls(const std::string& stage, int count,
+                                                       std::uint64_t seed,
+                                                       const Measure& numbers) const {
+  const CalibrationSetup& setup = stages_.setup();
+  return simulation(stage, setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre_,
+                    spread_, Matrix(count, 0), nullptr, derived_seed(options_.seed, seed), numbers);
+}
+
+std::vector<std::vector<double>> ReferenceEnsemble::further_nulls(const std::string& stage,
+                                                                  int count,
+                                                                  const Measure& numbers) const {
+  return stages_.rows(stage, {nulls(stage, count, kFurtherSeed, numbers).rows}).front();
 }
 
 ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,

@@ -9,6 +9,7 @@
 // fingerprint in residuals. [Gallant and Tauchen 1996; Allen and Tett 1999]
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -91,6 +92,10 @@ class ReferenceEnsemble {
   Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
                                 const Eigen::VectorXd& point, int experiments,
                                 const std::string& stage, std::uint64_t seed);
+  /// Numbers of `count` null experiments of their own, kept as `stage`; none of one that diverged.
+  using Measure = std::function<std::vector<double>(const std::vector<Recording>&)>;
+  std::vector<std::vector<double>> further_nulls(const std::string& stage, int count,
+                                                 const Measure& numbers) const;
   const ResponseSurface& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
@@ -102,8 +107,11 @@ class ReferenceEnsemble {
   };
   Simulation simulation(const std::string& stage, const Emulator& emulator,
                         const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
-                        const Eigen::MatrixXd& amplitudes, const Effect* effect,
-                        std::uint64_t seed) const;
+                        const Eigen::MatrixXd& amplitudes, const Effect* effect, std::uint64_t seed,
+                        const Measure& numbers) const;
+  Measure row_measure() const;  ///< the summary, then the scores
+  Simulation nulls(const std::string& stage, int count, std::uint64_t seed,
+                   const Measure& numbers) const;
   Simulation simulation_with(const Effect& effect, const std::string& stage,
                              const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
                              const Eigen::MatrixXd& amplitudes, std::uint64_t seed) const;

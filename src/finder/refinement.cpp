@@ -72,7 +72,8 @@ void Refinement::find_homes() {
   }
 }
 
-RefinedSelection Refinement::run() {
+RefinedSelection Refinement::run(const std::optional<PlaceFinding>& clear) {
+  if (clear) refine_fingerprint(fit_at_place(*clear));
   const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
     if (needs_relinearization(f) && f.gain > kFirstRival * leading[0].gain) refine_fingerprint(f);
@@ -85,7 +86,22 @@ RefinedSelection Refinement::run() {
   if (refine_ranges(m)) m = settled(selected());
   if (close_call() || made_sure(m)) m = settled(selected());
   m = with_interactions(std::move(m));
-  return {std::move(m), std::move(state_.selection), std::move(state_.details)};
+  const bool only_by_place = clear && m.found.empty();
+  if (only_by_place) m.found = {fit_at_place(*clear)};
+  RefinedSelection out{std::move(m), std::move(state_.selection), std::move(state_.details)};
+  if (only_by_place) out.by_place = clear;
+  return out;
+}
+
+EffectFit Refinement::fit_at_place(const PlaceFinding& clear) {
+  const Id id = id_of(clear.fit);
+  EffectFit out = fit_with(id, scanned(effect(id), state_.details)->amplitudes->estimate);
+  out.z = clear.fit.z, out.gain = clear.fit.gain;
+  if (const RefinedCandidate* known = refined(out)) {
+    out.about = known->fingerprint.experiments;
+    out.moved = known->fingerprint.moved(out.amplitudes);
+  }
+  return out;
 }
 
 Refinement::Id Refinement::id_of(const EffectFit& f) const {
@@ -245,11 +261,17 @@ std::optional<EffectFit> Refinement::next_after(const SelectedModel& m) {
 }
 
 RefinedSelection refined_selection(const RefinementInput& input, RefinedSelection start) {
-  if (start.model.found.empty()) return start;
   const ScorePlan& plan = input.ensemble.plan();
-  start.details.scans = scans_of(plan, input.sensitivity.recordings(), input.threads);
-  if (is_plain(plan, start.selection, start.model, input.residual)) return start;
-  return Refinement(input, start).run();
+  const std::vector<Recording>& recordings = input.sensitivity.recordings();
+  std::optional<PlaceFinding> clear;
+  if (start.model.found.empty()) {
+    clear = find_clear_place(input.ensemble, recordings, start.selection.effect_threshold(),
+                             kOfPlaces * input.false_alarms);
+    if (!clear) return start;
+  }
+  start.details.scans = scans_of(plan, recordings, input.threads);
+  if (!clear && is_plain(plan, start.selection, start.model, input.residual)) return start;
+  return Refinement(input, start).run(clear);
 }
 
 }  // namespace lilytank

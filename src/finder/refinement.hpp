@@ -8,6 +8,7 @@
 
 #include "finder/found_effect.hpp"
 #include "finder/model_selection.hpp"
+#include "finder/place_test.hpp"
 #include "finder/score_sensitivity.hpp"
 
 namespace lilytank {
@@ -26,6 +27,8 @@ struct RefinedSelection {
   SelectedModel model;
   ModelSelection selection;
   ScoreDetails details;
+  /// The only finding, where scores of the plan do not show it and its place does.
+  std::optional<PlaceFinding> by_place = {};
 };
 
 /// What the search is for and with; all must outlive it.
@@ -35,11 +38,13 @@ struct RefinementInput {
   const Vectors& observed;
   const Eigen::VectorXd& residual;
   double baseline_misfit;  ///< of the residual, by the scatter of nulls
+  double false_alarms;     ///< false-positive rate of null experiments
   int threads;
 };
 
 /// The selection by experiments of its own, unless `start` explains the residual plainly: by one
-/// effect of a size that fingerprints were learned at, without a rival. Throws Stopped.
+/// effect of a size that fingerprints were learned at, without a rival; or finds nothing, and no
+/// place of the tank shows more than null experiments do. Throws Stopped.
 RefinedSelection refined_selection(const RefinementInput& input, RefinedSelection start);
 
 // Fingerprints are learned at sizes that can just be seen well; what is far stronger is judged by
@@ -50,8 +55,8 @@ class Refinement {
   Refinement(const RefinementInput& input, const RefinedSelection& start);
 
   /// First the candidates that may be it, then whatever leads, what is found and its rivals beside
-  /// the others. Throws Stopped.
-  RefinedSelection run();
+  /// the others. `clear`: what the scan of places found, if that is why. Throws Stopped.
+  RefinedSelection run(const std::optional<PlaceFinding>& clear = {});
 
  private:
   using Id = std::pair<int, int>;  // effect and shape; of a family the effect that stands for it
@@ -79,6 +84,8 @@ class Refinement {
   const RefinedCandidate* refined(const EffectFit& f) const;
   // Forgets the experiments with the effects of a family: their place or range is another one now.
   void forget(int family);
+  // By the scan of places alone.
+  EffectFit fit_at_place(const PlaceFinding& clear);
   // About found amplitudes where there is one, else as learned first.
   Fingerprint fingerprint(const EffectFit& f);
   // Experiments about the amplitudes that were found, and the fingerprint by them.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "lilytank/study.hpp"
 #include "scores/scores.hpp"
@@ -20,7 +21,7 @@ constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank 
 constexpr double kLonger = 1.25;                         // from a range to the next that is tried
 constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
-std::vector<FoundPlace> grid_of(const Model& model) {
+std::vector<FoundPlace> grid_of(const Model& model, std::span<const double> widths) {
   std::vector<FoundPlace> places;
   const double R = model.tank.radius, step = kSpacing * R, row = step * std::sqrt(0.75);
   const int most = static_cast<int>(std::ceil(kFarthest * R / row));
@@ -28,7 +29,7 @@ std::vector<FoundPlace> grid_of(const Model& model) {
     for (int i = -most; i <= most; ++i) {
       const double x = step * (i + (j % 2 == 0 ? 0 : 0.5)), y = row * j;
       if (std::hypot(x, y) > kFarthest * R) continue;
-      for (const double width : kWidths) places.push_back({x, y, width, {}});
+      for (const double width : widths) places.push_back({x, y, width, {}});
     }
   }
   return places;
@@ -44,6 +45,15 @@ Model with_placed(const Model& model, const Effect& effect, const FoundPlace& pl
   return with_effect(model, at(effect, place), amplitudes);
 }
 
+// Of the components of one effect at every place, in turn.
+void add_amplitudes(std::span<const ScoredAmplitude> scored, std::size_t components,
+                    std::vector<FoundPlace>& places) {
+  for (std::size_t k = 0; k < scored.size(); ++k) {
+    FoundPlace& place = places[k / components];
+    place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain;
+  }
+}
+
 // Places of the grid with linear estimates of the amplitudes, by descending gain. A smooth error
 // of the flow is almost collinear with a wide stream: orthogonalised against it, speed and place
 // are biased; without that, an error of the flow is scored as a stream.
@@ -51,15 +61,11 @@ std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
                                const std::vector<Recording>& recordings, bool flow_as_drawn) {
   ScorePlan scan = plan;
   scan.effects.clear(), scan.shapes.clear();
-  std::vector<FoundPlace> out = grid_of(plan.model);
+  std::vector<FoundPlace> out = grid_of(plan.model, kWidths);
   for (const FoundPlace& place : out) scan.effects.push_back(at(effect, place));
   if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
   const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
-  const std::size_t components = effect.paths.size();
-  for (std::size_t k = 0; k < scored.size(); ++k) {
-    FoundPlace& place = out[k / components];
-    place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain;
-  }
+  add_amplitudes(scored, effect.paths.size(), out);
   largest_first(out, &FoundPlace::gain);
   return out;
 }
@@ -69,6 +75,17 @@ std::vector<FoundPlace> map_of(std::vector<FoundPlace> places) {
   std::ranges::sort(places, {},
                     [](const FoundPlace& place) { return std::pair(place.y, place.x); });
   return places;
+}
+
+// An effect of each term that has a place.
+std::vector<const Effect*> effects_somewhere(const ScorePlan& plan) {
+  std::vector<const Effect*> out;
+  for (const Effect& effect : plan.effects) {
+    const bool of_term =
+        std::ranges::any_of(out, [&](const Effect* one) { return one->term == effect.term; });
+    if (effect.estimated == Estimated::place && !of_term) out.push_back(&effect);
+  }
+  return out;
 }
 
 double apart(const FoundPlace& a, const FoundPlace& b) {
@@ -133,6 +150,24 @@ PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
   return {best, map_of(std::move(cleared))};
 }
 
+std::vector<LinearPlaces> linear_places(const ScorePlan& plan,
+                                        const std::vector<Recording>& recordings) {
+  ScorePlan scan = plan;
+  scan.effects.clear(), scan.shapes.clear();
+  std::vector<LinearPlaces> out;
+  for (const Effect* effect : effects_somewhere(plan)) {
+    out.push_back({effect, grid_of(plan.model, {&kMapWidth, 1})});
+    for (const FoundPlace& place : out.back().places) scan.effects.push_back(at(*effect, place));
+  }
+  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
+  std::span<const ScoredAmplitude> rest = scored;
+  for (LinearPlaces& one : out) {
+    const std::size_t components = one.effect->paths.size(), n = components * one.places.size();
+    add_amplitudes(rest.first(n), components, one.places), rest = rest.subspan(n);
+  }
+  return out;
+}
+
 std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
                                                      const std::vector<Recording>& recordings) {
   ScorePlan scan = plan;
@@ -163,12 +198,7 @@ std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
 }
 
 Scans scans_of(const ScorePlan& plan, const std::vector<Recording>& recordings, int threads) {
-  std::vector<const Effect*> somewhere;  // an effect of each term that has a place
-  for (const Effect& effect : plan.effects) {
-    const bool of_term =
-        std::ranges::any_of(somewhere, [&](const Effect* one) { return one->term == effect.term; });
-    if (effect.estimated == Estimated::place && !of_term) somewhere.push_back(&effect);
-  }
+  const std::vector<const Effect*> somewhere = effects_somewhere(plan);
   Scans out;
   std::vector<PlaceScan> places(somewhere.size());
   for_each_world(static_cast<int>(somewhere.size()) + 1, threads, [&](int i) {

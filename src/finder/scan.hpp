@@ -16,6 +16,16 @@ namespace lilytank {
 PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
                      const std::vector<Recording>& recordings, int threads);
 
+/// Linear estimates of an effect that has a place about the places of a hexagonal grid, of one
+/// width, each alone and cleared of what errors of parameters and of the flow can do.
+struct LinearPlaces {
+  const Effect* effect = nullptr;  ///< of the plan, the first of its term
+  std::vector<FoundPlace> places;
+};
+/// Those of every term that has a place, in the order of the plan.
+std::vector<LinearPlaces> linear_places(const ScorePlan& plan,
+                                        const std::vector<Recording>& recordings);
+
 /// The ranges of forces between modules and of the wall, and the thickness of its layer, that do,
 /// each if twice the log-likelihood rises by 30 or more. Modules that touch do not count.
 std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,

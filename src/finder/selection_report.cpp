@@ -38,17 +38,20 @@ struct SelectionReport {
   FoundCurve curve(std::size_t s, double z) const;
   const FoundCurve* map_of(const std::string& variable) const;
   void add_nearest();
+  void add_alternatives(const EffectFit& fit, const std::vector<EffectFit>& ranked,
+                        DiagnosisFinding& f);
   bool is_reported(const Effect& one) const;
   void blame_camera();
   void disown();
   void warn_of_rest();
 
   const ReferenceEnsemble& ensemble;
-  const ModelSelection& selection;
+  const RefinedSelection& selected;
   const Vector& residual;
-  const SelectedModel& model;
-  const ScoreDetails& details;
   Diagnosis& out;
+  const ModelSelection& selection = selected.selection;
+  const SelectedModel& model = selected.model;
+  const ScoreDetails& details = selected.details;
   const ScorePlan& plan = ensemble.plan();
   std::vector<EffectFit> open{};  // the strongest finding and its alternatives
 };
@@ -157,29 +160,41 @@ bool SelectionReport::is_reported(const Effect& one) const {
   });
 }
 
+// By scores, or one step ahead where scores do not show the finding.
+void SelectionReport::add_alternatives(const EffectFit& fit, const std::vector<EffectFit>& ranked,
+                                       DiagnosisFinding& f) {
+  const auto& by_place = selected.by_place;
+  const auto own = std::ranges::find(ranked, fit.effect, &EffectFit::effect);
+  const double gain = by_place ? fit.gain : own->gain;
+  open = {fit}, open[0].gain = gain;
+  std::set<int> rivals;
+  for (const EffectFit& other : by_place ? by_place->others : ranked) {
+    if (other.effect < 0) continue;
+    const Effect& rival = effect_in(plan, other);
+    if (gain - other.gain >= kSameGain || is_reported(rival)) continue;
+    if (!rivals.insert(rival.family).second) continue;
+    f.alternatives.push_back(rival.name), open.push_back(other);
+  }
+}
+
 void SelectionReport::add_findings() {
   const std::vector<EffectFit> ranked = selection.effects(residual);
   for (std::size_t i = 0; i < model.found.size(); ++i) {
     const EffectFit& fit = model.found[i];
     DiagnosisFinding f;
-    f.z = fit.z, f.confidence = selection.confidence(fit);
+    f.z = fit.z;
+    f.confidence = selected.by_place ? selected.by_place->confidence : selection.confidence(fit);
     if (fit.effect >= 0) {
       const Effect& effect = effect_in(plan, fit);
       f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
-      const auto own = std::find_if(ranked.begin(), ranked.end(),
-                                    [&](const EffectFit& one) { return one.effect == fit.effect; });
-      std::set<int> rivals;
-      if (i == 0) open = {fit}, open[0].gain = own->gain;
-      for (const EffectFit& other : ranked) {
-        if (other.effect < 0 || i > 0) continue;
-        const Effect& rival = effect_in(plan, other);
-        if (own->gain - other.gain >= kSameGain || is_reported(rival)) continue;
-        if (!rivals.insert(rival.family).second) continue;
-        f.alternatives.push_back(rival.name), open.push_back(other);
-      }
+      if (i == 0) add_alternatives(fit, ranked, f);
       if (!f.alternatives.empty()) f.split = effect.split;
       if (effect.estimated == Estimated::place) {
         add_places(effect, details.scans, plan.model, f);
+        if (selected.by_place) {
+          f.text += "; clear there alone: null experiments exceed z = " +
+                    significant(selected.by_place->threshold, 2) + " at no place";
+        }
       } else if (const FoundCurve* map = map_of(f.variable)) {
         add_place(*map, f);
       }
@@ -257,11 +272,10 @@ void SelectionReport::blame_camera() {
 }  // namespace
 
 std::vector<EffectFit> report_selection(const ReferenceEnsemble& ensemble,
-                                        const ModelSelection& selection, const Vector& residual,
-                                        const SelectedModel& e, const ScoreDetails& details,
+                                        const RefinedSelection& selected, const Vector& residual,
                                         double false_alarms, Diagnosis& out) {
   out.false_alarms = false_alarms;
-  SelectionReport report{ensemble, selection, residual, e, details, out};
+  SelectionReport report{ensemble, selected, residual, out};
   report.add_ranking();
   report.add_detectable();
   report.add_findings();
