@@ -45,6 +45,10 @@ class Sensitivities {
     double estimate = 0, information = 0;
     /// By how much it raises twice the log-likelihood.
     double gain() const { return estimate * estimate * information; }
+    /// The estimate where it was known with so much information to be 0.
+    double drawn(double known) const {
+      return information > 0 ? estimate * information / (information + known) : 0;
+    }
   };
   /// Of every feature but the nuisances, the last ones; 0 where nothing was pushed. `known`:
   /// precision of the nuisances' amplitudes before any data, [nuisance, nuisance].

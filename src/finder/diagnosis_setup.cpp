@@ -50,7 +50,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "25 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "26 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

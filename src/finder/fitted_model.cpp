@@ -93,6 +93,15 @@ void report_parameters(const CalibrationSetup& setup, const JointFit& fit,
   out.overlay = overlay_of(setup, found, out);
 }
 
+// Where the joint fit begins. A place is found with its amplitudes, one step ahead: those by scores
+// about the places of the catalogue may be far too small.
+Vector likeliest_amplitudes(const Effect& effect, const EffectFit& f, const ScoreDetails& details) {
+  if (f.effect < 0) return f.amplitudes;
+  const auto direct = scanned(effect, details);
+  const bool clearer = direct && direct->amplitudes && direct->amplitudes->gain > f.gain;
+  return clearer ? direct->amplitudes->estimate : f.amplitudes;
+}
+
 // `baseline`: its calibration to these recordings.
 void show(PreparedTank& tank, const JointFit& fit, const std::vector<double>& before,
           const Vector& baseline, const std::vector<Recording>& recordings, Diagnosis& out) {
@@ -178,8 +187,7 @@ void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Re
   const CalibrationSetup& setup = tank.setup.calibration;
   Stages& stages = tank.setup.stages;
   const SelectedModel& e = judged.selected;
-  const Vectors& observed = judged.observed;
-  const Vector baseline = tank.ensemble.calibrated(observed.summary);
+  const Vector baseline = tank.ensemble.calibrated(judged.observed.summary);
   const std::vector<double> before = report_baseline(tank, judged, out);
   if (out.verdict != Verdict::missing) {
     report_camera(setup, before, out);
@@ -190,13 +198,15 @@ void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Re
   Vector moved = Vector::Zero(baseline.size());
   for (const EffectFit& f : e.found) {
     moved += f.moved;
-    found.push_back({found_effect(tank.ensemble.plan(), f, judged.details), f.amplitudes, f.shape});
+    const Effect effect = found_effect(tank.ensemble.plan(), f, judged.details);
+    found.push_back({effect, likeliest_amplitudes(effect, f, judged.details), f.shape});
   }
   const FitBounds bounds = stages.bounds();
   const JointStart start{stages.to_scale(setup.start),
                          (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          tank.spread.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(stages, tank.maps, tank.ensemble, found, observed, start,
+  const JointFit fit = fit_jointly(stages, tank.maps, tank.ensemble, found,
+                                   {judged.observed, *judged.recordings}, start,
                                    {tank.setup.budget.round, tank.selection.effect_threshold(),
                                     judged.tag, derived_seed(tank.setup.options.seed, 700)});
   if (!fit.settled) {

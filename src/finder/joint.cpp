@@ -31,13 +31,30 @@ constexpr double kLater = 0.625;  // of a round, where others are near
 constexpr int kChecks = 60;       // experiments at the answer
 constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
-// Statistics of the joint fit: summary, named scores, and scores of the fitted curves,
-// standardised. Scores of effects are decorrelated by their expected correlations, which few
-// simulations could not estimate.
+// Where an effect with a place is scored for the joint fit: where the fit begins, and a width away
+// in each direction, which shows where it is to go.
+std::vector<Effect> about_place(const Effect& effect) {
+  const double x = effect.held[0].value, y = effect.held[1].value, width = effect.held[2].value;
+  std::vector<Effect> out{effect};
+  for (const double step : {-width, width}) {
+    out.push_back(placed(effect, x + step, y, width));
+    out.push_back(placed(effect, x, y + step, width));
+  }
+  return out;
+}
+
+// Statistics of the joint fit: summary, named scores, scores of the fitted curves, and of effects
+// about their places, standardised. Scores of effects are decorrelated by their expected
+// correlations, which few simulations could not estimate.
 class Numbers {
  public:
   Numbers(const ReferenceEnsemble& ensemble, const std::vector<JointEffect>& effects)
-      : ensemble_(ensemble) {
+      : ensemble_(ensemble), places_(ensemble.plan()) {
+    places_.effects.clear(), places_.shapes.clear();
+    for (const JointEffect& e : effects) {
+      if (e.effect.estimated != Estimated::place) continue;
+      for (Effect& one : about_place(e.effect)) places_.effects.push_back(std::move(one));
+    }
     for (Eigen::Index k = 0; k < ensemble.named_numbers(); ++k) scores_.push_back(k);
     for (const JointEffect& e : effects) {
       for (int k = 0; e.shape >= 0 && k < kKnots; ++k) {
@@ -48,16 +65,31 @@ class Numbers {
     alike.diagonal().array() += kUniqueVariance;
     alike_ = lower_root(alike);
   }
-  Vector operator()(const Vectors& v) const {
-    Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()));
-    out << v.summary, v.scores(scores_).cwiseQuotient(ensemble_.deviations()(scores_));
+  Vector operator()(const std::vector<Recording>& recordings) const {
+    return of(ensemble_.vectors(recordings), recordings);
+  }
+  Vector of(const Vectors& v, const std::vector<Recording>& recordings) const {
+    const Vector places = about_places(recordings);
+    Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()) + places.size());
+    out << v.summary, v.scores(scores_).cwiseQuotient(ensemble_.deviations()(scores_)), places;
     auto own = out.segment(v.summary.size(), alike_.rows());
     own = solve_lower(alike_, own);
     return out;
   }
 
  private:
+  Vector about_places(const std::vector<Recording>& recordings) const {
+    if (places_.effects.empty()) return {};
+    const auto scored = scored_amplitudes(places_, recordings);
+    Vector out(static_cast<Eigen::Index>(scored.size()));
+    for (Eigen::Index k = 0; k < out.size(); ++k) {
+      out(k) = scored[static_cast<std::size_t>(k)].drawn(kScoreKnown);
+    }
+    return out;
+  }
+
   const ReferenceEnsemble& ensemble_;
+  ScorePlan places_;
   Matrix alike_;
   std::vector<Eigen::Index> scores_;
 };
@@ -84,7 +116,7 @@ class Joint {
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
       if (!made) return std::vector<double>{};
-      const Vector all = numbers_(ensemble_.vectors(*made));
+      const Vector all = numbers_(*made);
       return std::vector<double>(all.begin(), all.end());
     });
     return design_of(points, rows);
@@ -193,14 +225,14 @@ bool settled(const ParameterEstimate& answer, const FitBounds& bounds, Vector& c
 class Rounds {
  public:
   Rounds(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
-         std::vector<JointEffect> effects, const Vectors& observed, JointStart baseline,
+         std::vector<JointEffect> effects, const JointData& data, JointStart baseline,
          JointRounds rounds)
       : stages_(stages),
         maps_(maps),
         ensemble_(ensemble),
         effects_(std::move(effects)),
         numbers_(ensemble, effects_),
-        data_(numbers_(observed)),
+        data_(numbers_.of(data.observed, data.recordings)),
         baseline_(std::move(baseline)),
         rounds_(std::move(rounds)) {
     for (std::size_t e = 0; e < effects_.size(); ++e) fit_.kept.push_back(e);
@@ -305,9 +337,9 @@ class Rounds {
 }  // namespace
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
-                     std::vector<JointEffect> effects, const Vectors& observed,
+                     std::vector<JointEffect> effects, const JointData& data,
                      const JointStart& baseline, const JointRounds& rounds) {
-  return Rounds(stages, maps, ensemble, std::move(effects), observed, baseline, rounds).run();
+  return Rounds(stages, maps, ensemble, std::move(effects), data, baseline, rounds).run();
 }
 
 }  // namespace lilytank

@@ -13,11 +13,17 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Deviations of the first design: of refined parameters on a log scale, and of places.
-constexpr double kRefined = 0.25, kPlaced = 0.06;
+// Deviations of the first design: of refined parameters on a log scale, and of places, as a share
+// of the width of what is there: farther off, scores about the place are no longer linear in it.
+constexpr double kRefined = 0.25, kPlaced = 0.25;
 // Prior deviation of an effect's amplitudes about those of the selection, in their root mean
 // square. Knots that modules rarely visit have no other constraint.
 constexpr double kNamed = 1;
+
+// m; of what is not at a place, the range of the parameter.
+double place_width(const Effect& effect, const FitParameter& p) {
+  return effect.estimated == Estimated::place ? effect.held[2].value : p.high - p.low;
+}
 
 // Index of each effect's first amplitude among the parameters.
 std::vector<Eigen::Index> places_of(const Stages& stages, const std::vector<JointEffect>& effects) {
@@ -58,7 +64,7 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
     for (const FitParameter& p : effect.refine) {
       fit.parameters.push_back(p);
       out.add(p.to_scale(parameter_value(fit.model, p.path)),
-              p.logarithmic ? kRefined : kPlaced * (p.high - p.low), kUnknown);
+              p.logarithmic ? kRefined : kPlaced * place_width(effect, p), kUnknown);
     }
   }
   return out;

@@ -80,16 +80,15 @@ Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Rec
   }
   SelectedModel first = explained(ensemble, selection, sensitivity, residual);
   const DiagnosisOptions& options = tank.setup.options;
-  RefinedSelection r =
-      refined_selection({ensemble, sensitivity, measured.observed, residual,
-                         tank.selection.baseline_misfit(residual), options.false_alarms,
-                         options.threads},
-                        {std::move(first), std::move(selection), std::move(measured.details)});
-  std::vector<EffectFit> open =
-      report_selection(ensemble, r, residual, options.false_alarms, out);
+  RefinedSelection r = refined_selection(
+      {ensemble, sensitivity, measured.observed, residual, tank.selection.baseline_misfit(residual),
+       options.false_alarms, options.threads},
+      {std::move(first), std::move(selection), std::move(measured.details)});
+  std::vector<EffectFit> open = report_selection(ensemble, r, residual, options.false_alarms, out);
   std::string tag = hex(fnv_of(measured.observed.scores));
-  return {std::move(measured.observed), std::move(r.details), std::move(r.model), std::move(open),
-          std::move(tag)};
+  return {&recordings,          std::move(measured.observed),
+          std::move(r.details), std::move(r.model),
+          std::move(open),      std::move(tag)};
 }
 
 }  // namespace lilytank

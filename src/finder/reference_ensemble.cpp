@@ -21,8 +21,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kFurtherSeed = 3, kEffectSeed = 100, kFieldSeed = 7,
-                        kCurveSeed = 500;
+constexpr std::uint64_t kNullSeed = 1, kSharpSeed = 2, kFurtherSeed = 3, kEffectSeed = 100,
+                        kFieldSeed = 7, kCurveSeed = 500;
 constexpr int kEnsembleFolds = 8;
 constexpr double kCalibrationReach = 2.5;  // deviations of the design that a calibration may go
 // Width of designs about a finding relative to that of nulls: its parameters are known better.

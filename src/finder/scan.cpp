@@ -46,11 +46,11 @@ Model with_placed(const Model& model, const Effect& effect, const FoundPlace& pl
 }
 
 // Of the components of one effect at every place, in turn.
-void add_amplitudes(std::span<const ScoredAmplitude> scored, std::size_t components,
+void add_amplitudes(std::span<const Sensitivities::Amplitude> scored, std::size_t components,
                     std::vector<FoundPlace>& places) {
   for (std::size_t k = 0; k < scored.size(); ++k) {
     FoundPlace& place = places[k / components];
-    place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain;
+    place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain();
   }
 }
 
@@ -64,7 +64,7 @@ std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
   std::vector<FoundPlace> out = grid_of(plan.model, kWidths);
   for (const FoundPlace& place : out) scan.effects.push_back(at(effect, place));
   if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
-  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
+  const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings);
   add_amplitudes(scored, effect.paths.size(), out);
   largest_first(out, &FoundPlace::gain);
   return out;
@@ -159,8 +159,8 @@ std::vector<LinearPlaces> linear_places(const ScorePlan& plan,
     out.push_back({effect, grid_of(plan.model, {&kMapWidth, 1})});
     for (const FoundPlace& place : out.back().places) scan.effects.push_back(at(*effect, place));
   }
-  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
-  std::span<const ScoredAmplitude> rest = scored;
+  const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings);
+  std::span<const Sensitivities::Amplitude> rest = scored;
   for (LinearPlaces& one : out) {
     const std::size_t components = one.effect->paths.size(), n = components * one.places.size();
     add_amplitudes(rest.first(n), components, one.places), rest = rest.subspan(n);
@@ -181,7 +181,7 @@ std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
       scan.effects.back().held[0].value = range;
     }
   }
-  const std::vector<ScoredAmplitude> scored = scored_amplitudes(scan, recordings);
+  const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings);
   std::map<const ForceTerm*, ScannedValue> out;
   std::map<const ForceTerm*, double> most;
   for (std::size_t k = 0; k < scored.size(); ++k) {
@@ -191,8 +191,8 @@ std::map<const ForceTerm*, ScannedValue> find_values(const ScorePlan& plan,
         std::any_of(plan.effects.begin(), plan.effects.end(),
                     [&](const Effect& e) { return e.negative_of == effect.term; });
     double& best = most.emplace(effect.term, kClearRise).first->second;
-    if (!(scored[k].gain > best) || (!may_be_negative && scored[k].estimate < 0)) continue;
-    best = scored[k].gain, out[effect.term] = {effect.held[0].value, scored[k].estimate};
+    if (!(scored[k].gain() > best) || (!may_be_negative && scored[k].estimate < 0)) continue;
+    best = scored[k].gain(), out[effect.term] = {effect.held[0].value, scored[k].estimate};
   }
   return out;
 }

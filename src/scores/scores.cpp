@@ -76,12 +76,8 @@ class Scorer {
     if (plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
   }
 
-  std::vector<ScoredAmplitude> amplitudes() const {
-    std::vector<ScoredAmplitude> out;
-    for (const auto& one : sensitivities_.amplitudes(known_)) {
-      out.push_back({one.estimate, one.gain()});
-    }
-    return out;
+  std::vector<Sensitivities::Amplitude> amplitudes() const {
+    return sensitivities_.amplitudes(known_);
   }
 
   // For each effect of the plan, its components jointly, without other effects.
@@ -115,14 +111,11 @@ class Scorer {
   std::vector<double> values(ScoreDetails* details) const {
     std::vector<double> values;
     const auto amplitudes = sensitivities_.amplitudes(known_);
-    const auto drawn = [&](std::size_t f, double known) {
-      const double own = amplitudes[f].information;
-      values.push_back(own > 0 ? amplitudes[f].estimate * own / (own + known) : 0);
-    };
-    for (std::size_t f = 0; f < scored_; ++f) drawn(f, kScoreKnown);
+    for (std::size_t f = 0; f < scored_; ++f) values.push_back(amplitudes[f].drawn(kScoreKnown));
     for (const auto& part : parts_) part->append_to(values, details);
     values.insert(values.end(), bonds_.begin(), bonds_.end());
-    for (std::size_t f = scored_; f < total_; ++f) drawn(f, kKnotKnown);
+    for (std::size_t f = scored_; f < total_; ++f)
+      values.push_back(amplitudes[f].drawn(kKnotKnown));
     for (double& value : values) {
       if (!std::isfinite(value)) value = 0;
     }
@@ -329,8 +322,8 @@ std::size_t ScorePlan::first_of_shape(std::size_t index) const {
   return entries().size() - (shapes.size() - index) * kKnots;
 }
 
-std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
-                                               const std::vector<Recording>& recordings) {
+std::vector<Sensitivities::Amplitude> scored_amplitudes(const ScorePlan& plan,
+                                                        const std::vector<Recording>& recordings) {
   Scorer scorer(plan);
   scorer.run(recordings);
   return scorer.amplitudes();

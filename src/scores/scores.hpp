@@ -11,6 +11,7 @@
 #pragma once
 #include <vector>
 
+#include "filter/sensitivity.hpp"
 #include "scores/score_plan.hpp"
 
 namespace lilytank {
@@ -41,13 +42,9 @@ Eigen::MatrixXd correlations_of(const Eigen::MatrixXd& informations);
 /// Variance of a score that no other has, where correlations are divided out.
 inline constexpr double kUniqueVariance = 0.01;
 
-/// Every scored component of the plan's effects alone: its amplitude, in sizes, and by how much it
-/// raises twice the log-likelihood.
-struct ScoredAmplitude {
-  double estimate = 0, gain = 0;
-};
-std::vector<ScoredAmplitude> scored_amplitudes(const ScorePlan& plan,
-                                               const std::vector<Recording>& recordings);
+/// Every scored component of the plan's effects alone: its amplitude, in sizes.
+std::vector<Sensitivities::Amplitude> scored_amplitudes(const ScorePlan& plan,
+                                                        const std::vector<Recording>& recordings);
 
 /// The amplitudes of all components of one effect together, in sizes, and by how much they raise
 /// twice the log-likelihood.

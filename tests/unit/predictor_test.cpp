@@ -214,6 +214,33 @@ TEST(Scores, TellThePlaceOfAPatch) {
   EXPECT_LT(std::hypot(peak->x + 0.1, peak->y - 0.08), 0.05);
 }
 
+// Linear estimates about all places, of every effect that has one: those of a patch are clearest
+// about it, those of a tank without one are as chance has them.
+TEST(Scores, TellThatNoPlaceIsOdd) {
+  const Model model = drifting(12);
+  const Effect patch = somewhere(model, "drag_patch", -0.1, 0.08, 0.06);
+  const auto clearest = [&](double strength) {
+    const auto recordings = filmed(with_effect(model, patch, {strength}), 60, 5);
+    ScorePlan plan = plan_for(model, recordings);
+    plan.effects = effect_catalogue(model);
+    plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+    std::pair<std::string, FoundPlace> out;
+    for (const LinearPlaces& of : linear_places(plan, recordings)) {
+      EXPECT_GT(of.places.size(), 80u) << of.effect->name;
+      for (const FoundPlace& place : of.places) {
+        if (place.gain > out.second.gain) out = {of.effect->name, place};
+      }
+    }
+    return out;
+  };
+  const auto [name, place] = clearest(1.5);
+  EXPECT_EQ(name, "drag_patch");
+  EXPECT_LT(std::hypot(place.x + 0.1, place.y - 0.08), 0.05);
+  EXPECT_GT(place.gain, 100);
+  // The largest of 91 places with one amplitude and 91 with two.
+  EXPECT_LT(clearest(0).second.gain, 20);
+}
+
 // A smooth error of the flow can do nearly all that a wide stream does: the place is known to the
 // grid's 3 cm where the flow is known, and to the stream's width where it hardly is.
 TEST(Scores, TellThePlaceOfAStrongWideStream) {
