@@ -17,6 +17,9 @@ struct Design {
   /// [simulation, parameter] On the scales that are fitted on.
   Eigen::MatrixXd points;
   Eigen::MatrixXd numbers;  ///< [simulation, number]
+  /// [number, parameter] 1 where the mean of the number does not depend on the parameter; empty:
+  /// every number may depend on every parameter.
+  Eigen::MatrixXd independent = {};
 };
 
 /// Distance between the data's statistics and the surface's.
@@ -111,6 +114,7 @@ class ResponseSurface {
   Eigen::MatrixXd basis_slope(const Eigen::VectorXd& z) const;
   LocalFit solve(const Eigen::VectorXd& numbers, int held, double value, const FitBounds& bounds,
                  const Prior& prior) const;
+  void clear(const Eigen::MatrixXd& independent);
   void shrink(const Eigen::VectorXd& errors);
   void find_covariance(const Eigen::MatrixXd& residuals, double freedom);
 

@@ -82,7 +82,7 @@ Design without_fold(const Design& design, int fold, int folds) {
   for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
     if (i % folds != fold) rows.push_back(i);
   }
-  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all)};
+  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all), design.independent};
 }
 
 Matrix shrunk_correlations(const Matrix& z, double least) {

@@ -39,10 +39,25 @@ ResponseSurface::ResponseSurface(const Design& design, Misfit misfit, Slopes slo
   Matrix x(n, q);
   for (Eigen::Index i = 0; i < n; ++i) x.row(i) = basis(standard(design.points.row(i)));
   coefficients_ = least_squares(x, design.numbers).transpose();
+  if (design.independent.size() > 0) clear(design.independent);
   find_covariance(design.numbers - x * coefficients_.transpose(), static_cast<double>(n - q));
   if (slopes == Slopes::found) return;
   const Vector errors = symmetric_inverse(x.transpose() * x).diagonal();
   shrink(errors.cwiseSqrt());
+}
+
+// The coefficients of what numbers do not depend on. Points are scattered along the axes: standard
+// parameters are the parameters but for their sampled correlations.
+void ResponseSurface::clear(const Matrix& independent) {
+  const Matrix depends = Matrix::Ones(independent.rows(), independent.cols()) - independent;
+  const Eigen::Index p = depends.cols();
+  for (Eigen::Index i = 0, at = 1 + 2 * p; i < p; ++i) {
+    coefficients_.col(1 + i).array() *= depends.col(i).array();
+    coefficients_.col(1 + p + i).array() *= depends.col(i).array();
+    for (Eigen::Index j = 0; products_ && j < i; ++j, ++at) {
+      coefficients_.col(at).array() *= depends.col(i).array() * depends.col(j).array();
+    }
+  }
 }
 
 // Shrinks coefficients by their ratio to their errors [Breiman's garrote, Technometrics 37, 1995]:

@@ -28,17 +28,21 @@ constexpr double kJointReach = 2.5;  // likewise, that an answer may be off
 constexpr double kJointWiderThanError = 1.5, kJointWideEnough = 0.67, kMostJointSpread = 0.1;
 constexpr double kOverlap = 2;    // deviations a parameter from the centre up to which points count
 constexpr double kLater = 0.625;  // of a round, where others are near
-constexpr int kChecks = 60;       // experiments at the answer
+constexpr double kOtherWidth = 1.5;
+constexpr int kChecks = 60;  // experiments at the answer
 constexpr std::uint64_t kMix = 7, kCheckSeed = 1000;
 
-// Where an effect with a place is scored for the joint fit: where the fit begins, and a width away
-// in each direction, which shows where it is to go.
+// Where an effect with a place is scored for the joint fit: where the fit begins, a width away in
+// each direction, and with other widths, which shows where it is to go.
 std::vector<Effect> about_place(const Effect& effect) {
   const double x = effect.held[0].value, y = effect.held[1].value, width = effect.held[2].value;
   std::vector<Effect> out{effect};
   for (const double step : {-width, width}) {
     out.push_back(placed(effect, x + step, y, width));
     out.push_back(placed(effect, x, y + step, width));
+  }
+  for (const double factor : {1 / kOtherWidth, kOtherWidth}) {
+    out.push_back(placed(effect, x, y, factor * width));
   }
   return out;
 }
@@ -65,6 +69,16 @@ class Numbers {
     alike.diagonal().array() += kUniqueVariance;
     alike_ = lower_root(alike);
   }
+  /// Those of `all` that do not depend on these parameters (Design::independent): only scores about
+  /// its place show where and how strong an effect is, to first order about the design's centre;
+  /// slopes of hundreds of others would be noise.
+  Matrix independent_of(const std::vector<Eigen::Index>& placed, Eigen::Index all,
+                        Eigen::Index parameters) const {
+    if (placed.empty()) return {};
+    Matrix out = Matrix::Zero(all, parameters);
+    for (const Eigen::Index k : placed) out.col(k).head(all - own_numbers()).setOnes();
+    return out;
+  }
   Vector operator()(const std::vector<Recording>& recordings) const {
     return of(ensemble_.vectors(recordings), recordings);
   }
@@ -86,6 +100,10 @@ class Numbers {
       out(k) = scored[static_cast<std::size_t>(k)].drawn(kScoreKnown);
     }
     return out;
+  }
+
+  Eigen::Index own_numbers() const {
+    return static_cast<Eigen::Index>(places_.first_of_effect(places_.effects.size()));
   }
 
   const ReferenceEnsemble& ensemble_;
@@ -172,7 +190,7 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
       near.push_back(i);
     }
   }
-  return {all.points(near, Eigen::all), all.numbers(near, Eigen::all)};
+  return {all.points(near, Eigen::all), all.numbers(near, Eigen::all), all.independent};
 }
 
 // Errors of the estimate from experiments simulated at it and estimated as the data were.
@@ -205,14 +223,13 @@ void set_interval(const ParameterEstimate& answer, JointFit& fit) {
 }
 
 // Moves the design to the estimate, within its own bounds, with a width in proportion to the
-// errors. True if it was there already.
-bool settled(const ParameterEstimate& answer, const FitBounds& bounds, Vector& centre,
-             Matrix& width) {
+// errors but not more than `most`. True if it was there already.
+bool settled(const ParameterEstimate& answer, const FitBounds& bounds, const Vector& most,
+             Vector& centre, Matrix& width) {
   const Vector reach = kJointReach * width.diagonal();
   const Vector next = answer.estimate.cwiseMax(bounds.low).cwiseMin(bounds.high);
   const Vector moved = (next - centre).cwiseQuotient(width.diagonal());
-  const Vector wide = (kJointWiderThanError * answer.deviation)
-                          .cwiseMin(kMostJointSpread * (bounds.high - bounds.low));
+  const Vector wide = (kJointWiderThanError * answer.deviation).cwiseMin(most);
   const bool stays = moved.cwiseAbs().maxCoeff() < kSettled;
   const bool enough = (kJointWideEnough * wide - width.diagonal()).maxCoeff() < 0;
   if (stays && enough) return true;
@@ -250,7 +267,7 @@ class Rounds {
         continue;
       }
       last = inverse_regression(design, centre_, prior, data_);
-      fit_.settled = settled(last.answer, bounds_, centre_, width_);
+      fit_.settled = settled(last.answer, bounds_, most_, centre_, width_);
     }
     set_interval(check(last), fit_);
     return std::move(fit_);
@@ -263,6 +280,11 @@ class Rounds {
     begun_ = vector_of(begun.at).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     known_ = vector_of(begun.known);
     centre_ = begun_, width_ = vector_of(begun.wide).asDiagonal();
+    most_ = kMostJointSpread * (bounds_.high - bounds_.low);
+    // A wider design would not be linear in the place.
+    const std::vector<Eigen::Index> placed = placed_parameters(stages_, effects_);
+    for (const Eigen::Index k : placed) most_(k) = width_(k, k);
+    independent_ = numbers_.independent_of(placed, data_.size(), centre_.size());
     joint_.emplace(stages_, maps_, ensemble_, numbers_, fit_);
     all_ = {};
   }
@@ -296,6 +318,7 @@ class Rounds {
     append(joint_->simulate("joint " + rounds_.tag + " " + std::to_string(k),
                             scattered(centre_, width_, count, bounds_, seed), seed),
            all_);
+    all_.independent = independent_;
     return about(all_, centre_, width_);
   }
 
@@ -327,6 +350,8 @@ class Rounds {
   JointRounds rounds_;
   JointFit fit_;
   Vector begun_, known_;  ///< the first design's centre; see Beginning
+  Vector most_;           ///< widths that no design exceeds
+  Matrix independent_;
   Vector centre_;
   Matrix width_;
   FitBounds bounds_;

@@ -116,6 +116,19 @@ void read_point(const Stages& stages, const Vector& point, std::vector<JointEffe
   }
 }
 
+std::vector<Eigen::Index> placed_parameters(const Stages& stages,
+                                            const std::vector<JointEffect>& effects) {
+  const std::vector<Eigen::Index> places = places_of(stages, effects);
+  std::vector<Eigen::Index> out;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    const Effect& effect = effects[e].effect;
+    if (effect.estimated != Estimated::place) continue;
+    const auto count = static_cast<Eigen::Index>(effect.paths.size() + effect.refine.size());
+    for (Eigen::Index k = 0; k < count; ++k) out.push_back(places[e] + k);
+  }
+  return out;
+}
+
 FitBounds bounds_of(const JointFit& fit) {
   FitBounds bounds;
   const auto n = static_cast<Eigen::Index>(fit.parameters.size());

@@ -29,6 +29,10 @@ std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>
 void read_point(const Stages& stages, const Eigen::VectorXd& point,
                 std::vector<JointEffect>& effects);
 
+/// Indices of the parameters of effects that have a place.
+std::vector<Eigen::Index> placed_parameters(const Stages& stages,
+                                            const std::vector<JointEffect>& effects);
+
 FitBounds bounds_of(const JointFit& fit);
 
 }  // namespace lilytank
