@@ -15,7 +15,6 @@ using Vector = Eigen::VectorXd;
 
 constexpr int kNullFolds = 20;
 constexpr double kEulerGamma = 0.57721566490153286;
-constexpr double kLeastScale = 0.5;
 
 // Gains of one candidate in one null.
 struct Gains {

@@ -19,6 +19,9 @@ class ExtremeLaw {
   double mean_ = 0, scale_ = 0;
 };
 
+/// Least scale of gains in nulls, relative to chi squared's.
+inline constexpr double kLeastScale = 0.5;
+
 /// Share of the false positives that is left to the scan of places (place_test.hpp); effects,
 /// curves and the squared distance have the rest.
 inline constexpr double kOfPlaces = 0.1;

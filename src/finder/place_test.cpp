@@ -8,20 +8,62 @@
 namespace lilytank {
 namespace {
 
-constexpr int kNullScans = 60;  // that the threshold rests on
+using Vector = Eigen::VectorXd;
 
-// The effect and place of the grid with the largest z.
-EffectFit clearest_place(const ScorePlan& plan, const std::vector<Recording>& recordings) {
-  EffectFit out;
-  for (const LinearPlaces& one : linear_places(plan, recordings)) {
-    const auto components = static_cast<Eigen::Index>(one.effect->paths.size());
-    for (const FoundPlace& place : one.places) {
-      const double z = z_of_gain(place.gain, 1, components);
-      if (out.effect >= 0 && z <= out.z) continue;
-      out.effect = static_cast<int>(one.effect - plan.effects.data());
-      out.amplitudes = Eigen::VectorXd::Map(place.amplitudes.data(), components);
-      out.gain = place.gain, out.z = z;
+constexpr int kNullScans = 40;  // that the threshold rests on
+
+// Every effect that has a place at every place of the grid.
+struct ScannedPlaces {
+  std::vector<EffectFit> fits;  // without z
+  Vector gains, freedom;
+
+  ScannedPlaces(const ScorePlan& plan, const std::vector<Recording>& recordings) {
+    for (const LinearPlaces& one : linear_places(plan, recordings)) {
+      for (const FoundPlace& place : one.places) {
+        const auto size = static_cast<Eigen::Index>(place.amplitudes.size());
+        EffectFit& fit = fits.emplace_back();
+        fit.effect = static_cast<int>(one.effect - plan.effects.data());
+        fit.amplitudes = Vector::Map(place.amplitudes.data(), size), fit.gain = place.gain;
+      }
     }
+    gains.resize(std::ssize(fits)), freedom.resize(std::ssize(fits));
+    for (Eigen::Index k = 0; k < gains.size(); ++k) {
+      const EffectFit& fit = fits[static_cast<std::size_t>(k)];
+      gains(k) = fit.gain, freedom(k) = static_cast<double>(fit.amplitudes.size());
+    }
+  }
+
+  // The place with the largest z of these gains. `mean`: of gains in nulls. Errors of the flow that
+  // are rougher than the balls show raise all gains, most where balls rarely were.
+  EffectFit clearest(const Vector& of, const Vector& mean) const {
+    EffectFit out;
+    for (Eigen::Index k = 0; k < of.size(); ++k) {
+      const EffectFit& fit = fits[static_cast<std::size_t>(k)];
+      const double scale = std::max(kLeastScale, mean(k) / freedom(k));
+      const double z = z_of_gain(of(k), scale, fit.amplitudes.size());
+      if (out.effect < 0 || z > out.z) out = fit, out.z = z;
+    }
+    return out;
+  }
+};
+
+Vector gains_in(const ScorePlan& plan, const std::vector<Recording>& recordings) {
+  return ScannedPlaces(plan, recordings).gains;
+}
+
+// Of null experiments, a row each.
+Eigen::MatrixXd null_gains(const ReferenceEnsemble& ensemble) {
+  const auto rows = ensemble.further_nulls("places", kNullScans, [&](const auto& recordings) {
+    const Vector gains = gains_in(ensemble.plan(), recordings);
+    return std::vector<double>(gains.begin(), gains.end());
+  });
+  std::vector<Vector> kept;
+  for (const std::vector<double>& row : rows) {
+    if (!row.empty()) kept.push_back(Vector::Map(row.data(), std::ssize(row)));
+  }
+  Eigen::MatrixXd out(std::ssize(kept), kept.empty() ? 0 : kept.front().size());
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    out.row(i) = kept[static_cast<std::size_t>(i)].transpose();
   }
   return out;
 }
@@ -51,19 +93,24 @@ std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
                                              const std::vector<Recording>& recordings,
                                              double least_z, double false_alarms) {
   const ScorePlan& plan = ensemble.plan();
-  PlaceFinding out{clearest_place(plan, recordings), 0, 0, {}};
-  if (!(out.fit.z > least_z)) return std::nullopt;
-  out.others = effects_without_place(plan, recordings);
-  if (!out.others.empty() && out.others[0].gain > out.fit.gain + kSameGain) return std::nullopt;
-  const auto rows = ensemble.further_nulls("places", kNullScans, [&plan](const auto& of) {
-    return std::vector<double>{clearest_place(plan, of).z};
-  });
+  const ScannedPlaces seen(plan, recordings);
+  // Nulls can only make a place less clear than chi squared has it.
+  if (!(seen.clearest(seen.gains, Vector::Zero(seen.gains.size())).z > least_z))
+    return std::nullopt;
+  const Eigen::MatrixXd nulls = null_gains(ensemble);
+  const Vector sum = nulls.colwise().sum();
+  const auto n = static_cast<double>(nulls.rows());
   std::vector<double> largest;
-  for (const std::vector<double>& row : rows) largest.insert(largest.end(), row.begin(), row.end());
+  for (Eigen::Index i = 0; i < nulls.rows(); ++i) {
+    const Vector own = nulls.row(i).transpose();
+    largest.push_back(seen.clearest(own, (sum - own) / (n - 1)).z);
+  }
   const ExtremeLaw law(largest);
-  out.threshold = law.exceeded_with(false_alarms);
+  PlaceFinding out{seen.clearest(seen.gains, sum / n), law.exceeded_with(false_alarms), 0, {}};
   out.confidence = 1 - law.chance_beyond(out.fit.z);
   if (!(out.fit.z > out.threshold)) return std::nullopt;
+  out.others = effects_without_place(plan, recordings);
+  if (!out.others.empty() && out.others[0].gain > out.fit.gain + kSameGain) return std::nullopt;
   return out;
 }
 
