@@ -86,7 +86,7 @@ Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Rec
       {std::move(first), std::move(selection), std::move(measured.details)});
   std::vector<EffectFit> open = report_selection(ensemble, r, residual, options.false_alarms, out);
   std::string tag = hex(fnv_of(measured.observed.scores));
-  return {&recordings,          std::move(measured.observed),
+  return {recordings,           std::move(measured.observed),
           std::move(r.details), std::move(r.model),
           std::move(open),      std::move(tag)};
 }

@@ -15,7 +15,7 @@ struct MeasuredVectors {
 
 /// What recordings show, before anything is fitted to them.
 struct Judged {
-  const std::vector<Recording>* recordings = nullptr;  ///< these, not owned
+  std::vector<Recording> recordings;
   Vectors observed;
   ScoreDetails details;
   SelectedModel selected;
@@ -25,8 +25,7 @@ struct Judged {
 };
 
 /// Adds to `out` which effects recordings of the tank show: verdict, findings, maps, ranking,
-/// smallest detectable sizes. The recordings are of the same kind as the setup's and must outlive
-/// the result. Throws Stopped.
+/// smallest detectable sizes. The recordings are of the same kind as the setup's. Throws Stopped.
 Judged judge(PreparedTank& tank, const std::vector<Recording>& recordings, Diagnosis& out);
 /// The same where their vectors are known already.
 Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Recording>& recordings,

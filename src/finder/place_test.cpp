@@ -33,16 +33,19 @@ struct ScannedPlaces {
     }
   }
 
-  // The place with the largest z of these gains. `mean`: of gains in nulls. Errors of the flow that
-  // are rougher than the balls show raise all gains, most where balls rarely were.
-  EffectFit clearest(const Vector& of, const Vector& mean) const {
-    EffectFit out;
+  // The place with the largest z of these gains, of every effect; clearest first. `mean`: of gains
+  // in nulls. Errors of the flow that are rougher than the balls show raise all gains, most where
+  // balls rarely were.
+  std::vector<EffectFit> clearest(const Vector& of, const Vector& mean) const {
+    std::vector<EffectFit> out;
     for (Eigen::Index k = 0; k < of.size(); ++k) {
       const EffectFit& fit = fits[static_cast<std::size_t>(k)];
       const double scale = std::max(kLeastScale, mean(k) / freedom(k));
       const double z = z_of_gain(of(k), scale, fit.amplitudes.size());
-      if (out.effect < 0 || z > out.z) out = fit, out.z = z;
+      if (out.empty() || out.back().effect != fit.effect) out.push_back(fit), out.back().z = z;
+      if (z > out.back().z) out.back() = fit, out.back().z = z;
     }
+    largest_first(out, &EffectFit::z);
     return out;
   }
 };
@@ -94,23 +97,23 @@ std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
                                              double least_z, double false_alarms) {
   const ScorePlan& plan = ensemble.plan();
   const ScannedPlaces seen(plan, recordings);
-  // Nulls can only make a place less clear than chi squared has it.
-  if (!(seen.clearest(seen.gains, Vector::Zero(seen.gains.size())).z > least_z))
-    return std::nullopt;
+  if (!(seen.clearest(seen.gains, seen.freedom).front().z > least_z)) return std::nullopt;
   const Eigen::MatrixXd nulls = null_gains(ensemble);
   const Vector sum = nulls.colwise().sum();
   const auto n = static_cast<double>(nulls.rows());
   std::vector<double> largest;
   for (Eigen::Index i = 0; i < nulls.rows(); ++i) {
     const Vector own = nulls.row(i).transpose();
-    largest.push_back(seen.clearest(own, (sum - own) / (n - 1)).z);
+    largest.push_back(seen.clearest(own, (sum - own) / (n - 1)).front().z);
   }
   const ExtremeLaw law(largest);
   PlaceFinding out{seen.clearest(seen.gains, sum / n), law.exceeded_with(false_alarms), 0, {}};
-  out.confidence = 1 - law.chance_beyond(out.fit.z);
-  if (!(out.fit.z > out.threshold)) return std::nullopt;
+  out.confidence = 1 - law.chance_beyond(out.fits.front().z);
+  std::erase_if(out.fits, [&](const EffectFit& fit) { return !(fit.z > out.threshold); });
+  if (out.fits.empty()) return std::nullopt;
   out.others = effects_without_place(plan, recordings);
-  if (!out.others.empty() && out.others[0].gain > out.fit.gain + kSameGain) return std::nullopt;
+  const double gain = std::ranges::max(out.fits, {}, &EffectFit::gain).gain;
+  if (!out.others.empty() && out.others[0].gain > gain + kSameGain) return std::nullopt;
   return out;
 }
 

@@ -9,9 +9,10 @@
 
 namespace lilytank {
 
-/// An effect that is clearer at some place than anything is in null experiments.
+/// Effects that are clearer at some place than anything is in null experiments.
 struct PlaceFinding {
-  EffectFit fit;          ///< of the first effect of its term, at the clearest place of the grid
+  /// Of the first effect of every such term, at the clearest place of the grid; clearest first.
+  std::vector<EffectFit> fits;
   double threshold = 0;   ///< z that null experiments exceed with the given rate
   double confidence = 0;  ///< probability that no place of a null experiment is as clear
   /// Effects that have no place by the same measure, linear and one step ahead, clearest first.

@@ -73,7 +73,9 @@ void Refinement::find_homes() {
 }
 
 RefinedSelection Refinement::run(const std::optional<PlaceFinding>& clear) {
-  if (clear) refine_fingerprint(fit_at_place(*clear));
+  if (clear) {
+    for (const EffectFit& f : clear->fits) refine_fingerprint(fit_at_place(f));
+  }
   const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
     if (needs_relinearization(f) && f.gain > kFirstRival * leading[0].gain) refine_fingerprint(f);
@@ -86,22 +88,34 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& clear) {
   if (refine_ranges(m)) m = settled(selected());
   if (close_call() || made_sure(m)) m = settled(selected());
   m = with_interactions(std::move(m));
-  const bool only_by_place = clear && m.found.empty();
-  if (only_by_place) m.found = {fit_at_place(*clear)};
-  RefinedSelection out{std::move(m), std::move(state_.selection), std::move(state_.details)};
-  if (only_by_place) out.by_place = clear;
-  return out;
+  std::optional<PlaceFinding> by_place;
+  if (clear && shows_only(m, likeliest_of(*clear))) {
+    m.found = {likeliest_of(*clear)}, by_place = clear;
+  }
+  return {std::move(m), std::move(state_.selection), std::move(state_.details),
+          std::move(by_place)};
 }
 
-EffectFit Refinement::fit_at_place(const PlaceFinding& clear) {
-  const Id id = id_of(clear.fit);
+EffectFit Refinement::fit_at_place(const EffectFit& clear) {
+  const Id id = id_of(clear);
   EffectFit out = fit_with(id, scanned(effect(id), state_.details)->amplitudes->estimate);
-  out.z = clear.fit.z, out.gain = clear.fit.gain;
+  out.z = clear.z, out.gain = clear.gain;
   if (const RefinedCandidate* known = refined(out)) {
     out.about = known->fingerprint.experiments;
     out.moved = known->fingerprint.moved(out.amplitudes);
   }
   return out;
+}
+
+bool Refinement::shows_only(const SelectedModel& m, const EffectFit& f) const {
+  if (m.found.empty()) return true;
+  return m.found.size() == 1 && id_of(m.found[0]) == id_of(f) && m.found[0].z < f.z;
+}
+
+EffectFit Refinement::likeliest_of(const PlaceFinding& clear) {
+  return fit_at_place(std::ranges::max(clear.fits, {}, [this](const EffectFit& f) {
+    return scanned(effect(id_of(f)), state_.details)->amplitudes->gain;
+  }));
 }
 
 Refinement::Id Refinement::id_of(const EffectFit& f) const {

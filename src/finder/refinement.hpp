@@ -84,8 +84,12 @@ class Refinement {
   const RefinedCandidate* refined(const EffectFit& f) const;
   // Forgets the experiments with the effects of a family: their place or range is another one now.
   void forget(int family);
-  // By the scan of places alone.
-  EffectFit fit_at_place(const PlaceFinding& clear);
+  // By the scan of places alone: where the recordings are likeliest with it.
+  EffectFit fit_at_place(const EffectFit& clear);
+  // Whether the scores show nothing else, and that less clearly.
+  bool shows_only(const SelectedModel& m, const EffectFit& f) const;
+  // The likeliest of those.
+  EffectFit likeliest_of(const PlaceFinding& clear);
   // About found amplitudes where there is one, else as learned first.
   Fingerprint fingerprint(const EffectFit& f);
   // Experiments about the amplitudes that were found, and the fingerprint by them.

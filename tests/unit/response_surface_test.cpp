@@ -161,6 +161,23 @@ TEST(ResponseSurface, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   EXPECT_GT(slope_of_answers(Slopes::shrunk), 0.75);
 }
 
+// A number that does not depend on a parameter does not move it, whatever chance has its slope be;
+// the other numbers do as they did.
+TEST(ResponseSurface, independentNumbersDoNotMoveAParameter) {
+  Design d = design(60, 0.05);
+  d.independent = Matrix::Zero(6, 2), d.independent(2, 0) = d.independent(5, 0) = 1;
+  const ResponseSurface model(d, Misfit::covariance), all(design(60, 0.05));
+  Vector at(2);
+  at << 0.7, -0.35;
+  const Matrix slope = model.slope(at);
+  // In standard parameters; those of the axes differ by the sampled correlation of two of them.
+  EXPECT_LT(std::fabs(slope(2, 0)), 0.1 * std::fabs(all.slope(at)(2, 0)));
+  EXPECT_LT(std::fabs(slope(5, 0)), 0.1 * std::fabs(all.slope(at)(5, 0)));
+  EXPECT_DOUBLE_EQ(slope(0, 0), all.slope(at)(0, 0));
+  EXPECT_NEAR(slope(2, 1), 1, 0.1);
+  EXPECT_NEAR(model.fit(truth(at)).point(0), 0.7, 0.05);
+}
+
 TEST(ResponseSurface, tooFewSimulationsAreRefused) {
   EXPECT_THROW(ResponseSurface(design(6, 0.1)), std::invalid_argument);
   EXPECT_NO_THROW(ResponseSurface(design(9, 0.1)));  // without products of the two
