@@ -192,8 +192,10 @@ void SelectionReport::add_findings() {
       if (effect.estimated == Estimated::place) {
         add_places(effect, details.scans, plan.model, f);
         if (selected.by_place) {
-          f.text += "; clear there alone: null experiments exceed z = " +
-                    significant(selected.by_place->threshold, 2) + " at no place";
+          f.text += "; z by the scan of all places, which " +
+                    significant(100 * kOfPlaces * out.false_alarms, 2) +
+                    " % of null experiments raise above " +
+                    significant(selected.by_place->threshold, 2);
         }
       } else if (const FoundCurve* map = map_of(f.variable)) {
         add_place(*map, f);

@@ -89,6 +89,18 @@ TEST(SmallTank, StrongEffectsInShortRecordings) {
   const Diagnosis torque = of(with("forces.spin_torque.torque", 2e-4), 31, 0);
   ASSERT_EQ(torque.verdict, Verdict::missing) << diagnosis_text(torque);
   EXPECT_EQ(torque.findings.front().effect, "spin_torque") << diagnosis_text(torque);
+  // Between the places of the catalogue: the scan of all places shows it, the scores hardly do.
+  const Model patchy =
+      with_parameters(small_tank(),
+                      std::vector<std::string>{"forces.drag_patch.strength", "forces.drag_patch.x",
+                                               "forces.drag_patch.y", "forces.drag_patch.radius"},
+                      std::vector<double>{3, 0, -0.07, 0.06});
+  const Diagnosis patch = of(patchy, 31, 0);
+  ASSERT_EQ(patch.verdict, Verdict::missing) << diagnosis_text(patch);
+  EXPECT_EQ(patch.findings.front().effect, "drag_patch") << diagnosis_text(patch);
+  EXPECT_GT(patch.findings.front().z, 7) << diagnosis_text(patch);
+  EXPECT_NE(patch.findings.front().text.find("about (x, y) = (0, -0.08"), std::string::npos)
+      << patch.findings.front().text;
   const Diagnosis camera = of(small_tank(), 61, 0.1);
   ASSERT_EQ(camera.verdict, Verdict::measurement) << diagnosis_text(camera);
   EXPECT_EQ(camera.findings.front().effect, "camera_tilt") << diagnosis_text(camera);
