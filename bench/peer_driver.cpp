@@ -1,6 +1,8 @@
 // lilytank_peer_driver: one timed run of a simpler tank as other engines are timed in, for rounds
 // with drivers from elsewhere. Prints one line of JSON. The tank: squares of 30 mm and 30 g, a
 // swirl of 0.1 m/s with seven streams, gusts of 0.05 m/s drawn once a module and step.
+#include <hwy/highway.h>
+
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -18,12 +20,20 @@ namespace lilytank::bench {
 namespace {
 
 struct Options {
-  int modules = 15, substeps = 1;
+  int modules = 15, substeps = 1, worlds = 1;
   double seconds = 600, warmup = 30;
   std::uint64_t seed = 1;
   bool latch = false;
   std::string variant;
 };
+
+// Restricts the vector instructions to those of an older processor.
+void take_vectors(const std::string& text) {
+  if (text != "best" && text != "avx2") {
+    throw InputError("--vectors = '" + text + "' is neither best nor avx2");
+  }
+  if (text == "avx2") hwy::DisableTargets(HWY_AVX2 - 1);
+}
 
 Options read(const std::vector<std::string>& words) {
   Options options;
@@ -41,6 +51,10 @@ Options read(const std::vector<std::string>& words) {
       options.modules = static_cast<int>(number(name, text, 1));
     } else if (name == "--substeps") {
       options.substeps = static_cast<int>(number(name, text, 1));
+    } else if (name == "--worlds") {
+      options.worlds = static_cast<int>(number(name, text, 1));
+    } else if (name == "--vectors") {
+      take_vectors(text);
     } else if (name == "--seconds") {
       options.seconds = number(name, text, kTick);
     } else if (name == "--warmup") {
@@ -151,7 +165,7 @@ double now() {
 }
 
 struct Timing {
-  double wall = 0;             ///< s
+  double wall = 0;             ///< s, of all worlds
   std::vector<double> forces;  ///< s, of all terms for one step, repeated on the poses at hand
   std::int64_t ticks = 0, heap = 0;
   bool ok = true;
@@ -171,16 +185,25 @@ Timing measure(const Model& model, const Options& options, State state, Measures
   Timing timing;
   std::vector<Wrench> scratch(model.bodies());
   const std::int64_t before = heap_bytes();
-  World world(model, std::move(state));
+  std::vector<World> worlds;
+  for (int k = 0; k < options.worlds; ++k) {
+    worlds.emplace_back(model, state);
+    state.seed += 1;
+  }
+  std::vector<World*> all;
+  for (World& one : worlds) all.push_back(&one);
+  const World& world = worlds.front();
+  Batch batch;
   const auto ticks = std::max<std::int64_t>(1, std::llround(options.seconds / kTick));
   for (std::int64_t tick = 0; tick < ticks && timing.ok;) {
     const std::int64_t part = std::min<std::int64_t>(20, ticks - tick) * options.substeps;
     const double start = now();
-    for (std::int64_t k = 0; k < part; ++k) timing.ok = world.step() == RunStatus::ok && timing.ok;
+    for (std::int64_t k = 0; k < part; ++k) batch.step(all);
+    for (const World& one : worlds) timing.ok = timing.ok && one.status() == RunStatus::ok;
     timing.wall += now() - start;
     tick += part / options.substeps;
     timing.ticks = tick;
-    if (timing.heap == 0) timing.heap = heap_bytes() - before;
+    if (timing.heap == 0) timing.heap = (heap_bytes() - before) / options.worlds;
     time_forces(world, scratch, timing);
     look.sample(world.kinematics(), world.state().faces);
   }
@@ -189,7 +212,7 @@ Timing measure(const Model& model, const Options& options, State state, Measures
 
 // The fields that drivers of other engines print. Latching is part of a step: ns_latch is 0.
 void print(const Options& options, const Timing& timing, const Measures& look) {
-  const double per = 1e9 / (static_cast<double>(timing.ticks) * options.modules);
+  const double per = 1e9 / (static_cast<double>(timing.ticks) * options.modules * options.worlds);
   const double total = per * timing.wall;
   const double forces = 1e9 * quantile(timing.forces, 0.5) * options.substeps / options.modules;
   const double mean_depth = [&] {
@@ -197,11 +220,12 @@ void print(const Options& options, const Timing& timing, const Measures& look) {
     for (const double depth : look.depths()) sum += depth;
     return look.depths().empty() ? 0 : sum / static_cast<double>(look.depths().size());
   }();
-  const double simulated = static_cast<double>(timing.ticks) * kTick;
+  const double simulated = static_cast<double>(timing.ticks) * kTick * options.worlds;
   const std::vector<std::pair<const char*, double>> fields = {
       {"modules", options.modules},
       {"latch", options.latch},
       {"substeps", options.substeps},
+      {"worlds", options.worlds},
       {"sim_seconds", simulated},
       {"wall_s", timing.wall},
       {"ns_per_module_step", total},
