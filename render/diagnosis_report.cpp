@@ -181,9 +181,14 @@ void draw_diagnosis(const Diagnosis& d, const ReportDocument& report, const std:
       "be off by chance (band).",
       laws_page(d), null);
   if (Map places = places_map(d); !places.panels.empty()) {
+    std::string laws;
+    for (const DiagnosisFinding& f : d.findings) {
+      if (!f.places.places.empty()) laws += " " + f.effect + ": " + f.equation + ".";
+    }
     figures.push_back({"places",
                        "Where in the tank the effect would be, estimated about each place alone, "
-                       "and its place and width in the fit (circle).",
+                       "and its place and width in the fit (circle)." +
+                           laws,
                        {},
                        std::move(places),
                        {},

@@ -72,9 +72,9 @@ void Refinement::find_homes() {
   }
 }
 
-RefinedSelection Refinement::run(const std::optional<PlaceFinding>& clear) {
-  if (clear) {
-    for (const EffectFit& f : clear->fits) refine_fingerprint(fit_at_place(f));
+RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
+  if (by_place) {
+    for (const EffectFit& f : by_place->fits) refine_fingerprint(fit_at_place(f));
   }
   const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
@@ -88,12 +88,11 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& clear) {
   if (refine_ranges(m)) m = settled(selected());
   if (close_call() || made_sure(m)) m = settled(selected());
   m = with_interactions(std::move(m));
-  std::optional<PlaceFinding> by_place;
-  if (clear && shows_only(m, likeliest_of(*clear))) {
-    m.found = {likeliest_of(*clear)}, by_place = clear;
-  }
-  return {std::move(m), std::move(state_.selection), std::move(state_.details),
-          std::move(by_place)};
+  const bool only_by_place = by_place && shows_only(m, likeliest_of(*by_place));
+  if (only_by_place) m.found = {likeliest_of(*by_place)};
+  RefinedSelection out{std::move(m), std::move(state_.selection), std::move(state_.details)};
+  if (only_by_place) out.by_place = by_place;
+  return out;
 }
 
 EffectFit Refinement::fit_at_place(const EffectFit& clear) {
@@ -277,15 +276,15 @@ std::optional<EffectFit> Refinement::next_after(const SelectedModel& m) {
 RefinedSelection refined_selection(const RefinementInput& input, RefinedSelection start) {
   const ScorePlan& plan = input.ensemble.plan();
   const std::vector<Recording>& recordings = input.sensitivity.recordings();
-  std::optional<PlaceFinding> clear;
+  std::optional<PlaceFinding> by_place;
   if (start.model.found.empty()) {
-    clear = find_clear_place(input.ensemble, recordings, start.selection.effect_threshold(),
-                             kOfPlaces * input.false_alarms);
-    if (!clear) return start;
+    by_place = find_clear_place(input.ensemble, recordings, start.selection.effect_threshold(),
+                                kOfPlaces * input.false_alarms);
+    if (!by_place) return start;
   }
   start.details.scans = scans_of(plan, recordings, input.threads);
-  if (!clear && is_plain(plan, start.selection, start.model, input.residual)) return start;
-  return Refinement(input, start).run(clear);
+  if (!by_place && is_plain(plan, start.selection, start.model, input.residual)) return start;
+  return Refinement(input, start).run(by_place);
 }
 
 }  // namespace lilytank

@@ -55,8 +55,8 @@ class Refinement {
   Refinement(const RefinementInput& input, const RefinedSelection& start);
 
   /// First the candidates that may be it, then whatever leads, what is found and its rivals beside
-  /// the others. `clear`: what the scan of places found, if that is why. Throws Stopped.
-  RefinedSelection run(const std::optional<PlaceFinding>& clear = {});
+  /// the others. `by_place`: what the scan of places found, if that is why. Throws Stopped.
+  RefinedSelection run(const std::optional<PlaceFinding>& by_place = {});
 
  private:
   using Id = std::pair<int, int>;  // effect and shape; of a family the effect that stands for it
