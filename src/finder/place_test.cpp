@@ -50,14 +50,10 @@ struct ScannedPlaces {
   }
 };
 
-Vector gains_in(const ScorePlan& plan, const std::vector<Recording>& recordings) {
-  return ScannedPlaces(plan, recordings).gains;
-}
-
 // Of null experiments, a row each.
 Eigen::MatrixXd null_gains(const ReferenceEnsemble& ensemble) {
   const auto rows = ensemble.further_nulls("places", kNullScans, [&](const auto& recordings) {
-    const Vector gains = gains_in(ensemble.plan(), recordings);
+    const Vector gains = ScannedPlaces(ensemble.plan(), recordings).gains;
     return std::vector<double>(gains.begin(), gains.end());
   });
   std::vector<Vector> kept;
@@ -97,6 +93,7 @@ std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
                                              double least_z, double false_alarms) {
   const ScorePlan& plan = ensemble.plan();
   const ScannedPlaces seen(plan, recordings);
+  if (seen.fits.empty()) return std::nullopt;
   if (!(seen.clearest(seen.gains, seen.freedom).front().z > least_z)) return std::nullopt;
   const Eigen::MatrixXd nulls = null_gains(ensemble);
   const Vector sum = nulls.colwise().sum();

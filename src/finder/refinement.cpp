@@ -88,11 +88,17 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
   if (refine_ranges(m)) m = settled(selected());
   if (close_call() || made_sure(m)) m = settled(selected());
   m = with_interactions(std::move(m));
-  const bool only_by_place = by_place && shows_only(m, likeliest_of(*by_place));
-  if (only_by_place) m.found = {likeliest_of(*by_place)};
-  RefinedSelection out{std::move(m), std::move(state_.selection), std::move(state_.details)};
-  if (only_by_place) out.by_place = by_place;
-  return out;
+  std::optional<PlaceFinding> only;
+  if (by_place) {
+    only = likeliest_first(*by_place);
+    const EffectFit likeliest = fit_at_place(only->fits.front());
+    if (shows_only(m, likeliest)) {
+      m.found = {likeliest};
+    } else {
+      only.reset();
+    }
+  }
+  return {std::move(m), std::move(state_.selection), std::move(state_.details), std::move(only)};
 }
 
 EffectFit Refinement::fit_at_place(const EffectFit& clear) {
@@ -111,10 +117,11 @@ bool Refinement::shows_only(const SelectedModel& m, const EffectFit& f) const {
   return m.found.size() == 1 && id_of(m.found[0]) == id_of(f) && m.found[0].z < f.z;
 }
 
-EffectFit Refinement::likeliest_of(const PlaceFinding& clear) {
-  return fit_at_place(std::ranges::max(clear.fits, {}, [this](const EffectFit& f) {
+PlaceFinding Refinement::likeliest_first(PlaceFinding of) const {
+  std::ranges::stable_sort(of.fits, std::ranges::greater{}, [this](const EffectFit& f) {
     return scanned(effect(id_of(f)), state_.details)->amplitudes->gain;
-  }));
+  });
+  return of;
 }
 
 Refinement::Id Refinement::id_of(const EffectFit& f) const {

@@ -27,7 +27,8 @@ struct RefinedSelection {
   SelectedModel model;
   ModelSelection selection;
   ScoreDetails details;
-  /// The only finding, where scores of the plan do not show it and its place does.
+  /// The only finding, where scores of the plan do not show it and its place does, before other
+  /// effects that are as clear, by their likelihood.
   std::optional<PlaceFinding> by_place = {};
 };
 
@@ -88,8 +89,8 @@ class Refinement {
   EffectFit fit_at_place(const EffectFit& clear);
   // Whether the scores show nothing else, and that less clearly.
   bool shows_only(const SelectedModel& m, const EffectFit& f) const;
-  // The likeliest of those.
-  EffectFit likeliest_of(const PlaceFinding& clear);
+  // With the effects by the likelihood at their best places.
+  PlaceFinding likeliest_first(PlaceFinding of) const;
   // About found amplitudes where there is one, else as learned first.
   Fingerprint fingerprint(const EffectFit& f);
   // Experiments about the amplitudes that were found, and the fingerprint by them.

@@ -38,6 +38,7 @@ struct SelectionReport {
   FoundCurve curve(std::size_t s, double z) const;
   const FoundCurve* map_of(const std::string& variable) const;
   void add_nearest();
+  std::vector<EffectFit> equally_likely(const std::vector<EffectFit>& places) const;
   void add_alternatives(const EffectFit& fit, const std::vector<EffectFit>& ranked,
                         DiagnosisFinding& f);
   bool is_reported(const Effect& one) const;
@@ -163,18 +164,35 @@ bool SelectionReport::is_reported(const Effect& one) const {
 // By scores, or one step ahead where scores do not show the finding.
 void SelectionReport::add_alternatives(const EffectFit& fit, const std::vector<EffectFit>& ranked,
                                        DiagnosisFinding& f) {
-  const auto& by_place = selected.by_place;
-  const auto own = std::ranges::find(ranked, fit.effect, &EffectFit::effect);
-  const double gain = by_place ? fit.gain : own->gain;
-  open = {fit}, open[0].gain = gain;
+  open = {fit};
+  std::vector<EffectFit> others = ranked;
+  if (selected.by_place) {
+    others = equally_likely(selected.by_place->fits);
+    others.insert(others.end(), selected.by_place->others.begin(), selected.by_place->others.end());
+  } else {
+    open[0].gain = std::ranges::find(ranked, fit.effect, &EffectFit::effect)->gain;
+  }
   std::set<int> rivals;
-  for (const EffectFit& other : by_place ? by_place->others : ranked) {
+  for (const EffectFit& other : others) {
     if (other.effect < 0) continue;
     const Effect& rival = effect_in(plan, other);
-    if (gain - other.gain >= kSameGain || is_reported(rival)) continue;
+    if (open[0].gain - other.gain >= kSameGain || is_reported(rival)) continue;
     if (!rivals.insert(rival.family).second) continue;
     f.alternatives.push_back(rival.name), open.push_back(other);
   }
+}
+
+// Those that are about as likely at their best places as the first of them, with its gain.
+std::vector<EffectFit> SelectionReport::equally_likely(const std::vector<EffectFit>& places) const {
+  const auto gain = [&](const EffectFit& f) {
+    return scanned(effect_in(plan, f), details)->amplitudes->gain;
+  };
+  std::vector<EffectFit> likely;
+  for (EffectFit f : places) {
+    if (gain(places.front()) - gain(f) >= kSameGain) break;
+    f.gain = places.front().gain, likely.push_back(std::move(f));
+  }
+  return likely;
 }
 
 void SelectionReport::add_findings() {
