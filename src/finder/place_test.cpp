@@ -33,8 +33,8 @@ struct ScannedPlaces {
     }
   }
 
-  // The place with the largest z of these gains, of every effect; clearest first. `mean`: of gains
-  // in nulls. Errors of the flow that are rougher than the balls show raise all gains, most where
+  // The place with the largest z of these gains, of every effect in turn. `mean`: of gains in
+  // nulls. Errors of the flow that are rougher than the balls show raise all gains, most where
   // balls rarely were.
   std::vector<EffectFit> clearest(const Vector& of, const Vector& mean) const {
     std::vector<EffectFit> out;
@@ -45,7 +45,6 @@ struct ScannedPlaces {
       if (out.empty() || out.back().effect != fit.effect) out.push_back(fit), out.back().z = z;
       if (z > out.back().z) out.back() = fit, out.back().z = z;
     }
-    largest_first(out, &EffectFit::z);
     return out;
   }
 };
@@ -94,22 +93,30 @@ std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
   const ScorePlan& plan = ensemble.plan();
   const ScannedPlaces seen(plan, recordings);
   if (seen.fits.empty()) return std::nullopt;
-  if (!(seen.clearest(seen.gains, seen.freedom).front().z > least_z)) return std::nullopt;
+  const auto by_chi_squared = seen.clearest(seen.gains, seen.freedom);
+  if (!(std::ranges::max(by_chi_squared, {}, &EffectFit::z).z > least_z)) return std::nullopt;
   const Eigen::MatrixXd nulls = null_gains(ensemble);
   const Vector sum = nulls.colwise().sum();
   const auto n = static_cast<double>(nulls.rows());
-  std::vector<double> largest;
+  const std::vector<EffectFit> found = seen.clearest(seen.gains, sum / n);
+  std::vector<std::vector<double>> largest(found.size());
   for (Eigen::Index i = 0; i < nulls.rows(); ++i) {
     const Vector own = nulls.row(i).transpose();
-    largest.push_back(seen.clearest(own, (sum - own) / (n - 1)).front().z);
+    const std::vector<EffectFit> of_null = seen.clearest(own, (sum - own) / (n - 1));
+    for (std::size_t e = 0; e < found.size(); ++e) largest[e].push_back(of_null[e].z);
   }
-  const ExtremeLaw law(largest);
-  PlaceFinding out{seen.clearest(seen.gains, sum / n), law.exceeded_with(false_alarms), 0, {}};
-  out.confidence = 1 - law.chance_beyond(out.fits.front().z);
-  std::erase_if(out.fits, [&](const EffectFit& fit) { return !(fit.z > out.threshold); });
-  if (out.fits.empty()) return std::nullopt;
+  PlaceFinding out;
+  double gain = 0;
+  // Errors of the flow imitate streams far more than patches: each has a threshold of its own.
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    const ExtremeLaw law(largest[e]);
+    const double threshold = law.exceeded_with(false_alarms / static_cast<double>(found.size()));
+    if (!(found[e].z > threshold)) continue;
+    out.clear.push_back({found[e], threshold, 1 - law.chance_beyond(found[e].z)});
+    gain = std::max(gain, found[e].gain);
+  }
+  if (out.clear.empty()) return std::nullopt;
   out.others = effects_without_place(plan, recordings);
-  const double gain = std::ranges::max(out.fits, {}, &EffectFit::gain).gain;
   if (!out.others.empty() && out.others[0].gain > gain + kSameGain) return std::nullopt;
   return out;
 }

@@ -9,19 +9,22 @@
 
 namespace lilytank {
 
-/// Effects that are clearer at some place than anything is in null experiments.
-struct PlaceFinding {
-  /// Of the first effect of every such term, at the clearest place of the grid; clearest first.
-  std::vector<EffectFit> fits;
+/// An effect that is clearer at some place than it is anywhere in null experiments.
+struct ClearPlace {
+  EffectFit fit;          ///< of the first effect of its term, at the clearest place of the grid
   double threshold = 0;   ///< z that null experiments exceed with the given rate
   double confidence = 0;  ///< probability that no place of a null experiment is as clear
+};
+struct PlaceFinding {
+  std::vector<ClearPlace> clear;
   /// Effects that have no place by the same measure, linear and one step ahead, clearest first.
   std::vector<EffectFit> others;
 };
 
 /// Compares the clearest of all places with those of null experiments, which are simulated unless
 /// it is less clear than `least_z`. Nothing if an effect without a place explains clearly more.
-/// `false_alarms`: share of null experiments that may exceed the threshold. Throws Stopped.
+/// `false_alarms`: share of null experiments in which any effect may exceed its threshold. Throws
+/// Stopped.
 std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
                                              const std::vector<Recording>& recordings,
                                              double least_z, double false_alarms);

@@ -74,7 +74,7 @@ void Refinement::find_homes() {
 
 RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
   if (by_place) {
-    for (const EffectFit& f : by_place->fits) refine_fingerprint(fit_at_place(f));
+    for (const ClearPlace& one : by_place->clear) refine_fingerprint(fit_at_place(one.fit));
   }
   const std::vector<EffectFit> leading = state_.selection.leading(residual_, kRivals);
   for (const EffectFit& f : leading) {
@@ -91,7 +91,7 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
   std::optional<PlaceFinding> only;
   if (by_place) {
     only = likeliest_first(*by_place);
-    const EffectFit likeliest = fit_at_place(only->fits.front());
+    const EffectFit likeliest = fit_at_place(only->clear.front().fit);
     if (shows_only(m, likeliest)) {
       m.found = {likeliest};
     } else {
@@ -114,12 +114,13 @@ EffectFit Refinement::fit_at_place(const EffectFit& clear) {
 
 bool Refinement::shows_only(const SelectedModel& m, const EffectFit& f) const {
   if (m.found.empty()) return true;
-  return m.found.size() == 1 && id_of(m.found[0]) == id_of(f) && m.found[0].z < f.z;
+  return m.found.size() == 1 && id_of(m.found[0]) == id_of(f) &&
+         m.found[0].z < state_.selection.effect_threshold();
 }
 
 PlaceFinding Refinement::likeliest_first(PlaceFinding of) const {
-  std::ranges::stable_sort(of.fits, std::ranges::greater{}, [this](const EffectFit& f) {
-    return scanned(effect(id_of(f)), state_.details)->amplitudes->gain;
+  std::ranges::stable_sort(of.clear, std::ranges::greater{}, [this](const ClearPlace& one) {
+    return scanned(effect(id_of(one.fit)), state_.details)->amplitudes->gain;
   });
   return of;
 }

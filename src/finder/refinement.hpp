@@ -87,7 +87,7 @@ class Refinement {
   void forget(int family);
   // By the scan of places alone: where the recordings are likeliest with it.
   EffectFit fit_at_place(const EffectFit& clear);
-  // Whether the scores show nothing else, and that less clearly.
+  // Whether the scores show nothing else, and that not significantly.
   bool shows_only(const SelectedModel& m, const EffectFit& f) const;
   // With the effects by the likelihood at their best places.
   PlaceFinding likeliest_first(PlaceFinding of) const;

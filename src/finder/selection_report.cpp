@@ -38,7 +38,7 @@ struct SelectionReport {
   FoundCurve curve(std::size_t s, double z) const;
   const FoundCurve* map_of(const std::string& variable) const;
   void add_nearest();
-  std::vector<EffectFit> equally_likely(const std::vector<EffectFit>& places) const;
+  std::vector<EffectFit> equally_likely(const std::vector<ClearPlace>& places) const;
   void add_alternatives(const EffectFit& fit, const std::vector<EffectFit>& ranked,
                         DiagnosisFinding& f);
   bool is_reported(const Effect& one) const;
@@ -167,7 +167,7 @@ void SelectionReport::add_alternatives(const EffectFit& fit, const std::vector<E
   open = {fit};
   std::vector<EffectFit> others = ranked;
   if (selected.by_place) {
-    others = equally_likely(selected.by_place->fits);
+    others = equally_likely(selected.by_place->clear);
     others.insert(others.end(), selected.by_place->others.begin(), selected.by_place->others.end());
   } else {
     open[0].gain = std::ranges::find(ranked, fit.effect, &EffectFit::effect)->gain;
@@ -183,14 +183,15 @@ void SelectionReport::add_alternatives(const EffectFit& fit, const std::vector<E
 }
 
 // Those that are about as likely at their best places as the first of them, with its gain.
-std::vector<EffectFit> SelectionReport::equally_likely(const std::vector<EffectFit>& places) const {
-  const auto gain = [&](const EffectFit& f) {
-    return scanned(effect_in(plan, f), details)->amplitudes->gain;
+std::vector<EffectFit> SelectionReport::equally_likely(
+    const std::vector<ClearPlace>& places) const {
+  const auto gain = [&](const ClearPlace& one) {
+    return scanned(effect_in(plan, one.fit), details)->amplitudes->gain;
   };
   std::vector<EffectFit> likely;
-  for (EffectFit f : places) {
-    if (gain(places.front()) - gain(f) >= kSameGain) break;
-    f.gain = places.front().gain, likely.push_back(std::move(f));
+  for (const ClearPlace& one : places) {
+    if (gain(places.front()) - gain(one) >= kSameGain) break;
+    likely.push_back(one.fit), likely.back().gain = places.front().fit.gain;
   }
   return likely;
 }
@@ -201,7 +202,8 @@ void SelectionReport::add_findings() {
     const EffectFit& fit = model.found[i];
     DiagnosisFinding f;
     f.z = fit.z;
-    f.confidence = selected.by_place ? selected.by_place->confidence : selection.confidence(fit);
+    f.confidence =
+        selected.by_place ? selected.by_place->clear.front().confidence : selection.confidence(fit);
     if (fit.effect >= 0) {
       const Effect& effect = effect_in(plan, fit);
       f.effect = effect.name, f.variable = effect.variable, f.equation = effect.equation;
@@ -210,10 +212,8 @@ void SelectionReport::add_findings() {
       if (effect.estimated == Estimated::place) {
         add_places(effect, details.scans, plan.model, f);
         if (selected.by_place) {
-          f.text += "; z by the scan of all places, which " +
-                    significant(100 * kOfPlaces * out.false_alarms, 2) +
-                    " % of null experiments raise above " +
-                    significant(selected.by_place->threshold, 2);
+          f.text += "; z by the scan of all places, threshold " +
+                    significant(selected.by_place->clear.front().threshold, 2);
         }
       } else if (const FoundCurve* map = map_of(f.variable)) {
         add_place(*map, f);
