@@ -9,7 +9,8 @@ cp -r "$source"/{CMakeLists.txt,cmake,include,src,scenarios} "$tree"
 cp "$source/tests/new_force/spring_to_middle.cpp" "$tree/src/forces"
 cp "$source/tests/new_force/catalogue.cpp" "$tree"
 sed -i 's/^const ForceTerm& empirical_force();/&\nconst ForceTerm\& spring_to_middle();/' "$tree/src/forces/library.hpp"
-sed -i 's/&empirical_force()}/\&empirical_force(), \&spring_to_middle()}/' "$tree/src/forces/library.cpp"
+# At the end of the list, whichever term is last.
+sed -i 's/()};$/(), \&spring_to_middle()};/' "$tree/src/forces/library.cpp"
 cat >> "$tree/CMakeLists.txt" << 'CMAKE'
 add_executable(catalogue catalogue.cpp)
 target_include_directories(catalogue PRIVATE src)
