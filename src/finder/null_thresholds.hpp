@@ -22,7 +22,7 @@ class ExtremeLaw {
 /// Least scale of gains in nulls, relative to chi squared's.
 inline constexpr double kLeastScale = 0.5;
 
-/// Share of the false positives that is left to the scan of places (place_test.hpp); effects,
+/// Share of the false positives that is left to the scan of places (clear_place.hpp); effects,
 /// curves and the squared distance have the rest.
 inline constexpr double kOfPlaces = 0.1;
 

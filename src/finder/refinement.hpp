@@ -8,7 +8,7 @@
 
 #include "finder/found_effect.hpp"
 #include "finder/model_selection.hpp"
-#include "finder/place_test.hpp"
+#include "finder/clear_place.hpp"
 #include "finder/score_sensitivity.hpp"
 
 namespace lilytank {

@@ -1,4 +1,4 @@
-#include "finder/place_test.hpp"
+#include "finder/clear_place.hpp"
 
 #include "finder/null_thresholds.hpp"
 #include "finder/scan.hpp"
