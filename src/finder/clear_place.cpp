@@ -49,23 +49,6 @@ struct ScannedPlaces {
   }
 };
 
-// Of null experiments, a row each.
-Eigen::MatrixXd null_gains(const ReferenceEnsemble& ensemble) {
-  const auto rows = ensemble.further_nulls("places", kNullScans, [&](const auto& recordings) {
-    const Vector gains = ScannedPlaces(ensemble.plan(), recordings).gains;
-    return std::vector<double>(gains.begin(), gains.end());
-  });
-  std::vector<Vector> kept;
-  for (const std::vector<double>& row : rows) {
-    if (!row.empty()) kept.push_back(Vector::Map(row.data(), std::ssize(row)));
-  }
-  Eigen::MatrixXd out(std::ssize(kept), kept.empty() ? 0 : kept.front().size());
-  for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    out.row(i) = kept[static_cast<std::size_t>(i)].transpose();
-  }
-  return out;
-}
-
 std::vector<EffectFit> effects_without_place(const ScorePlan& plan,
                                              const std::vector<Recording>& recordings) {
   std::vector<Effect> tried;
@@ -95,7 +78,11 @@ std::optional<PlaceFinding> find_clear_place(const ReferenceEnsemble& ensemble,
   if (seen.fits.empty()) return std::nullopt;
   const auto by_chi_squared = seen.clearest(seen.gains, seen.freedom);
   if (!(std::ranges::max(by_chi_squared, {}, &EffectFit::z).z > least_z)) return std::nullopt;
-  const Eigen::MatrixXd nulls = null_gains(ensemble);
+  const Eigen::MatrixXd nulls =
+      ensemble.further_nulls("places", kNullScans, [&plan](const auto& of_null) {
+        const Vector gains = ScannedPlaces(plan, of_null).gains;
+        return std::vector<double>(gains.begin(), gains.end());
+      });
   const Vector sum = nulls.colwise().sum();
   const auto n = static_cast<double>(nulls.rows());
   const std::vector<EffectFit> found = seen.clearest(seen.gains, sum / n);

@@ -205,10 +205,10 @@ void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Re
   const JointStart start{stages.to_scale(setup.start),
                          (baseline - moved).cwiseMax(bounds.low).cwiseMin(bounds.high),
                          tank.spread.diagonal().cwiseMax(kMovedError * moved.cwiseAbs())};
-  const JointFit fit = fit_jointly(stages, tank.maps, tank.ensemble, found,
-                                   {judged.observed, judged.recordings}, start,
-                                   {tank.setup.budget.round, tank.selection.effect_threshold(),
-                                    judged.tag, derived_seed(tank.setup.options.seed, 700)});
+  const JointFit fit =
+      fit_jointly(stages, tank.maps, tank.ensemble, found, judged.recordings, start,
+                  {tank.setup.budget.round, tank.selection.effect_threshold(), judged.tag,
+                   derived_seed(tank.setup.options.seed, 700)});
   if (!fit.settled) {
     out.warnings.push_back("the joint fit had not settled: its intervals may be too short");
   }

@@ -80,9 +80,7 @@ class Numbers {
     return out;
   }
   Vector operator()(const std::vector<Recording>& recordings) const {
-    return of(ensemble_.vectors(recordings), recordings);
-  }
-  Vector of(const Vectors& v, const std::vector<Recording>& recordings) const {
+    const Vectors v = ensemble_.vectors(recordings);
     const Vector places = about_places(recordings);
     Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()) + places.size());
     out << v.summary, v.scores(scores_).cwiseQuotient(ensemble_.deviations()(scores_)), places;
@@ -242,14 +240,14 @@ bool settled(const ParameterEstimate& answer, const FitBounds& bounds, const Vec
 class Rounds {
  public:
   Rounds(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
-         std::vector<JointEffect> effects, const JointData& data, JointStart baseline,
-         JointRounds rounds)
+         std::vector<JointEffect> effects, const std::vector<Recording>& recordings,
+         JointStart baseline, JointRounds rounds)
       : stages_(stages),
         maps_(maps),
         ensemble_(ensemble),
         effects_(std::move(effects)),
         numbers_(ensemble, effects_),
-        data_(numbers_.of(data.observed, data.recordings)),
+        data_(numbers_(recordings)),
         baseline_(std::move(baseline)),
         rounds_(std::move(rounds)) {
     for (std::size_t e = 0; e < effects_.size(); ++e) fit_.kept.push_back(e);
@@ -362,9 +360,9 @@ class Rounds {
 }  // namespace
 
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
-                     std::vector<JointEffect> effects, const JointData& data,
+                     std::vector<JointEffect> effects, const std::vector<Recording>& recordings,
                      const JointStart& baseline, const JointRounds& rounds) {
-  return Rounds(stages, maps, ensemble, std::move(effects), data, baseline, rounds).run();
+  return Rounds(stages, maps, ensemble, std::move(effects), recordings, baseline, rounds).run();
 }
 
 }  // namespace lilytank

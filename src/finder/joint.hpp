@@ -34,12 +34,6 @@ struct JointEffect {
   int shape = -1;              ///< the plan's, if it is one: then its own scores speak as well
 };
 
-/// What is fitted.
-struct JointData {
-  const Vectors& observed;
-  const std::vector<Recording>& recordings;  ///< that these are of
-};
-
 /// Rounds of simulations.
 struct JointRounds {
   int count = 80;   ///< simulations of one
@@ -53,7 +47,7 @@ struct JointRounds {
 /// one is kept. `baseline`: where its parameters are expected beside them, and how surely
 /// (deviations of the first design).
 JointFit fit_jointly(Stages& stages, const FlowMaps& maps, const ReferenceEnsemble& ensemble,
-                     std::vector<JointEffect> effects, const JointData& data,
+                     std::vector<JointEffect> effects, const std::vector<Recording>& recordings,
                      const JointStart& baseline, const JointRounds& rounds);
 
 }  // namespace lilytank

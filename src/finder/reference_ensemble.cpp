@@ -100,8 +100,9 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
       centre_(centre),
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
-  const Simulation without = nulls("nulls", options.nulls, kNullSeed, row_measure());
-  const Design all = design_of(without.points, stages.rows("nulls", {without.rows}).front());
+  const Simulation without = nulls(options.nulls, kNullSeed);
+  const Design all =
+      design_of(without.points, stages.rows("nulls", {scored("nulls", without)}).front());
   const auto p = centre.size();
   summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
   const Design numbers{summaries_.points,
@@ -141,9 +142,8 @@ void ReferenceEnsemble::learn_effects() {
   std::vector<Stages::RowsOfStage> wanted;
   std::uint64_t number = kEffectSeed;
   for (std::size_t e = 0; e < plan_.effects.size(); ++e) {
-    all.push_back(learning(plan_.effects[e], "effect " + std::to_string(e),
-                           derived_seed(options_.seed, number++)));
-    wanted.push_back(all.back().rows);
+    all.push_back(learning(plan_.effects[e], derived_seed(options_.seed, number++)));
+    wanted.push_back(scored("effect " + std::to_string(e), all.back()));
   }
   const auto rows = stages_.rows("effects", wanted);
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -162,9 +162,8 @@ Vectors ReferenceEnsemble::vectors(const std::vector<Recording>& recordings,
 }
 
 ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
-    const std::string& stage, const Emulator& emulator, const Vector& about, const Matrix& spread,
-    const Matrix& amplitudes, const Effect* effect, std::uint64_t seed,
-    const Measure& numbers) const {
+    const Emulator& emulator, const Vector& about, const Matrix& spread, const Matrix& amplitudes,
+    const Effect* effect, std::uint64_t seed) const {
   const Matrix points =
       scattered(about, spread, static_cast<int>(amplitudes.rows()), stages_.bounds(), seed);
   Matrix values(amplitudes.rows(), amplitudes.cols());  // of the effect's parameters
@@ -176,17 +175,34 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
                         .cwiseMax(bounds.low)
                         .cwiseMin(bounds.high);
   }
-  const auto work = [this, emulator, points, values, seed, numbers](int i) {
+  const auto record = [this, emulator, points, values, seed](int i) {
     std::vector<double> at = stages_.from_scale(points.row(i));
     for (Eigen::Index k = 0; k < values.cols(); ++k) at.push_back(values(i, k));
     const auto field = perturbed_flow(maps_, derived_seed(seed, kFieldSeed), seed, i);
-    const auto made =
-        emulator.record(at, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
-    return made ? numbers(*made) : std::vector<double>{};
+    return emulator.record(at, derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
   };
   Matrix where(points.rows(), points.cols() + amplitudes.cols());
   where << points, amplitudes;
-  return {std::move(where), {stage, static_cast<int>(points.rows()), work}};
+  return {std::move(where), record};
+}
+
+Stages::RowsOfStage ReferenceEnsemble::measured(const std::string& stage, const Simulation& of,
+                                                const Measure& numbers) {
+  const auto work = [record = of.record, numbers](int i) {
+    const auto made = record(i);
+    return made ? numbers(*made) : std::vector<double>{};
+  };
+  return {stage, static_cast<int>(of.points.rows()), work};
+}
+
+Stages::RowsOfStage ReferenceEnsemble::scored(const std::string& stage,
+                                              const Simulation& of) const {
+  return measured(stage, of, [this](const std::vector<Recording>& recordings) {
+    const Vectors both = vectors(recordings);
+    std::vector<double> row(both.summary.begin(), both.summary.end());
+    row.insert(row.end(), both.scores.begin(), both.scores.end());
+    return row;
+  });
 }
 
 Prior ReferenceEnsemble::prior() const {
@@ -216,9 +232,11 @@ Vector ReferenceEnsemble::residual_at(const Vector& scores, const Vector& point)
   return off.cwiseQuotient(deviation_).cwiseMax(-kFarOff).cwiseMin(kFarOff);
 }
 
-ReferenceEnsemble::Simulation ReferenceEnsemble::simulation_with(
-    const Effect& effect, const std::string& stage, const Vector& about, const Matrix& spread,
-    const Matrix& amplitudes, std::uint64_t seed) const {
+ReferenceEnsemble::Simulation ReferenceEnsemble::simulation_with(const Effect& effect,
+                                                                 const Vector& about,
+                                                                 const Matrix& spread,
+                                                                 const Matrix& amplitudes,
+                                                                 std::uint64_t seed) const {
   const CalibrationSetup& setup = stages_.setup();
   std::vector<double> absent;
   for (std::size_t c = 0; c < effect.paths.size(); ++c) {
@@ -228,30 +246,20 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::simulation_with(
   paths.insert(paths.end(), effect.paths.begin(), effect.paths.end());
   const Emulator emulator(with_effect(setup.model, effect, absent), paths, setup.shapes,
                           {.moment_matched = false});
-  return simulation(stage, emulator, about, spread, amplitudes, &effect, seed, row_measure());
+  return simulation(emulator, about, spread, amplitudes, &effect, seed);
 }
 
-ReferenceEnsemble::Measure ReferenceEnsemble::row_measure() const {
-  return [this](const std::vector<Recording>& recordings) {
-    const Vectors both = vectors(recordings);
-    std::vector<double> row(both.summary.begin(), both.summary.end());
-    row.insert(row.end(), both.scores.begin(), both.scores.end());
-    return row;
-  };
-}
-
-ReferenceEnsemble::Simulation ReferenceEnsemble::nulls(const std::string& stage, int count,
-                                                       std::uint64_t seed,
-                                                       const Measure& numbers) const {
+ReferenceEnsemble::Simulation ReferenceEnsemble::nulls(int count, std::uint64_t seed) const {
   const CalibrationSetup& setup = stages_.setup();
-  return simulation(stage, setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre_,
-                    spread_, Matrix(count, 0), nullptr, derived_seed(options_.seed, seed), numbers);
+  return simulation(setup.emulator(setup.shapes, CalibrationSetup::Of::experiments), centre_,
+                    spread_, Matrix(count, 0), nullptr, derived_seed(options_.seed, seed));
 }
 
-std::vector<std::vector<double>> ReferenceEnsemble::further_nulls(const std::string& stage,
-                                                                  int count,
-                                                                  const Measure& numbers) const {
-  return stages_.rows(stage, {nulls(stage, count, kFurtherSeed, numbers).rows}).front();
+Matrix ReferenceEnsemble::further_nulls(const std::string& stage, int count,
+                                        const Measure& numbers) const {
+  const Simulation one = nulls(count, kFurtherSeed);
+  return design_of(one.points, stages_.rows(stage, {measured(stage, one, numbers)}).front())
+      .numbers;
 }
 
 ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
@@ -259,8 +267,8 @@ ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
                                                         const Vector& about, const Matrix& spread,
                                                         const Matrix& amplitudes,
                                                         std::uint64_t seed) {
-  const Simulation one = simulation_with(effect, stage, about, spread, amplitudes, seed);
-  return responses(one, stages_.rows(stage, {one.rows}).front());
+  const Simulation one = simulation_with(effect, about, spread, amplitudes, seed);
+  return responses(one, stages_.rows(stage, {scored(stage, one)}).front());
 }
 
 ReferenceEnsemble::Responses ReferenceEnsemble::responses(
@@ -292,11 +300,9 @@ double ReferenceEnsemble::displacement_misfit(const Vector& summary) const {
 }
 
 ReferenceEnsemble::Simulation ReferenceEnsemble::learning(const Effect& effect,
-                                                          const std::string& stage,
                                                           std::uint64_t seed) const {
   const int count = options_.experiments * static_cast<int>(effect.paths.size());
-  return simulation_with(effect, stage, centre_, spread_, learning_amplitudes(effect, count, seed),
-                         seed);
+  return simulation_with(effect, centre_, spread_, learning_amplitudes(effect, count, seed), seed);
 }
 
 Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses& made) const {
@@ -337,8 +343,9 @@ const Fingerprint& ReferenceEnsemble::shape_fingerprint(int s) {
   const std::uint64_t seed =
       derived_seed(options_.curve_seed, kCurveSeed + static_cast<std::uint64_t>(s));
   const Effect effect = effect_of(plan_.shapes[static_cast<std::size_t>(s)]);
-  const Simulation one = learning(effect, "shape " + std::to_string(s), seed);
-  const auto rows = stages_.rows(one.rows.stage, {one.rows});
+  const std::string stage = "shape " + std::to_string(s);
+  const Simulation one = learning(effect, seed);
+  const auto rows = stages_.rows(stage, {scored(stage, one)});
   return shape_fingerprints_[s] = fingerprint(effect, responses(one, rows.front()));
 }
 

@@ -92,31 +92,32 @@ class ReferenceEnsemble {
   Eigen::VectorXd mean_residual(const Effect& effect, const Eigen::VectorXd& amplitudes,
                                 const Eigen::VectorXd& point, int experiments,
                                 const std::string& stage, std::uint64_t seed);
-  /// Numbers of `count` null experiments of their own, kept as `stage`; none of one that diverged.
+  /// Numbers of `count` further null experiments, kept as `stage`: a row each, without those that
+  /// diverged.
   using Measure = std::function<std::vector<double>(const std::vector<Recording>&)>;
-  std::vector<std::vector<double>> further_nulls(const std::string& stage, int count,
-                                                 const Measure& numbers) const;
+  Eigen::MatrixXd further_nulls(const std::string& stage, int count, const Measure& numbers) const;
   const ResponseSurface& parameters() const { return *parameters_; }
   const Eigen::VectorXd& deviations() const { return deviation_; }
 
  private:
-  /// Experiments about a point: parameters and amplitudes, a row each; summaries and scores.
+  /// Experiments about a point: parameters and amplitudes, a row each.
   struct Simulation {
     Eigen::MatrixXd points;
-    Stages::RowsOfStage rows;
+    std::function<std::optional<std::vector<Recording>>(int)> record;  ///< that of a row
   };
-  Simulation simulation(const std::string& stage, const Emulator& emulator,
-                        const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
-                        const Eigen::MatrixXd& amplitudes, const Effect* effect, std::uint64_t seed,
-                        const Measure& numbers) const;
-  Measure row_measure() const;  ///< the summary, then the scores
-  Simulation nulls(const std::string& stage, int count, std::uint64_t seed,
-                   const Measure& numbers) const;
-  Simulation simulation_with(const Effect& effect, const std::string& stage,
-                             const Eigen::VectorXd& about, const Eigen::MatrixXd& spread,
-                             const Eigen::MatrixXd& amplitudes, std::uint64_t seed) const;
+  Simulation simulation(const Emulator& emulator, const Eigen::VectorXd& about,
+                        const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                        const Effect* effect, std::uint64_t seed) const;
+  Simulation nulls(int count, std::uint64_t seed) const;
+  Simulation simulation_with(const Effect& effect, const Eigen::VectorXd& about,
+                             const Eigen::MatrixXd& spread, const Eigen::MatrixXd& amplitudes,
+                             std::uint64_t seed) const;
   /// Those that an effect's fingerprint is learned from.
-  Simulation learning(const Effect& effect, const std::string& stage, std::uint64_t seed) const;
+  Simulation learning(const Effect& effect, std::uint64_t seed) const;
+  static Stages::RowsOfStage measured(const std::string& stage, const Simulation& of,
+                                      const Measure& numbers);
+  /// Summaries and scores.
+  Stages::RowsOfStage scored(const std::string& stage, const Simulation& of) const;
   void learn_effects();
   /// Experiments with an effect, calibrated without it.
   struct Responses {

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "finder/clear_place.hpp"
 #include "finder/found_effect.hpp"
 #include "finder/model_selection.hpp"
-#include "finder/clear_place.hpp"
 #include "finder/score_sensitivity.hpp"
 
 namespace lilytank {

@@ -224,11 +224,12 @@ ReportSection ranking_section(const Diagnosis& d) {
   section.detail = true;
   const std::string share = percent(d.false_alarms) + " of null experiments ";
   if (d.subject->curves_tested) {
-    section.above.push_back(share + "have an effect beyond z " + digits(d.effect_threshold) +
-                            ", a force law beyond z " + digits(d.shape_threshold) +
-                            ", or too large a residual; residual after the findings: z " +
-                            digits(d.strongest_left) +
-                            (residual_remains(d) ? ", which is larger than chance explains" : ""));
+    section.above.push_back(
+        share + "have an effect beyond z " + digits(d.effect_threshold) +
+        ", a force law beyond z " + digits(d.shape_threshold) +
+        ", too large a residual, or too clear a place; residual after the findings: z " +
+        digits(d.strongest_left) +
+        (residual_remains(d) ? ", which is larger than chance explains" : ""));
   } else {
     section.above.push_back(share + "exceed z " + digits(d.effect_threshold));
   }
