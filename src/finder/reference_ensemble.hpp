@@ -118,6 +118,9 @@ class ReferenceEnsemble {
                                       const Measure& numbers);
   /// Summaries and scores.
   Stages::RowsOfStage scored(const std::string& stage, const Simulation& of) const;
+
+  // Fingerprints (ensemble_fingerprints.cpp).
+
   void learn_effects();
   /// Experiments with an effect, calibrated without it.
   struct Responses {
