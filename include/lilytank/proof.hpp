@@ -28,6 +28,7 @@ struct ProofOptions {
   std::string latches;               ///< file of the modules' rules; empty: their latches are off
   bool event_log = false;            ///< with latches: the modules' events are logged
   std::vector<std::string> effects;  ///< the catalogue's effects that are drawn; empty: all
+  double sizes = 1;                  ///< factor on the effects' amplitudes: weaker or stronger ones
   /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
   bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
@@ -71,8 +72,8 @@ struct ProofLoop {
 struct ProofWorld {
   std::string kind;                  ///< null, named, two, unnamed
   std::vector<std::string> effects;  ///< of the catalogue; of unnamed ones the variable
-  /// Deviations by which the mean of experiments with this very effect is off, calibrated without
-  /// it; of two the weaker one's; 0: nothing is there.
+  /// Deviations between the means of experiments with this very effect and without it, both
+  /// calibrated without it; of two the weaker one's; 0: nothing is there.
   double expected_z = 0;
   Verdict verdict = Verdict::complete;
   std::vector<ProofFinding> findings;   ///< strongest first; none of complete

@@ -77,6 +77,8 @@ void add_prove_options(VerbOptions& options, ProofOptions& job, std::vector<std:
       &job.latches);
   options.add({"event-log", "with --latches: the modules' events are logged"}, &job.event_log);
   options.add({"effect", "draw this effect only (repeat: these effects)", "NAME"}, &job.effects);
+  options.add({"sizes", "factor on the effects' amplitudes, at most 1 (1)", "F"}, &job.sizes, 0.01,
+              1);
   options.add(
       {"closed-loop", "split groups of effects by the experiments that are proposed for them"},
       &job.closed_loop);
@@ -131,11 +133,11 @@ int prove_verb(const Arguments& arguments, const Host& host) {
   options.add({"quiet", "no progress"}, &quiet);
   if (!options.parse(arguments)) return Exit::done;
   if (!options.positional().empty()) {
-    options.refuse_given({"worlds",     "only",        "minutes", "ball-minutes", "modules",
-                          "known-flow", "drawn-tank",  "foreign", "latches",      "event-log",
-                          "effect",     "closed-loop", "grid",    "cells",        "modelled",
-                          "budget",     "uncertified", "seed",    "threads",      "dry-run"},
-                         "is for a new proof");
+    options.refuse_given(
+        {"worlds",  "only",     "minutes",   "ball-minutes", "modules", "known-flow",  "drawn-tank",
+         "foreign", "latches",  "event-log", "effect",       "sizes",   "closed-loop", "grid",
+         "cells",   "modelled", "budget",    "uncertified",  "seed",    "threads",     "dry-run"},
+        "is for a new proof");
     return print_together(options.positional(), options.text("out"), style, job.diagnosis.force,
                           host);
   }

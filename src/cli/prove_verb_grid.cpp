@@ -71,8 +71,9 @@ int prove_on_grid(const VerbOptions& options, const ProofOptions& proof,
                   const Host& host) {
   options.refuse_given({"minutes", "ball-minutes", "modules", "budget"},
                        "is an axis of the grid: write --cells AXIS=VALUE");
-  options.refuse_given({"only", "effect", "closed-loop", "modelled", "figure-width", "no-titles"},
-                       "has no effect with --grid");
+  options.refuse_given(
+      {"only", "effect", "sizes", "closed-loop", "modelled", "figure-width", "no-titles"},
+      "has no effect with --grid");
   GridOptions job;
   job.proof = proof, job.axes = axes_of(options, cells, proof.known_flow);
   if (options.has("worlds")) job.experiments = proof.worlds;

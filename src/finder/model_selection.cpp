@@ -156,9 +156,10 @@ double ModelSelection::expected_z(int effect, const Vector& amplitudes) const {
   return beyond * length(state_, of, of.source.at(within), of.source.noise_at(within));
 }
 
-double ModelSelection::expected_z(int effect, const Vector& mean, int experiments) const {
+double ModelSelection::expected_z(int effect, const Vector& change, int experiments) const {
+  if (effect < 0) return shapes(state_.whitening.centre + change).front().z;
   const EffectCandidate& of = state_.candidates[place_of(state_.candidates, effect, -1)];
-  return length(state_, of, mean - state_.whitening.centre, 1.0 / experiments);
+  return length(state_, of, change, 1.0 / experiments);
 }
 
 }  // namespace lilytank

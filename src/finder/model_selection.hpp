@@ -106,8 +106,9 @@ class ModelSelection {
   double smallest_detectable(int effect) const;
   /// Deviations by which an effect at these amplitudes moves residuals, calibrated without it.
   double expected_z(int effect, const Eigen::VectorXd& amplitudes) const;
-  /// The same of residuals that are the mean of `experiments` with an effect like this one.
-  double expected_z(int effect, const Eigen::VectorXd& mean, int experiments) const;
+  /// The same by the mean change of residuals in `experiments` with an effect like this one; -1: by
+  /// the curve that shows it best.
+  double expected_z(int effect, const Eigen::VectorXd& change, int experiments) const;
 
  private:
   SelectionState state_;

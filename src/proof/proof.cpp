@@ -99,17 +99,21 @@ void model_world(PreparedTank& tank, const Judged& judged, const Model& truth_mo
   if (!std::isnan(first.gain)) world.gain = first.gain, world.gain_low = first.gain_low;
 }
 
-// Experiments of one seed and number differ by the effects that they are drawn from; for names of
-// stages.
+// Experiments of one seed and number differ by the effects that they are drawn from and by their
+// sizes; for names of stages.
 std::string drawn_from(const ProofOptions& options) {
-  if (options.effects.empty()) return "";
-  Fnv hash;
-  hash.add(joined(options.effects, " "));
-  return " of " + hex(hash.value());
+  std::string out;
+  if (!options.effects.empty()) {
+    Fnv hash;
+    hash.add(joined(options.effects, " "));
+    out = " of " + hex(hash.value());
+  }
+  return out + (options.sizes == 1 ? "" : " times " + shortest(options.sizes));
 }
 
 // Of the weakest of the effects, each alone at its own strength, range and place; of a law that no
-// effect has by the curve that shows it best.
+// effect has by the curve that shows it best. What the experiment's own parameters change is
+// subtracted: the same experiments without the effect.
 double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
                   const std::string& name, std::uint64_t seed) {
   const CalibrationSetup& setup = tank.setup.calibration;
@@ -125,11 +129,12 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
     const Eigen::Map<const Eigen::VectorXd> amplitudes(
         own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
     const std::string stage = "expected " + name + " " + std::to_string(own.like);
-    const Eigen::VectorXd mean =
-        tank.ensemble.mean_residual(own.effect, amplitudes, point, kExpectedRuns, stage, seed);
-    const ModelSelection& selection = tank.selection;
-    least = std::min(least, own.like < 0 ? selection.shapes(mean).front().z
-                                         : selection.expected_z(own.like, mean, kExpectedRuns));
+    const auto mean = [&](const Eigen::VectorXd& at, const std::string& of) {
+      return tank.ensemble.mean_residual(own.effect, at, point, kExpectedRuns, of, seed);
+    };
+    const Eigen::VectorXd net = mean(amplitudes, stage) - mean(0 * amplitudes, stage + " without");
+    // A difference of two means is as uncertain as the mean of half as many.
+    least = std::min(least, tank.selection.expected_z(own.like, net, kExpectedRuns / 2));
   }
   return s.effects.empty() ? 0 : least;
 }

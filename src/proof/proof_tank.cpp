@@ -107,6 +107,7 @@ std::vector<Sealed> requested(const ProofOptions& options, const Model& tank,
     Sealed one = seal(tank, effects, shapes, seed, w);
     for (SealedEffect& e : one.effects) {
       if (e.like >= 0) e.like = places[static_cast<std::size_t>(e.like)];
+      for (double& a : e.amplitudes) a *= options.sizes;
     }
     one.foreign = options.foreign, one.logged = options.event_log;
     if (options.only.empty() || one.kind == options.only) out.push_back(std::move(one));

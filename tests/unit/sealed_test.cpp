@@ -7,6 +7,7 @@
 
 #include "lilytank/calibration.hpp"
 #include "lilytank/model_parameter.hpp"
+#include "proof/proof_tank.hpp"
 
 namespace lilytank {
 namespace {
@@ -32,6 +33,25 @@ TEST(Sealed, effectsHaveOtherNumbersThanTheCatalogueWithinTheirBounds) {
     }
   }
   EXPECT_GT(others, 200);
+}
+
+TEST(Sealed, effectsOfASmallerSizeAreTheSameOnesWeaker) {
+  const Model tank = tank_model();
+  const auto shapes = shape_catalogue(tank, 60);
+  ProofOptions options;
+  options.worlds = 16;
+  const std::vector<Sealed> full = requested(options, tank, shapes, 5);
+  options.sizes = 0.25;
+  const std::vector<Sealed> weak = requested(options, tank, shapes, 5);
+  for (std::size_t w = 0; w < full.size(); ++w) {
+    EXPECT_EQ(weak[w].names, full[w].names);
+    for (std::size_t e = 0; e < full[w].effects.size(); ++e) {
+      const std::vector<double>& of = full[w].effects[e].amplitudes;
+      for (std::size_t k = 0; k < of.size(); ++k) {
+        EXPECT_EQ(weak[w].effects[e].amplitudes[k], 0.25 * of[k]);
+      }
+    }
+  }
 }
 
 // Every seed has a tank of its own, as strong as tanks are, with parameters that a calibration
