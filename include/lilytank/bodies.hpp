@@ -13,6 +13,7 @@ namespace lilytank {
 /// them; a position that was not seen is NaN.
 struct BodyRun {
   std::string name;
+  std::string part_of;               ///< the run that was cut at gaps; "": this is a whole one
   std::vector<std::string> bodies;   ///< their names
   std::vector<double> mass, radius;  ///< of each, kg and m; without masses 1: forces are per mass
   std::vector<double> time;          ///< s, rising
@@ -35,6 +36,9 @@ struct BaselineLaw {
   SourcePlace place;
 };
 
+/// Which runs have the same coefficients.
+enum class Coefficients { shared, each_body, each_run };
+
 struct BodyExperiment {
   std::string name;
   int dimensions = 1;
@@ -42,12 +46,12 @@ struct BodyExperiment {
   /// Tables give longitudes (x) and latitudes (y) in degrees; positions are metres east and north
   /// on the plane that touches the Earth at their centre.
   bool geographic = false;
-  double noise = 0;        ///< deviation of a position; 0: it is estimated
-  bool different = false;  ///< every body has coefficients of its own
-  bool masses = false;     ///< masses are known
-  double density = 0;      ///< of the medium, kg/m^3; 0: unknown
-  double turning = 0;      ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
-  int latitude = -1;       ///< the driver that is a latitude in degrees; -1: none is
+  double noise = 0;  ///< deviation of a position; 0: it is estimated
+  Coefficients coefficients = Coefficients::shared;
+  bool masses = false;  ///< masses are known
+  double density = 0;   ///< of the medium, kg/m^3; 0: unknown
+  double turning = 0;   ///< f of the Coriolis force, 1/s; 0: of the driver below, or unknown
+  int latitude = -1;    ///< the driver that is a latitude in degrees; -1: none is
   /// Drivers that are the velocity (m/s) along x and y of the medium that bodies float in, and of
   /// the wind above it; -1: none are.
   int current[2] = {-1, -1}, wind[2] = {-1, -1};

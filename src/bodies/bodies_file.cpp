@@ -22,19 +22,20 @@ constexpr int kMostLines = 1'000'000'000;
 
 TomlKeys experiment_keys() {
   using namespace toml_key;
-  return {text("name", "name of the experiment, used for the output folder"),
-          word("body", {"point"}, "what moves"),
-          whole("dimensions", 1, 2, "coordinates of a body"),
-          text("unit", "of positions: m or rad"),
-          word("coordinates", {"plane", "geographic"},
-               "geographic: x is a longitude and y a latitude, in degrees"),
-          quantity("noise", "standard error of a position; without it, it is estimated"),
-          word("coefficients", {"shared", "each body"}, "whether bodies share the coefficients"),
-          quantity("density", "of the medium, kg/m^3: drag coefficients Cd are then reported"),
-          quantity("turning", "rate at which the frame turns, 1/s, counter-clockwise"),
-          text("latitude", "driver with the latitude in degrees"),
-          texts("current", "drivers with the velocity of the medium, m/s, one a dimension"),
-          texts("wind", "drivers with the velocity of the wind, m/s, one a dimension")};
+  return {
+      text("name", "name of the experiment, used for the output folder"),
+      word("body", {"point"}, "what moves"),
+      whole("dimensions", 1, 2, "coordinates of a body"),
+      text("unit", "of positions: m or rad"),
+      word("coordinates", {"plane", "geographic"},
+           "geographic: x is a longitude and y a latitude, in degrees"),
+      quantity("noise", "standard error of a position; without it, it is estimated"),
+      word("coefficients", {"shared", "each body", "each run"}, "what the coefficients belong to"),
+      quantity("density", "of the medium, kg/m^3: drag coefficients Cd are then reported"),
+      quantity("turning", "rate at which the frame turns, 1/s, counter-clockwise"),
+      text("latitude", "driver with the latitude in degrees"),
+      texts("current", "drivers with the velocity of the medium, m/s, one a dimension"),
+      texts("wind", "drivers with the velocity of the wind, m/s, one a dimension")};
 }
 
 TomlKeys baseline_keys(const std::vector<std::string>& laws) {
@@ -126,11 +127,11 @@ class Reader {
     }
     if (f.has("coefficients")) {
       const std::string word = f.text("coefficients");
-      if (word != "shared" && word != "each body") {
-        f.refuse("coefficients",
-                 "experiment.coefficients = \"" + word + "\" is none of \"shared\", \"each body\"");
-      }
-      e.different = word == "each body";
+      const std::vector<std::string> words{"shared", "each body", "each run"};
+      const auto found = std::find(words.begin(), words.end(), word);
+      if (found == words.end())
+        throw unknown_word(f.place("coefficients"), "experiment.coefficients", word, words);
+      e.coefficients = static_cast<Coefficients>(found - words.begin());
     }
     if (f.has("coordinates")) {
       const std::string word = f.text("coordinates");

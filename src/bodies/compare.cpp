@@ -27,7 +27,9 @@ std::vector<Group> groups_of(const BodyExperiment& e) {
   std::vector<std::vector<const BodyRun*>> runs;
   for (const BodyRun& run : e.runs) {
     std::string name;
-    if (e.different) name = joined(run.bodies, " and ");
+    if (e.coefficients == Coefficients::each_body) name = joined(run.bodies, " and ");
+    if (e.coefficients == Coefficients::each_run)
+      name = run.part_of.empty() ? run.name : run.part_of;
     const auto at =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     if (at == names.size()) names.push_back(name), runs.emplace_back();

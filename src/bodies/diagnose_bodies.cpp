@@ -42,11 +42,11 @@ std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<La
 
 std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& options) {
   Fnv hash;
-  hash.add("3 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
-  hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.different), double(e.masses),
-                               e.turning, double(e.latitude), double(e.current[0]),
-                               double(e.current[1]), double(e.wind[0]), double(e.wind[1]),
-                               e.density, options.minutes});
+  hash.add("4 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
+  hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.coefficients),
+                               double(e.masses), e.turning, double(e.latitude),
+                               double(e.current[0]), double(e.current[1]), double(e.wind[0]),
+                               double(e.wind[1]), e.density, options.minutes});
   for (const BaselineLaw& law : e.baseline) {
     hash.add(law.law + " " + shortest(law.value) + (law.fit ? " fit" : ""));
   }
@@ -60,18 +60,19 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
 }
 
 // The reported laws with a rotation of any rate instead of the law that turns velocities; nothing
-// where none does, or the rotation has no fit.
+// where none does, or one of any rate is reported, or the rotation has no fit.
 std::optional<LawTrial> with_free_rotation(const Comparison& c) {
   Candidate freed;
   bool turns = false;
   for (const Law* law : c.reported->candidate.laws) {
+    if (law->name == "spin_lift") return std::nullopt;
     if (law->variable == "turn")
       turns = true;
     else
       freed.laws.push_back(law);
   }
   if (!turns) return std::nullopt;
-  const LawTrial* from = freed.laws.empty() ? &c.baseline : c.single_of(freed.laws.front());
+  const LawTrial* from = c.outcome_of(freed.laws);
   freed.laws.push_back(find_law("rotation"));
   if (from == nullptr) return std::nullopt;
   LawTrial out = fit_candidate(c.groups, c.baseline, *from, freed);
@@ -91,6 +92,8 @@ class Trials {
     singles();
     pairs();
     nulls();
+    c_.select();
+    if (c_.reported->candidate.laws.size() == 2) triples();
   }
 
  private:
@@ -130,13 +133,47 @@ class Trials {
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     largest_first(c_.pairs, &LawTrial::gain);
-    // A bias is identifiable from several runs only.
+    add_run_bias(c_.singles), add_run_bias(c_.pairs);
+  }
+
+  // A bias is identifiable from several runs only.
+  void add_run_bias(std::vector<LawTrial>& all) {
     if (experiment_.runs.size() < 4) return;
-    for (std::vector<LawTrial>* all : {&c_.singles, &c_.pairs}) {
-      for (std::size_t k = 0; k < all->size() && k < 6; ++k) {
-        options_.check_stop();
-        fit_run_bias(c_.groups, (*all)[k]);
-      }
+    for (std::size_t k = 0; k < all.size() && k < 6; ++k) {
+      options_.check_stop();
+      fit_run_bias(c_.groups, all[k]);
+    }
+  }
+
+  // The reported pair with every other law.
+  void triples() {
+    const LawTrial& pair = *c_.reported;
+    const std::vector<const Law*>& two = pair.candidate.laws;
+    std::vector<Candidate> sums;
+    for (const LawTrial& single : c_.singles) {
+      const Law* third = single.candidate.laws[0];
+      if (together(*two[0], *third) && together(*two[1], *third))
+        sums.push_back({{two[0], two[1], third}});
+    }
+    for (const Candidate& sum : sums) {
+      options_.check_stop();
+      options_.report(0.99, sum.name());
+      keep(fit_candidate(c_.groups, c_.baseline, pair, sum), c_.triples);
+    }
+    largest_first(c_.triples, &LawTrial::gain);
+    add_run_bias(c_.triples);
+    c_.select();
+    if (c_.reported->candidate.laws.size() == 3) add_pairs_within(*c_.reported);
+  }
+
+  // What each of three laws gains is over the other two.
+  void add_pairs_within(const LawTrial& triple) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<const Law*> rest = triple.candidate.laws;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+      const LawTrial* from = c_.outcome_of({rest.data(), 1});
+      if (c_.outcome_of(rest) != nullptr || from == nullptr) continue;
+      keep(fit_candidate(c_.groups, c_.baseline, *from, Candidate{rest}), c_.pairs);
     }
   }
 
@@ -176,7 +213,6 @@ Diagnosis diagnose_bodies(const BodyExperiment& e, const DiagnosisOptions& optio
   c.experiment = &e, c.false_alarms = options.false_alarms;
   c.groups = groups_of(e);
   Trials(e, options, c).run();
-  c.select();
   c.rotation = with_free_rotation(c);
   c.far_before = far_errors(c.groups, baseline_at_noise_of(c.groups, c.baseline, *c.reported));
   c.far_after = far_errors(c.groups, *c.reported);

@@ -24,14 +24,16 @@ struct Scene {
 /// Sizes that occur in the recordings: where starts and fixed numbers of laws come from.
 struct Typical {
   int dimensions = 1, bodies = 1, drivers = 0;
-  double speed = 1, fastest = 1;  ///< rms, largest
-  double low = 0, high = 1;       ///< of positions
-  double centre[2] = {0, 0};
+  double speed = 1, fastest = 1;   ///< rms, largest
+  double low = 0, high = 1;        ///< of positions
+  double centre[2] = {0, 0};       ///< of positions
+  double farthest = 1;             ///< largest distance from the centre
   double nearest = 1, middle = 1;  ///< gap: smallest, median
   double duration = 1;
-  double rate = 0;     ///< rad/s, of the strongest line in the velocities' spectrum; 2-D: clockwise
-  double mass = 1;     ///< kg, of the first body
-  double turning = 0;  ///< a known constant f, 1/s
+  double rate = 0;  ///< rad/s, of the strongest line in the velocities' spectrum; 2-D: clockwise
+  double mass = 1;  ///< kg, of the first body
+  bool of_a_run = false;  ///< of one run alone, which has coefficients of its own
+  double turning = 0;     ///< a known constant f, 1/s
   int latitude = -1;
   int current[2] = {-1, -1}, wind[2] = {-1, -1};  ///< as in BodyExperiment
 };

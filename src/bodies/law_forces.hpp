@@ -67,6 +67,17 @@ void turn(const Scene& s, Values p, double* force) {
   }
 }
 
+/// Adds a force of `size(distance, p)` towards a centre, the last two parameters.
+template <auto size>
+void towards_centre(const Scene& s, Values p, double* force) {
+  for (int b = 0; b < s.bodies; ++b) {
+    const double u[2] = {s.x[2 * b] - p[p.size() - 2], s.x[2 * b + 1] - p[p.size() - 1]};
+    const double distance = std::max(std::hypot(u[0], u[1]), 1e-12);
+    const double f = size(distance, p) / distance;
+    for (int d = 0; d < 2; ++d) force[2 * b + d] -= f * u[d];
+  }
+}
+
 /// Adds a force towards a place: the first parameter times `power` of the distance along each axis.
 template <auto power>
 void towards_place(const Scene& s, Values p, double* force) {

@@ -12,6 +12,7 @@ using Parameters = std::vector<LawParameter>;
 
 constexpr double kTide = 2 * std::numbers::pi / kTideRate;  // s
 constexpr std::size_t kCurveKnots = 5;
+constexpr double kMostExponent = 20;  // of a force that grows exponentially
 
 bool never(const Typical&) {
   return false;
@@ -21,6 +22,10 @@ bool in_pairs(const Typical& t) {
 }
 bool in_a_plane(const Typical& t) {
   return t.dimensions == 2;
+}
+
+bool in_a_plane_of_a_run(const Typical& t) {
+  return t.dimensions == 2 && t.of_a_run;
 }
 
 bool medium_known(const Typical& t) {
@@ -57,6 +62,15 @@ Parameters strength_at_gap(const Typical& t, const LawParameter& decay) {
 // Gaps below a fifth of s count as a fifth, so that no step meets a pole.
 double power_of_gap(double gap, Values p) {
   return p[0] * std::pow(p[1] / std::max(gap, p[1] / 5), p[2]);
+}
+
+// A rotation of any rate: none, or that of the strongest line.
+Parameters free_rate(const Typical& t) {
+  return {{"rate", "rad/s", Kind::place, t.rate, 0, std::max(1e-300, std::fabs(t.rate))}};
+}
+
+double rate_of(const Scene&, Values p) {
+  return p[0];
 }
 
 // Of all drivers together, each with a coefficient an axis.
@@ -196,6 +210,16 @@ constexpr Law kLaws[] = {
              .add = along_velocity<[](double speed, Values p) {
                return -p[0] / std::sqrt(speed * speed + p[1] * p[1]);
              }>}),
+    // Slower than its own speed a body is driven, faster it is braked (Rayleigh and Helmholtz).
+    of_slip({.name = "self_propulsion",
+             .equation = "F = a (1 - v^2/s^2) v: towards the speed s",
+             .split = "the same body released at rest, and at twice its usual speed",
+             .parameters = [](const Typical& t) -> Parameters {
+               return {{"coefficient", "N s/m"}, {"speed", "m/s", Kind::positive, t.speed}};
+             },
+             .add = along_velocity<[](double speed, Values p) {
+               return p[0] * (1 - speed * speed / (p[1] * p[1]));
+             }>}),
     of_medium_slip({.name = "linear_drag_in_medium",
                     .equation = "F = -k (v - u - a w): u the current, w the wind",
                     .parameters = [](const Typical& t) { return of_slip_in(t, "N s/m"); },
@@ -221,6 +245,22 @@ constexpr Law kLaws[] = {
      .split = kFarther,
      .parameters = [](const Typical& t) { return towards(t, "N/m^3"); },
      .add = towards_place<[](double u) { return u * u * u; }>},
+    {.name = "wall",
+     .equation = "F = A exp((r - R)/l) towards the centre (x0, y0); r: the distance from it",
+     .variable = "position",
+     .split = "bodies that are pushed against the wall",
+     .parameters =
+         [](const Typical& t) {
+           return Parameters{{"strength", "N"},
+                             {"R", "m", Kind::fixed, t.farthest},
+                             {"range", "m", Kind::positive, t.farthest / 10},
+                             {"x0", "m", Kind::place, t.centre[0]},
+                             {"y0", "m", Kind::place, t.centre[1]}};
+         },
+     .add = towards_centre<[](double distance, Values p) {
+       return p[0] * std::exp(std::min((distance - p[1]) / p[2], kMostExponent));
+     }>,
+     .possible = in_a_plane},
     of_pairs({.name = "pair_power_law",
               .equation = "F = A (s/gap)^n",
               .parameters =
@@ -243,7 +283,7 @@ constexpr Law kLaws[] = {
                     return strength_at_gap(t, {"range", "m", Kind::positive, s / 3, s});
                   },
               .add = between_pairs<[](double gap, Values p) {
-                return p[0] * std::exp(std::min(-(gap - p[1]) / p[2], 20.0));
+                return p[0] * std::exp(std::min(-(gap - p[1]) / p[2], kMostExponent));
               }>}),
     of_pairs(
         {.name = "pair_spring",
@@ -256,6 +296,20 @@ constexpr Law kLaws[] = {
          .add = between_pairs<[](double gap, Values p) {
            return gap < p[1] ? p[0] * (p[1] - gap) : 0;
          }>}),
+    // Repulsion within the gap s, attraction beyond it (Morse).
+    of_pairs({.name = "pair_morse",
+              .equation = "F = A (exp(-2 (gap - s)/l) - exp(-(gap - s)/l)): none at the gap s",
+              .parameters =
+                  [](const Typical& t) {
+                    const double s = usual_gap(t);
+                    return Parameters{{"strength", "N"},
+                                      {"s", "m", Kind::positive, 1.5 * s, std::sqrt(s * t.middle)},
+                                      {"range", "m", Kind::positive, s / 2}};
+                  },
+              .add = between_pairs<[](double gap, Values p) {
+                const double e = std::exp(std::min(-(gap - p[1]) / p[2], kMostExponent));
+                return p[0] * (e - 1) * e;
+              }>}),
     turning({.name = "coriolis",
              .equation = "F = m f (v_y, -v_x), f = 2 Omega sin(latitude)",
              .parameters = [](const Typical& t) -> Parameters {
@@ -270,15 +324,17 @@ constexpr Law kLaws[] = {
                    return t.dimensions == 2 && (t.latitude >= 0 || t.turning != 0);
                  }}),
     // It fits whatever turns; the laws beside it say why.
-    turning(
-        {.name = "rotation",
-         .equation = "F = m w (v_y, -v_x), w free; w > 0: clockwise",
-         .curve = true,
-         .parameters = [](const Typical& t) -> Parameters {
-           return {{"rate", "rad/s", Kind::place, t.rate, 0, std::max(1e-300, std::fabs(t.rate))}};
-         },
-         .add = turn<[](const Scene&, Values p) { return p[0]; }>,
-         .possible = in_a_plane}),
+    turning({.name = "rotation",
+             .equation = "F = m w (v_y, -v_x), w free; w > 0: clockwise",
+             .curve = true,
+             .parameters = free_rate,
+             .add = turn<rate_of>,
+             .possible = in_a_plane}),
+    turning({.name = "spin_lift",
+             .equation = "F = m w (v_y, -v_x), w of each run: the lift of a body that spins",
+             .parameters = free_rate,
+             .add = turn<rate_of>,
+             .possible = in_a_plane_of_a_run}),
     // A tide's current that is set anew all the time: what it leaves turns once a period.
     turning(
         {.name = "tide",

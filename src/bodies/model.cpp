@@ -207,6 +207,30 @@ void take_gaps(const BodyRun& run, int dimensions, std::vector<double>& gaps) {
   }
 }
 
+// Centre of the positions along each axis, and the largest distance from it.
+void take_place(const std::vector<const BodyRun*>& runs, Typical& t) {
+  const auto nd = static_cast<std::size_t>(t.dimensions);
+  double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+  for (const BodyRun* run : runs) {
+    for (std::size_t i = 0; i < run->position.size(); ++i) {
+      const double x = run->position[i];
+      if (std::isfinite(x))
+        low[i % nd] = std::min(low[i % nd], x), high[i % nd] = std::max(high[i % nd], x);
+    }
+  }
+  for (std::size_t d = 0; d < nd; ++d) t.centre[d] = (low[d] + high[d]) / 2;
+  double farthest = 0;
+  for (const BodyRun* run : runs) {
+    for (std::size_t i = 0; i < run->position.size(); i += nd) {
+      double square = 0;
+      for (std::size_t d = 0; d < nd; ++d)
+        square += std::pow(run->position[i + d] - t.centre[d], 2);
+      if (std::isfinite(square)) farthest = std::max(farthest, square);
+    }
+  }
+  t.farthest = farthest > 0 ? std::sqrt(farthest) : 1;
+}
+
 void take_motion(const BodyRun& run, Typical& t, std::vector<double>& speeds) {
   const auto nd = static_cast<std::size_t>(t.dimensions);
   double v[2];
@@ -228,6 +252,7 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
   Typical t;
   t.dimensions = e.dimensions, t.drivers = static_cast<int>(e.drivers.size());
   t.turning = e.turning, t.latitude = e.latitude;
+  t.of_a_run = e.coefficients == Coefficients::each_run;
   std::copy_n(e.current, 2, t.current), std::copy_n(e.wind, 2, t.wind);
   t.low = 1e300, t.high = -1e300, t.duration = 0;
   std::vector<double> speeds, gaps;
@@ -243,7 +268,7 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
       speeds.empty() ? 1 : std::max(1e-12, std::sqrt(sum / static_cast<double>(speeds.size())));
   t.fastest = speeds.empty() ? 1 : std::max(1e-12, speeds[speeds.size() * 99 / 100]);
   if (!gaps.empty()) t.nearest = gaps.front(), t.middle = gaps[gaps.size() / 2];
-  t.centre[0] = t.centre[1] = (t.low + t.high) / 2;
+  take_place(runs, t);
   t.rate = strongest_rate(runs, e.dimensions);
   t.mass = runs.front()->mass.front();
   return t;

@@ -283,7 +283,7 @@ class TableReader {
 
   BodyRun empty_run(const Rows& r, std::size_t piece) const {
     BodyRun run;
-    run.name = name_of(r, piece);
+    run.name = name_of(r, piece), run.part_of = piece > 1 ? name_of(r, 1) : "";
     run.bodies = r.bodies, run.held_out = t_->held_out;
     for (std::size_t b = 0; b < r.bodies.size(); ++b) {
       run.mass.push_back(of_body(t_->mass, b, r.bodies[b], 1, "mass"));

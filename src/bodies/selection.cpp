@@ -60,7 +60,8 @@ bool Comparison::distinguished(const LawTrial& better, const LawTrial& worse) co
   return still.distinguished();
 }
 
-// The best named law; a pair where it gains more than chance gives one law; an unnamed law where
+// The best named law; a pair or a triple where its last law gains more than chance gives; an
+// unnamed law where
 // it is distinguished from both, or where no named law is beyond chance.
 const LawTrial& Comparison::choice() const {
   const auto first = [&](bool curve) {
@@ -70,9 +71,13 @@ const LawTrial& Comparison::choice() const {
   const auto named = first(false), unnamed = first(true);
   if (named == singles.end()) return *unnamed;
   const LawTrial* out = &*named;
-  if (!pairs.empty() && pairs.front().gain - out->gain > std::max(2.0, threshold()) &&
-      by_gain(pairs.front(), *out)) {
-    out = &pairs.front();
+  for (const std::vector<LawTrial>* more : {&pairs, &triples}) {
+    if (more->empty()) continue;
+    // The threshold is that of the best of all single laws: there are more sums to choose from.
+    const auto times = static_cast<double>(more->size()) / static_cast<double>(singles.size());
+    const double least = std::max(2.0, threshold()) + std::log(std::max(1.0, times));
+    const LawTrial& sum = more->front();
+    if (sum.gain - std::max(0.0, out->gain) > least && by_gain(sum, *out)) out = &sum;
   }
   const bool better = unnamed != singles.end() && unnamed->gain > out->gain;
   if (better && (out->gain <= threshold() || distinguished(*unnamed, *out))) out = &*unnamed;
@@ -89,16 +94,21 @@ void Comparison::select() {
   }
 }
 
-const LawTrial* Comparison::single_of(const Law* law) const {
-  for (const LawTrial& o : singles) {
-    if (o.candidate.laws.front() == law) return &o;
+const std::vector<LawTrial>& Comparison::trials_of(std::size_t laws) const {
+  return laws == 1 ? singles : laws == 2 ? pairs : triples;
+}
+
+const LawTrial* Comparison::outcome_of(std::span<const Law* const> laws) const {
+  if (laws.empty()) return &baseline;
+  for (const LawTrial& o : trials_of(laws.size())) {
+    if (std::ranges::is_permutation(o.candidate.laws, laws)) return &o;
   }
   return nullptr;
 }
 
 std::vector<const LawTrial*> Comparison::alternatives() const {
   std::vector<const LawTrial*> out;
-  for (const LawTrial& o : reported->candidate.laws.size() == 1 ? singles : pairs) {
+  for (const LawTrial& o : trials_of(reported->candidate.laws.size())) {
     const bool other = &o != reported && !o.candidate.curve();
     if (other && o.gain > threshold() && !distinguished(*reported, o)) out.push_back(&o);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "bodies/distribution.hpp"
 #include "bodies/maps.hpp"
 #include "statistics/largest_first.hpp"
 #include "statistics/quantiles.hpp"
@@ -14,10 +15,8 @@
 
 namespace lilytank::bodies {
 namespace {
-constexpr std::size_t kPairsReported = 5;
-}  // namespace
 
-namespace {
+constexpr std::size_t kSumsReported = 5;  // of as many laws
 
 // Units of a law's parameter for the experiment's: forces are per mass where masses are unknown.
 std::string unit_for(const BodyExperiment& e, std::string unit) {
@@ -92,26 +91,16 @@ std::optional<FoundParameter> drag_coefficient(const Comparison& c, std::size_t 
   return out;
 }
 
-// The distribution of each parameter over many bodies instead of a line for each.
-void add_distributions(const std::vector<FoundParameter>& all, DiagnosisFinding& f) {
-  std::map<std::string, std::vector<FoundParameter>> by_path;
-  for (const FoundParameter& p : all) by_path[p.path].push_back(p);
-  for (auto& [path, of] : by_path) {
-    std::sort(of.begin(), of.end(), [](auto& a, auto& b) { return a.value < b.value; });
-    const std::size_t n = of.size();
-    const auto add = [&](const std::string& what, FoundParameter p) {
-      p.name = path.substr(path.find('.') + 1) + ", " + what;
-      f.parameters.push_back(std::move(p));
-    };
-    FoundParameter middle = of[n / 2];
-    middle.low = of[n / 40].value, middle.high = of[n - 1 - n / 40].value;
-    add("median of " + std::to_string(n) + " bodies, 2.5 % to 97.5 % of them", middle);
-    add("smallest: " + of.front().name, of.front()), add("largest: " + of.back().name, of.back());
-  }
+std::string groups_in(const Comparison& c) {
+  return c.experiment->coefficients == Coefficients::each_run ? "runs" : "bodies";
+}
+
+void add_summary(const Comparison& c, const std::vector<FoundParameter>& all, DiagnosisFinding& f) {
+  const std::vector<FoundParameter> more = summarized(all, c.groups.size(), groups_in(c));
+  f.parameters.insert(f.parameters.end(), more.begin(), more.end());
 }
 
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
-  constexpr std::size_t kLines = 12;  // bodies that have a line each
   std::vector<FoundParameter> all;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
@@ -126,10 +115,7 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
       }
     }
   }
-  if (c.groups.size() > kLines)
-    add_distributions(all, f);
-  else
-    f.parameters.insert(f.parameters.end(), all.begin(), all.end());
+  add_summary(c, all, f);
 }
 
 // f over all samples; 0 where it is not known.
@@ -148,12 +134,13 @@ double mean_turning(const Comparison& c) {
 // The rate of a free rotation beside the rates that have names.
 void add_rotation(const Comparison& c, DiagnosisFinding& f) {
   if (!c.rotation) return;
+  std::vector<FoundParameter> rates;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = c.rotation->fits[i];
-    FoundParameter rate = parameter_of(c, i, fit, {fit.model.terms.size() - 1, 0});
-    rate.name = "rate of a free rotation, clockwise" + of_group(c.groups[i]);
-    f.parameters.push_back(std::move(rate));
+    rates.push_back(parameter_of(c, i, fit, {fit.model.terms.size() - 1, 0}));
+    rates.back().name = "rate of a free rotation, clockwise" + of_group(c.groups[i]);
   }
+  add_summary(c, rates, f);
   const auto known = [&](const std::string& name, double rate) {
     f.parameters.push_back({name, name, rate, rate, rate, "rad/s"});
   };
@@ -184,6 +171,10 @@ std::string strongest_bodies(const Comparison& c, const LawTrial& o) {
   }
   std::sort(by.rbegin(), by.rend());
   for (const auto& [gain, name] : by) (gain > 2 ? seen : none).push_back(name);
+  if (by.size() > kMostListed) {
+    return "seen in " + std::to_string(seen.size()) + " of " + std::to_string(by.size()) + " " +
+           groups_in(c) + " alone";
+  }
   std::string out = "seen in " + (seen.empty() ? "no body alone" : joined(seen, ", "));
   if (!none.empty()) out += "; not in " + joined(none, ", ");
   if (!untested.empty())
@@ -217,20 +208,22 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
     f.effect = law.name, f.equation = law.equation, f.split = law.split;
     set_range(c, variable_or_position(law), f);
     f.text = strongest_bodies(c, head);
-    const LawTrial* without = laws == 2 ? c.single_of(head.candidate.laws[1 - k]) : nullptr;
+    std::vector<const Law*> rest = head.candidate.laws;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+    const LawTrial* without = c.outcome_of(rest);
     add_gain(c, head, without != nullptr ? *without : c.baseline, f);
     add_parameters(c, head, k, f);
     if (law.variable == "turn") add_rotation(c, f);
     std::set<std::string> names;
     for (const LawTrial* o : others) {
-      // A pair's other laws stand for the one of ours that they do not share.
-      for (const Law* l : o->candidate.laws) {
-        const auto& own = head.candidate.laws;
-        const bool shared = std::find(own.begin(), own.end(), l) != own.end();
-        const bool beside =
-            laws == 1 || std::find(o->candidate.laws.begin(), o->candidate.laws.end(),
-                                   own[1 - k]) != o->candidate.laws.end();
-        if (!shared && beside) names.insert(std::string(l->name));
+      // Of several laws, the one that ours do not share stands for this one.
+      const auto has = [](const std::vector<const Law*>& all, const Law* one) {
+        return std::ranges::find(all, one) != all.end();
+      };
+      const auto& other = o->candidate.laws;
+      if (!std::ranges::all_of(rest, [&](const Law* l) { return has(other, l); })) continue;
+      for (const Law* l : other) {
+        if (!has(head.candidate.laws, l)) names.insert(std::string(l->name));
       }
     }
     f.alternatives.assign(names.begin(), names.end());
@@ -294,6 +287,24 @@ void add_noise(const Comparison& c, const LawTrial& with, Diagnosis& d) {
   }
 }
 
+// The median of each path, as there are too many groups for a line each.
+std::vector<MovedParameter> medians_of(const std::vector<MovedParameter>& all, std::size_t groups) {
+  std::map<std::string, std::vector<MovedParameter>> by_path;
+  for (const MovedParameter& p : all) by_path[p.path].push_back(p);
+  std::vector<MovedParameter> out;
+  for (auto& [path, of] : by_path) {
+    const auto middle = [&](double MovedParameter::*value) {
+      std::ranges::nth_element(of, of.begin() + std::ssize(of) / 2, {}, value);
+      return of[of.size() / 2].*value;
+    };
+    MovedParameter& p = out.emplace_back();
+    p.path = path + ", median of " + std::to_string(groups), p.unit = of[0].unit;
+    p.baseline = middle(&MovedParameter::baseline),
+    p.with_effects = middle(&MovedParameter::with_effects);
+  }
+  return out;
+}
+
 // Fitted parameters of the baseline, alone and in `with`.
 void add_moved(const Comparison& c, const LawTrial& with, Diagnosis& d) {
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
@@ -303,12 +314,14 @@ void add_moved(const Comparison& c, const LawTrial& with, Diagnosis& d) {
       const double value = t.value[of.parameter];
       const bool log = t.parameters[of.parameter].kind == Kind::positive;
       const FoundParameter now = parameter_of(c, i, b, of);
-      d.parameters.push_back({now.path + of_group(c.groups[i]), now.unit, value,
+      const std::string of_one = c.groups.size() > kMostListed ? "" : of_group(c.groups[i]);
+      d.parameters.push_back({now.path + of_one, now.unit, value,
                               c.repeats.factor() * a.deviation[*number_of(a.model, of)] *
                                   (log ? value : t.scale[of.parameter]),
                               now.value, now.low, now.high});
     }
   }
+  if (c.groups.size() > kMostListed) d.parameters = medians_of(d.parameters, c.groups.size());
   add_noise(c, with, d);
 }
 
@@ -330,13 +343,15 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
   }
 }
 
-// All single laws and the first pairs, by the square root of twice their gain.
+// All single laws and the first sums of several, by the square root of twice their gain.
 void add_ranking(const Comparison& c, Diagnosis& d) {
   const auto add = [&](const LawTrial& o) {
     d.ranking.push_back({o.candidate.name(), "", std::sqrt(2 * std::max(0.0, o.gain))});
   };
   for (const LawTrial& one : c.singles) add(one);
-  for (std::size_t k = 0; k < std::min(c.pairs.size(), kPairsReported); ++k) add(c.pairs[k]);
+  for (const std::vector<LawTrial>* sums : {&c.pairs, &c.triples}) {
+    for (std::size_t k = 0; k < std::min(sums->size(), kSumsReported); ++k) add((*sums)[k]);
+  }
   largest_first(d.ranking, &RankedEffect::z);
 }
 

@@ -1,6 +1,7 @@
 // From comparisons to words.
 #pragma once
 #include <optional>
+#include <span>
 
 #include "bodies/compare.hpp"
 
@@ -13,6 +14,7 @@ struct Comparison {
   LawTrial baseline;
   std::vector<LawTrial> singles;       ///< best first
   std::vector<LawTrial> pairs;         ///< best first
+  std::vector<LawTrial> triples;       ///< best first: a reported pair with each other law
   std::vector<std::string> failures;   ///< laws that were not evaluated, and why
   std::vector<double> nulls;           ///< best gains by chance, sorted
   const LawTrial* reported = nullptr;  ///< of all parts of the report; select() sets it
@@ -30,8 +32,11 @@ struct Comparison {
   /// Chooses the reported laws and compares the runs with them.
   void select();
   bool distinguished(const LawTrial& better, const LawTrial& worse) const;
-  /// The outcome of one law; null where it was not evaluated.
-  const LawTrial* single_of(const Law* law) const;
+  /// Trials of so many laws: one, two or three.
+  const std::vector<LawTrial>& trials_of(std::size_t laws) const;
+  /// The outcome of these laws in any order, the baseline's of none; null where it was not
+  /// evaluated.
+  const LawTrial* outcome_of(std::span<const Law* const> laws) const;
   /// Other named laws, as many as are reported, that are not distinguished from these.
   std::vector<const LawTrial*> alternatives() const;
   /// Unnamed laws that predict better than the reported ones and are not distinguished from them.

@@ -78,8 +78,9 @@ void warn_of_repeats(const Comparison& c, Diagnosis& d) {
                        std::string(c.reported->candidate.laws.back()->name) + " by " +
                        significant(c.repeats.factor(), 2) + " times their errors" +
                        (c.repeats.worst.empty() ? "" : " (most: " + c.repeats.worst + ")") +
-                       ": suspect the measurement (release, clock, scale); intervals are widened "
-                       "by that, and fits that differ by less do not distinguish the laws");
+                       ": suspect the measurement (release, clock, scale), or fit coefficients = "
+                       "\"each run\"; intervals are widened by that, and fits that differ by less "
+                       "do not distinguish the laws");
 }
 
 // Predictions far ahead that the findings make worse, beyond the noise.

@@ -108,6 +108,17 @@ bool residual_remains(const Diagnosis& d) {
   return d.subject->curves_tested && d.strongest_left > null_threshold(d);
 }
 
+/// "coefficient = 0.3 1/s [0.2, 0.4]; ..."; of many bodies their distribution alone.
+std::string sizes_of(const DiagnosisFinding& f) {
+  const auto is_distribution = [](const FoundParameter& p) {
+    return p.path.ends_with(".mean") || p.path.ends_with(".between");
+  };
+  std::vector<FoundParameter> shown = f.parameters;
+  if (std::ranges::any_of(shown, is_distribution))
+    std::erase_if(shown, std::not_fn(is_distribution));
+  return joined(shown, "; ", [](const FoundParameter& p) { return p.name + " = " + size_of(p); });
+}
+
 ReportCard card_of(const Diagnosis& d) {
   ReportCard card;
   card.tone = tone_of(d.verdict), card.verdict = verdict_of(d);
@@ -117,11 +128,7 @@ ReportCard card_of(const Diagnosis& d) {
   for (const DiagnosisFinding& f : d.findings) {
     const std::string of = d.findings.size() > 1 ? " of " + f.effect : "";
     if (!f.text.empty()) card.facts.emplace_back("where" + of, f.text);
-    if (!f.parameters.empty()) {
-      card.facts.emplace_back("size" + of, joined(f.parameters, "; ", [](const FoundParameter& p) {
-                                return p.name + " = " + size_of(p);
-                              }));
-    }
+    if (!f.parameters.empty()) card.facts.emplace_back("size" + of, sizes_of(f));
   }
   const double removed = d.removed();
   if (d.verdict == Verdict::missing && !std::isnan(removed)) {

@@ -46,7 +46,7 @@ TEST(DiagnoseBodies, bodiesOfWhichNothingIsHeldOutAreNotAsked) {
   BodyExperiment e = falls(0, 0.02, 1e-3, 1);
   const BodyExperiment more = falls(0, 0.02, 1e-3, 2);
   e.runs.insert(e.runs.end(), more.runs.begin(), more.runs.end());
-  e.different = true;
+  e.coefficients = Coefficients::each_body;
   for (std::size_t r = 0; r < e.runs.size(); ++r) {
     e.runs[r].bodies = {r < 3 ? "P" : "Q"}, e.runs[r].held_out = r == 2;
   }

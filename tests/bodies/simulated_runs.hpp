@@ -65,4 +65,12 @@ inline bool has(const std::vector<std::string>& words, const std::string& word) 
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// A parameter of a finding.
+inline const FoundParameter& parameter(const DiagnosisFinding& f, const std::string& name) {
+  for (const FoundParameter& p : f.parameters) {
+    if (p.name == name) return p;
+  }
+  throw std::runtime_error("no parameter " + name);
+}
+
 }  // namespace lilytank

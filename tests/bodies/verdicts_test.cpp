@@ -120,13 +120,6 @@ Diagnosis turning_at(double rate) {
   return diagnosis_of(e);
 }
 
-const FoundParameter& parameter(const DiagnosisFinding& f, const std::string& name) {
-  for (const FoundParameter& p : f.parameters) {
-    if (p.name == name) return p;
-  }
-  throw std::runtime_error("no parameter " + name);
-}
-
 TEST(BodyVerdicts, aRotationOfEitherSenseIsReportedWithItsRateBesideF) {
   for (const double rate : {-1.19e-4, 4e-4}) {
     const Diagnosis d = turning_at(rate);
