@@ -15,6 +15,8 @@ namespace lilytank {
 namespace bodies {
 namespace {
 
+constexpr std::size_t kStrongest = 3;  // laws, and groups of laws, that others are added to
+
 // Whether two laws are combined: curves are not, nor two laws that rotate velocities or two of
 // pairs of bodies, which are nearly equivalent.
 bool together(const Law& a, const Law& b) {
@@ -25,7 +27,6 @@ bool together(const Law& a, const Law& b) {
 
 // Pairs of the strongest laws with all others.
 std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<LawTrial>& singles) {
-  constexpr std::size_t kStrongest = 3;
   std::vector<std::pair<const LawTrial*, Candidate>> out;
   std::vector<const LawTrial*> named;
   for (const LawTrial& o : singles) {
@@ -145,20 +146,24 @@ class Trials {
     }
   }
 
-  // The reported pair with every other law.
+  // The reported pair, and those that are not distinguished from it, with every other law.
   void triples() {
-    const LawTrial& pair = *c_.reported;
-    const std::vector<const Law*>& two = pair.candidate.laws;
-    std::vector<Candidate> sums;
-    for (const LawTrial& single : c_.singles) {
-      const Law* third = single.candidate.laws[0];
-      if (together(*two[0], *third) && together(*two[1], *third))
-        sums.push_back({{two[0], two[1], third}});
-    }
-    for (const Candidate& sum : sums) {
-      options_.check_stop();
-      options_.report(0.99, sum.name());
-      keep(fit_candidate(c_.groups, c_.baseline, pair, sum), c_.triples);
+    std::vector<const LawTrial*> pairs = c_.alternatives();
+    pairs.resize(std::min(pairs.size(), kStrongest));
+    pairs.insert(pairs.begin(), c_.reported);
+    for (const LawTrial* pair : pairs) {
+      for (const LawTrial& single : c_.singles) {
+        Candidate sum = pair->candidate;
+        const Law* third = single.candidate.laws[0];
+        if (!std::ranges::all_of(sum.laws, [&](auto* one) { return together(*one, *third); })) {
+          continue;
+        }
+        sum.laws.push_back(third);
+        if (c_.outcome_of(sum.laws) != nullptr) continue;
+        options_.check_stop();
+        options_.report(0.99, sum.name());
+        keep(fit_candidate(c_.groups, c_.baseline, *pair, sum), c_.triples);
+      }
     }
     largest_first(c_.triples, &LawTrial::gain);
     add_run_bias(c_.triples);
