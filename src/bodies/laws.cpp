@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "bodies/driver_laws.hpp"
 #include "bodies/law_forces.hpp"
 #include "math/knots.hpp"
 
 namespace lilytank::bodies {
 namespace {
-
-using Parameters = std::vector<LawParameter>;
 
 constexpr double kTide = 2 * std::numbers::pi / kTideRate;  // s
 constexpr std::size_t kCurveKnots = 5;
@@ -73,28 +72,6 @@ double rate_of(const Scene&, Values p) {
   return p[0];
 }
 
-// Of all drivers together, each with a coefficient an axis.
-Parameters of_drivers(const Typical& t) {
-  Parameters out;
-  for (int i = 0; i < t.drivers; ++i) {
-    const bool known = i == t.latitude;
-    for (int d = 0; d < t.dimensions; ++d) {
-      out.push_back({"a" + std::to_string(i + 1) + (d == 0 ? "x" : "y"), "N",
-                     known ? Kind::fixed : Kind::amplitude, known ? 0.0 : NAN});
-    }
-  }
-  return out;
-}
-
-void by_drivers(const Scene& s, Values p, double* force) {
-  for (int i = 0; i < s.bodies * s.dimensions; ++i) {
-    for (std::size_t k = static_cast<std::size_t>(i % s.dimensions), j = 0; k < p.size();
-         k += static_cast<std::size_t>(s.dimensions), ++j) {
-      force[i] += p[k] * s.drivers[j];
-    }
-  }
-}
-
 // Parameters of a curve: the knots' values, then the first and the last knot's place.
 Parameters knots(const VariableRange& range) {
   Parameters out;
@@ -114,7 +91,6 @@ double curve_at(double u, Values p) {
 
 constexpr std::string_view kFasterAndSlower =
     "the same body at speeds that differ by a factor of three or more";
-constexpr std::string_view kMoreDrivers = "a recording in which the drivers change more";
 constexpr std::string_view kFarther = "a recording that begins farther away";
 
 constexpr Law of_slip(Law law) {
@@ -345,13 +321,15 @@ constexpr Law kLaws[] = {
          },
          .add = turn<[](const Scene&, Values p) { return p[1] * 2 * std::numbers::pi / p[0]; }>,
          .possible = [](const Typical& t) { return t.dimensions == 2 && t.duration > 2 * kTide; }}),
-    {.name = "driver_force",
-     .equation = "F = sum of a_i driver_i",
-     .variable = "driver",
-     .split = kMoreDrivers,
-     .parameters = of_drivers,
-     .add = by_drivers,
-     .possible = [](const Typical& t) { return t.drivers > (t.latitude >= 0 ? 1 : 0); }},
+    kDriverForce,
+    one_driver<0>("driver_1"),
+    one_driver<1>("driver_2"),
+    one_driver<2>("driver_3"),
+    one_driver<3>("driver_4"),
+    squared_driver<0>("driver_1_squared"),
+    squared_driver<1>("driver_2_squared"),
+    squared_driver<2>("driver_3_squared"),
+    squared_driver<3>("driver_4_squared"),
     curve({.name = "curve_of_slip",
            .variable = "slip",
            .parameters = [](const Typical& t) { return knots(range_of("slip", t)); },

@@ -39,14 +39,21 @@ std::string of_group(const Group& g) {
   return g.name.empty() ? "" : " of " + g.name;
 }
 
+// The driver of a law of one alone; -1: it is of several, or of none.
+int driver_of(const Term& t) {
+  if (t.law->variable != "driver" || t.parameters.back().kind != Kind::driver) return -1;
+  return static_cast<int>(t.value.back());
+}
+
 // Of a force by drivers: the driver's own name and the axis.
-std::string name_of(const BodyExperiment& e, const Law& law, const LawParameter& p,
-                    std::size_t number) {
-  if (law.variable != "driver") return p.name;
+std::string name_of(const BodyExperiment& e, const Term& t, std::size_t number) {
+  if (t.law->variable != "driver") return t.parameters[number].name;
   const auto axes = static_cast<std::size_t>(e.dimensions);
-  return e.drivers[number / axes] + (axes == 1            ? ""
-                                     : number % axes == 0 ? ", along x"
-                                                          : ", along y");
+  const int one = driver_of(t);
+  return e.drivers[one < 0 ? number / axes : static_cast<std::size_t>(one)] + (axes == 1 ? ""
+                                                                               : number % axes == 0
+                                                                                   ? ", along x"
+                                                                                   : ", along y");
 }
 
 // A parameter of a fit; where it is fitted, with its 95 % interval.
@@ -54,7 +61,7 @@ FoundParameter parameter_of(const Comparison& c, std::size_t group, const Fitted
                             const TermParameter& of) {
   const Term& t = fit.model.terms[of.term];
   const LawParameter& p = t.parameters[of.parameter];
-  FoundParameter out{name_of(*c.experiment, *t.law, p, of.parameter) + of_group(c.groups[group]),
+  FoundParameter out{name_of(*c.experiment, t, of.parameter) + of_group(c.groups[group]),
                      std::string(t.law->name) + "." + p.name};
   out.value = out.low = out.high = t.value[of.parameter];
   out.unit = unit_for(*c.experiment, p.unit);
@@ -208,6 +215,11 @@ std::vector<DiagnosisFinding> findings(const Comparison& c) {
     f.effect = law.name, f.equation = law.equation, f.split = law.split;
     set_range(c, variable_or_position(law), f);
     f.text = strongest_bodies(c, head);
+    const BodyModel& fitted = head.fits.front().model;
+    if (const int one = driver_of(fitted.terms[fitted.terms.size() - laws + k]); one >= 0) {
+      f.text = "by " + c.experiment->drivers[static_cast<std::size_t>(one)] +
+               (f.text.empty() ? "" : "; " + f.text);
+    }
     std::vector<const Law*> rest = head.candidate.laws;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
     const LawTrial* without = c.outcome_of(rest);
@@ -337,8 +349,7 @@ void add_detectable(const Comparison& c, Diagnosis& d) {
       least = std::min(least, f.model.terms[last].scale[0] * f.deviation[at]);
     }
     const double seen = least * std::sqrt(2 * (c.threshold() + 1));
-    d.detectable.push_back({std::string(t.law->name),
-                            name_of(*c.experiment, *t.law, t.parameters[0], 0), seen, seen,
+    d.detectable.push_back({std::string(t.law->name), name_of(*c.experiment, t, 0), seen, seen,
                             unit_for(*c.experiment, t.parameters[0].unit)});
   }
 }
