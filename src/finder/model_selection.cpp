@@ -49,6 +49,7 @@ ModelSelection::ModelSelection(const Matrix& nulls, const Matrix& expected_corre
   s.whitening = whitening_by_nulls(nulls, expected_correlation, curves);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     s.terms.push_back(effects[e].paths[0]);
+    s.between_modules.push_back(effects[e].variable == "pair");
     s.candidates.push_back(candidate_of(s.whitening, fingerprints[e], static_cast<int>(e), -1));
   }
   NullCalibration nothing = calibrate_on_nulls(nulls, s.whitening, s.candidates, false_alarms);

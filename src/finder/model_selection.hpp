@@ -40,7 +40,8 @@ struct Interaction {
 /// All that a selection depends on beside the residual.
 struct SelectionState {
   Whitening whitening;
-  std::vector<std::string> terms;  ///< of each effect: the path of its first amplitude
+  std::vector<std::string> terms;     ///< of each effect: the path of its first amplitude
+  std::vector<bool> between_modules;  ///< of each effect: a force between them
   std::vector<EffectCandidate> candidates;
   std::vector<double> shape_scale;  ///< gains of each curve's knots in nulls, by their number
   std::vector<Interaction> interactions;

@@ -16,9 +16,11 @@ using Vector = Eigen::VectorXd;
 constexpr std::size_t kMostEffects = 3;
 constexpr std::size_t kFittedTogether = 8;  // candidates that are fitted together with those before
 constexpr int kMostPasses = 4;
-// Relative errors of fingerprints: measured about 0, about estimated amplitudes, and of curves (six
-// linear pieces). A remainder below this share of the findings is not significant.
-constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2;
+// Relative errors of fingerprints: measured about 0, about estimated amplitudes, of curves (six
+// linear pieces), and of forces between modules, as two that hold together for minutes change
+// statistics by more than the scatter of tens of experiments shows. A remainder below this share of
+// the findings is not significant.
+constexpr double kInexact = 0.12, kInexactAbout = 0.08, kRough = 0.2, kOfPairs = 0.25;
 constexpr double kBeyondCurve = 0.3;  // share of an effect that a found curve must leave
 // Share of a curve's gain that is not counted: a curve can fit the errors of named effects'
 // fingerprints.
@@ -37,15 +39,6 @@ struct Extension {
   EffectFit fit;
   double worth = 0;
 };
-
-// z below which a remainder may be an error of the fingerprints.
-double floor_beside(const std::vector<EffectFit>& found) {
-  double floor = 0;
-  for (const EffectFit& f : found) {
-    floor = std::max(floor, (f.shape >= 0 ? kRough : f.about > 0 ? kInexactAbout : kInexact) * f.z);
-  }
-  return floor;
-}
 
 // Gain less its uncounted share and the penalty for its amplitudes.
 double worth_of(double gain, const EffectFit& of) {
@@ -90,10 +83,25 @@ class SelectionSearch {
   std::vector<CandidateSet> pairs() const;
   bool each_significant(const CandidateSet& set) const;
   double noise_of(const CandidateSet& set) const;
+  double floor_beside(const std::vector<EffectFit>& found) const;
 
   const SelectionState& s_;
   Vector all_;  // whitened
 };
+
+// z below which a remainder may be an error of the fingerprints.
+double SelectionSearch::floor_beside(const std::vector<EffectFit>& found) const {
+  double floor = 0;
+  for (const EffectFit& f : found) {
+    const bool pairs = f.effect >= 0 && s_.between_modules[static_cast<std::size_t>(f.effect)];
+    const double error = f.shape >= 0  ? kRough
+                         : pairs       ? kOfPairs
+                         : f.about > 0 ? kInexactAbout
+                                       : kInexact;
+    floor = std::max(floor, error * f.z);
+  }
+  return floor;
+}
 
 EffectFit SelectionSearch::strongest_shape(const Vector& all) const {
   EffectFit out;
