@@ -28,7 +28,7 @@ struct ProofOptions {
   std::string latches;               ///< file of the modules' rules; empty: their latches are off
   bool event_log = false;            ///< with latches: the modules' events are logged
   std::vector<std::string> effects;  ///< the catalogue's effects that are drawn; empty: all
-  double sizes = 1;                  ///< factor on the effects' amplitudes: weaker or stronger ones
+  double sizes = 1;  ///< factor on the effects' amplitudes, more than 0 and at most 1
   /// Groups are split by the experiments that the diagnosis proposes, and by repeating.
   bool closed_loop = false;
   int modelled = 10;  ///< correctly diagnosed experiments whose model is fitted as well, at most
