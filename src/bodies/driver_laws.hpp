@@ -71,29 +71,19 @@ bool has_driver(const Typical& t) {
   return t.drivers > number;
 }
 
-template <int number>
-constexpr Law one_driver(std::string_view name) {
+/// The force by a driver's value, or by its square.
+template <int number, bool squared>
+constexpr Law driver_law(std::string_view name) {
   return {.name = name,
-          .equation = "F = a driver",
+          .equation = squared ? "F = a driver^2" : "F = a driver",
           .variable = "driver",
           .split = kMoreDrivers,
           .parameters = of_driver<number>,
-          .add = by_driver<[](double d) { return d; }>,
-          // Of a single driver it is the driver force.
+          .add = by_driver<[](double d) { return squared ? d * d : d; }>,
+          // Of a single driver the first is the driver force.
           .possible = [](const Typical& t) {
-            return has_driver<number>(t) && t.drivers > (t.latitude >= 0 ? 2 : 1);
+            return has_driver<number>(t) && (squared || t.drivers > (t.latitude >= 0 ? 2 : 1));
           }};
-}
-
-template <int number>
-constexpr Law squared_driver(std::string_view name) {
-  return {.name = name,
-          .equation = "F = a driver^2",
-          .variable = "driver",
-          .split = kMoreDrivers,
-          .parameters = of_driver<number>,
-          .add = by_driver<[](double d) { return d * d; }>,
-          .possible = has_driver<number>};
 }
 
 }  // namespace lilytank::bodies

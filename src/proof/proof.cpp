@@ -124,19 +124,21 @@ double expected_z(PreparedTank& tank, const Model& truth_model, const Sealed& s,
     if (at != truth.end()) values[k] = at->second;
   }
   const Eigen::VectorXd point = tank.setup.stages.to_scale(values);
+  const auto mean = [&](const SealedEffect& of, double times, const std::string& stage) {
+    const Eigen::Map<const Eigen::VectorXd> amplitudes(
+        of.amplitudes.data(), static_cast<Eigen::Index>(of.amplitudes.size()));
+    return tank.ensemble.mean_residual(of.effect, times * amplitudes, point, kExpectedRuns,
+                                       "expected " + name + " " + stage, seed);
+  };
+  if (s.effects.empty()) return 0;
+  const Eigen::VectorXd without = mean(s.effects.front(), 0, "without");
   double least = 1e300;
   for (const SealedEffect& own : s.effects) {
-    const Eigen::Map<const Eigen::VectorXd> amplitudes(
-        own.amplitudes.data(), static_cast<Eigen::Index>(own.amplitudes.size()));
-    const std::string stage = "expected " + name + " " + std::to_string(own.like);
-    const auto mean = [&](const Eigen::VectorXd& at, const std::string& of) {
-      return tank.ensemble.mean_residual(own.effect, at, point, kExpectedRuns, of, seed);
-    };
-    const Eigen::VectorXd net = mean(amplitudes, stage) - mean(0 * amplitudes, stage + " without");
+    const Eigen::VectorXd net = mean(own, 1, std::to_string(own.like)) - without;
     // A difference of two means is as uncertain as the mean of half as many.
     least = std::min(least, tank.selection.expected_z(own.like, net, kExpectedRuns / 2));
   }
-  return s.effects.empty() ? 0 : least;
+  return least;
 }
 
 // One tank and its blinded experiments, diagnosed one after another.

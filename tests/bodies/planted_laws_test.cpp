@@ -17,6 +17,15 @@ void expect_near(const DiagnosisFinding& f, const std::string& name, double trut
   EXPECT_LT(half, 0.3 * std::fabs(truth)) << name;
 }
 
+// The first finding of a diagnosis, which is to be this effect.
+DiagnosisFinding first_finding(const BodyExperiment& e, const std::string& effect) {
+  const Diagnosis d = diagnosis_of(e);
+  EXPECT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
+  if (d.findings.empty()) return {};
+  EXPECT_EQ(d.findings.front().effect, effect) << diagnosis_text(d);
+  return d.findings.front();
+}
+
 // Rayleigh and Helmholtz: from rest and from twice the speed, bodies end at 0.2 m/s.
 TEST(PlantedLaws, BodiesThatDriveThemselvesAreNotDragged) {
   BodyExperiment e;
@@ -28,10 +37,7 @@ TEST(PlantedLaws, BodiesThatDriveThemselvesAreNotDragged) {
   e.runs = {run_of(force, {0, 0}, {0.03, 0.01}, 0.1, 40, 1e-3, 1, 1),
             run_of(force, {0, 0}, {-0.3, 0.25}, 0.1, 40, 1e-3, 2, 1),
             run_of(force, {0, 0}, {0.05, -0.1}, 0.1, 40, 1e-3, 3, 1)};
-  const Diagnosis d = diagnosis_of(e);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  const DiagnosisFinding& f = d.findings.front();
-  EXPECT_EQ(f.effect, "self_propulsion") << diagnosis_text(d);
+  const DiagnosisFinding f = first_finding(e, "self_propulsion");
   expect_near(f, "coefficient", 1.5);
   expect_near(f, "speed", 0.2);
 }
@@ -48,10 +54,7 @@ TEST(PlantedLaws, PairsThatKeepTheirDistanceAreNamed) {
     const double apart = 0.08 + 0.04 * static_cast<double>(r);
     e.runs.push_back(run_of(force, {0, apart}, {0.02, 0}, 0.05, 80, 5e-4, 10 + r, 2));
   }
-  const Diagnosis d = diagnosis_of(e);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  const DiagnosisFinding& f = d.findings.front();
-  EXPECT_EQ(f.effect, "pair_morse") << diagnosis_text(d);
+  const DiagnosisFinding f = first_finding(e, "pair_morse");
   expect_near(f, "s", 0.1);
 }
 
@@ -69,10 +72,7 @@ TEST(PlantedLaws, AWallIsNamed) {
                             {0.1 * std::cos(angle), 0.1 * std::sin(angle)}, 0.1, 150, 1e-3, 20 + r,
                             1));
   }
-  const Diagnosis d = diagnosis_of(e);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  const DiagnosisFinding& f = d.findings.front();
-  EXPECT_EQ(f.effect, "wall") << diagnosis_text(d);
+  const DiagnosisFinding f = first_finding(e, "wall");
   expect_near(f, "range", 0.02);
   expect_near(f, "x0", 0.05);
 }
@@ -91,10 +91,7 @@ TEST(PlantedLaws, EveryFlightHasItsOwnLift) {
     };
     e.runs.push_back(run_of(force, {0, 1}, {12, 9}, 0.03, 60, 5e-3, 30 + r, 1));
   }
-  const Diagnosis d = diagnosis_of(e);
-  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
-  const DiagnosisFinding& f = d.findings.front();
-  EXPECT_EQ(f.effect, "spin_lift") << diagnosis_text(d);
+  const DiagnosisFinding f = first_finding(e, "spin_lift");
   int seen = 0;
   for (const FoundParameter& p : f.parameters) {
     if (p.path != "spin_lift.rate") continue;

@@ -152,9 +152,9 @@ TEST(Scores, TellAWallThatAttractsModulesThoughItHoldsThem) {
                               [](const Effect& e) { return e.name == "wall_force"; });
   wall.held[0].value = 0.03;
   const auto recordings = filmed(with_effect(model, wall, {7e-3}), 120, 5);
-  const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {wall});
+  const auto estimates = joint_amplitudes(plan_for(model, recordings), recordings, {wall});
   const double truth = 7e-3 / wall.sizes[0];
-  EXPECT_NEAR(told[0].estimate(0), truth, 0.15 * truth);
+  EXPECT_NEAR(estimates[0].estimate(0), truth, 0.15 * truth);
 }
 
 // An effect far beyond the size at which it is tried, all its components together; hardly anything
@@ -164,11 +164,12 @@ TEST(Scores, TellStrongEffectsByTheirComponentsTogether) {
   const Effect stream = stream_at(model, -0.05, 0.12, 0.09);
   const auto recordings = filmed(with_effect(model, stream, {0.18, -0.12}), 60, 5);
   const Effect elsewhere = stream_at(model, 0.1, -0.12, 0.05);
-  const auto told = joint_amplitudes(plan_for(model, recordings), recordings, {stream, elsewhere});
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_NEAR(told[0].estimate(0), 3, 0.6);  // in sizes of 6 cm/s
-  EXPECT_NEAR(told[0].estimate(1), -2, 0.4);
-  EXPECT_GT(told[0].gain, 20 * std::max(1.0, told[1].gain));
+  const auto estimates =
+      joint_amplitudes(plan_for(model, recordings), recordings, {stream, elsewhere});
+  ASSERT_EQ(estimates.size(), 2u);
+  EXPECT_NEAR(estimates[0].estimate(0), 3, 0.6);  // in sizes of 6 cm/s
+  EXPECT_NEAR(estimates[0].estimate(1), -2, 0.4);
+  EXPECT_GT(estimates[0].gain, 20 * std::max(1.0, estimates[1].gain));
 }
 
 // The frequency of vortices to a tenth; none where there are none.
