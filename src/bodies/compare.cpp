@@ -232,27 +232,37 @@ LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baselin
   return out;
 }
 
+bool improve(const std::vector<Group>& groups, LawTrial& trial, const LawTrial& other) {
+  constexpr double kBetter = 0.5;  // nat
+  bool better = false;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    BodyModel m = trial.fits[i].model;
+    const BodyModel& from = other.fits[i].model;
+    m.noise = from.noise, m.noise_y = from.noise_y, m.push = from.push, m.memory = from.memory;
+    Fitted f = fit_group(groups[i], m);
+    if (!f.usable() || f.likelihood < trial.fits[i].likelihood + kBetter) continue;
+    if (auto s = scored(groups[i], std::move(f))) trial.fits[i] = std::move(*s), better = true;
+  }
+  if (better) {
+    const double before = sum(trial.by_block);
+    gather(trial), trial.gain += sum(trial.by_block) - before;
+  }
+  return better;
+}
+
 namespace {
 
-// Fits the baseline from the noise and the pushes of outcomes too: a law may only have led to
-// better ones, and would gain by these. Whether it became better anywhere.
+// By the best outcomes; whether the baseline became better anywhere.
 bool improve_baseline(const std::vector<Group>& groups, LawTrial& baseline,
                       const std::vector<LawTrial>& singles) {
   constexpr std::size_t kTried = 3;
-  constexpr double kBetter = 0.5;  // nat
+  constexpr double kLeastGain = 0.5;  // nat
   bool better = false;
   for (std::size_t k = 0; k < singles.size() && k < kTried; ++k) {
-    if (singles[k].gain < kBetter) continue;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      BodyModel m = baseline.fits[i].model;
-      const BodyModel& from = singles[k].fits[i].model;
-      m.noise = from.noise, m.noise_y = from.noise_y, m.push = from.push, m.memory = from.memory;
-      Fitted f = fit_group(groups[i], m);
-      if (!f.usable() || f.likelihood < baseline.fits[i].likelihood + kBetter) continue;
-      if (auto s = scored(groups[i], std::move(f))) baseline.fits[i] = std::move(*s), better = true;
-    }
+    if (singles[k].gain < kLeastGain) continue;
+    better = improve(groups, baseline, singles[k]) || better;
   }
-  if (better) gather(baseline);
+  baseline.gain = 0;
   return better;
 }
 

@@ -50,6 +50,10 @@ std::vector<Candidate> single_laws(const BodyExperiment& experiment,
 LawTrial fit_candidate(const std::vector<Group>& groups, const LawTrial& baseline,
                        const LawTrial& from, const Candidate& candidate);
 
+/// Fits a trial again from the noise and the pushes of another: laws that it lacks may only have
+/// led to better ones, and would gain by these. Whether it became better anywhere.
+bool improve(const std::vector<Group>& groups, LawTrial& trial, const LawTrial& other);
+
 /// All laws alone, best first; those without a fit are named in `failures`. Where the noise and the
 /// pushes of one of the best make the baseline better, all are fitted once more from it. `before`
 /// gets the name of each before its fit.

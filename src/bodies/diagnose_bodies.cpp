@@ -134,7 +134,21 @@ class Trials {
       keep(fit_candidate(c_.groups, c_.baseline, *from, pair), c_.pairs);
     }
     largest_first(c_.pairs, &LawTrial::gain);
+    improve_by(c_.pairs, c_.singles);
     add_run_bias(c_.singles), add_run_bias(c_.pairs);
+  }
+
+  // Trials of fewer laws by the best of more, if it has all of theirs.
+  void improve_by(const std::vector<LawTrial>& more, std::vector<LawTrial>& fewer) {
+    if (more.empty()) return;
+    const std::vector<const Law*>& laws = more.front().candidate.laws;
+    for (LawTrial& trial : fewer) {
+      const bool within = std::ranges::all_of(trial.candidate.laws, [&](const Law* one) {
+        return std::ranges::find(laws, one) != laws.end();
+      });
+      if (within) options_.check_stop(), improve(c_.groups, trial, more.front());
+    }
+    largest_first(fewer, &LawTrial::gain);
   }
 
   // A bias is identifiable from several runs only.
@@ -166,7 +180,9 @@ class Trials {
       }
     }
     largest_first(c_.triples, &LawTrial::gain);
-    add_run_bias(c_.triples);
+    improve_by(c_.triples, c_.pairs);
+    add_run_bias(c_.pairs), add_run_bias(c_.triples);
+    c_.reported = nullptr;  // the pairs have moved
     c_.select();
     if (c_.reported->candidate.laws.size() == 3) add_pairs_within(*c_.reported);
   }

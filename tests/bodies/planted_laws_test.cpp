@@ -100,6 +100,30 @@ TEST(PlantedLaws, EveryFlightHasItsOwnLift) {
   EXPECT_EQ(seen, 4);
 }
 
+// Noises are fitted for each of fourteen flights: a second law must not gain by leading to better
+// ones. A report has the distribution of the rates instead of a line for each.
+TEST(LongPlantedLaws, ManyFlightsHaveOneLawAndADistribution) {
+  BodyExperiment e;
+  e.name = "flights", e.dimensions = 2, e.noise = 5e-3;
+  e.coefficients = Coefficients::each_run;
+  e.baseline = {{"gravity", 9.81, true, {}}};
+  for (std::uint64_t r = 0; r < 14; ++r) {
+    const double w = normal_pair({7, Stream::camera, static_cast<std::int64_t>(r), 0, 0})[0];
+    const Acceleration force = [w](const double*, const double* v, double* a) {
+      a[0] = w * v[1], a[1] = -9.81 - w * v[0];
+    };
+    e.runs.push_back(run_of(force, {0, 1}, {12, 9}, 0.03, 60, 5e-3, 30 + r, 1));
+  }
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.findings.size(), 1u) << diagnosis_text(d);
+  EXPECT_EQ(d.findings[0].effect, "spin_lift") << diagnosis_text(d);
+  const FoundParameter& between = parameter(d.findings[0], "rate, standard deviation between runs");
+  EXPECT_LT(between.low, 1);
+  EXPECT_GT(between.high, 1);
+  EXPECT_EQ(d.findings[0].parameters.size(), 5u);
+  EXPECT_LT(d.parameters.size(), 8u) << diagnosis_text(d);
+}
+
 // A drifter that is dragged, turned and pushed.
 TEST(PlantedLaws, ThreeAtOnceAreAllNamed) {
   BodyExperiment e;
