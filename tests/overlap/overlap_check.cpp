@@ -1,12 +1,13 @@
 // Measures the overlaps of a stored run apart from the simulator: poses in, deepest overlap out. It
 // shares no code with it, so a fault in src/physics cannot hide itself here.
 //
-//   overlap_check draw K     prints the options of random scenario K for `lilytank run`
-//   overlap_check check DIR  reads DIR/trajectory.csv, resolved.toml and summary.json, prints a
-//   row:
-//                            frames, deepest overlap of two bodies, of a body and the wall, and the
-//                            one that the run reports (mm); exit 1 if one exceeds 0.5 mm or what is
-//                            reported
+//   overlap_check draw K [STEPS]
+//       prints the options of random scenario K for `lilytank run`, of STEPS module-steps (default:
+//       a few seconds) and at most 800 frames
+//   overlap_check check DIR
+//       reads DIR/trajectory.csv, resolved.toml and summary.json, prints a row: frames, deepest
+//       overlap of two bodies, of a body and the wall, and the one that the run reports (mm);
+//       exit 1 if one exceeds 0.5 mm or what is reported
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +25,7 @@ namespace {
 
 constexpr double kLimit = 0.5e-3;     // m, the promise
 constexpr double kRounding = 0.5e-6;  // m, poses are stored as float32
+constexpr double kFrames = 800;       // at most, of one scenario
 
 struct Point {
   double x, y;
@@ -192,8 +194,8 @@ void set(const std::string& name, const char* value) {
 }
 
 // Sizes, numbers, step, friction, layout, flow and forces of scenario k. Lattices fill up to nine
-// tenths of the tank, random layouts a tenth.
-void draw(std::uint64_t k) {
+// tenths of the tank, random layouts a tenth. Zero module-steps: a few seconds.
+void draw(std::uint64_t k, double module_steps) {
   Draws u(k);
   const double tank = u.between(0.1, 0.4), side = u.between(0.01, 0.04);
   const bool balls = u.chance(0.4), lattice = u.chance(0.7);
@@ -206,8 +208,10 @@ void draw(std::uint64_t k) {
   const int modules = balls ? static_cast<int>(count * u.between(0, 1)) : count;
   std::printf("%s ", u.of(std::array{"chain5.toml", "cross5.toml", "l4.toml", "tank_lilies.toml"}));
   set("run.seed", static_cast<double>(k));
-  set("run.duration", std::clamp(1500.0 / count, 4.0, 20.0));
-  set("run.dt", 0.025 / std::array{1, 1, 2, 5}[static_cast<std::size_t>(u.between(0, 4))]);
+  const double brief = std::clamp(1500.0 / count, 4.0, 20.0);
+  const double dt = 0.025 / std::array{1, 1, 2, 5}[static_cast<std::size_t>(u.between(0, 4))];
+  const double duration = module_steps > 0 ? std::ceil(module_steps * dt / count) : brief;
+  set("run.duration", duration), set("run.dt", dt);
   set("tank.radius", tank), set("start.radius", radius), set("start.distance", pitch);
   set("start.layout", lattice ? "lattice" : "random");
   set("module.count", modules), set("ball.count", count - modules);
@@ -222,16 +226,18 @@ void draw(std::uint64_t k) {
     set("forces.body_force.force_x", u.between(-0.5, 0.5));
     set("forces.body_force.force_y", u.between(-0.5, 0.5));
   }
-  set("output.trajectory", "csv"), set("output.rate", 40);
+  set("output.trajectory", "csv"), set("output.rate", std::min(40.0, kFrames / duration));
   std::puts("");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string verb = argc == 3 ? argv[1] : "";
-  if (verb == "check") return check(argv[2]);
-  if (verb == "draw") return draw(std::strtoull(argv[2], nullptr, 10)), 0;
-  std::cerr << "usage: overlap_check draw K | check DIR\n";
+  const std::string verb = argc >= 3 ? argv[1] : "";
+  if (verb == "check" && argc == 3) return check(argv[2]);
+  if (verb == "draw" && argc <= 4) {
+    return draw(std::strtoull(argv[2], nullptr, 10), argc == 4 ? std::atof(argv[3]) : 0), 0;
+  }
+  std::cerr << "usage: overlap_check draw K [STEPS] | check DIR\n";
   return 2;
 }

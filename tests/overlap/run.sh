@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Runs random scenarios and measures their overlaps with another program. Prints a table; exit 1 if
 # an overlap exceeds 0.5 mm or is deeper than the run reports.
-#   run.sh LILYTANK OVERLAP_CHECK SCENARIOS [FIRST] [COUNT]
+#   run.sh LILYTANK OVERLAP_CHECK SCENARIOS [FIRST] [COUNT] [STEPS]
+# STEPS: module-steps of each scenario (0: a few seconds).
 set -uo pipefail
-lilytank=$1 check=$2 scenarios=$3 first=${4:-1} count=${5:-100}
+lilytank=$1 check=$2 scenarios=$3 first=${4:-1} count=${5:-100} steps=${6:-0}
 work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 
@@ -23,7 +24,7 @@ fi
 faults=0 diverged=0
 echo "scenario frames  pairs/mm   wall/mm  reported"
 for ((k = first; k < first + count; ++k)); do
-  read -r file options <<< "$("$check" draw "$k")"
+  read -r file options <<< "$("$check" draw "$k" "$steps")"
   # shellcheck disable=SC2086  # the options hold no blanks
   "$lilytank" run "$scenarios/$file" $options --quiet --out "$work/run" > "$work/out" 2>&1
   status=$?
