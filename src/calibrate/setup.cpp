@@ -10,7 +10,6 @@ namespace lilytank {
 namespace {
 
 constexpr double kLongest = 60;                  // s of MSD in Eq. 9
-constexpr int kOpenDraws = 200;                  // of the flow's posterior
 constexpr Eq9 kLocalCurve{60, 0.5, 0.6, false};  // coarser: neighbouring lags tell the same
 
 void split(const Experiment& experiment, CalibrationSetup& setup) {
@@ -47,9 +46,10 @@ void find_flow(const Experiment& experiment, CalibrationSetup& setup) {
     throw InputError("experiment " + experiment.name +
                      " has no recordings of balls to extract the flow from");
   }
-  setup.flow = setup.options.flow == CalibrationFlow::paper
-                   ? estimate_paper(setup.balls, setup.ball)
-                   : estimate_smooth(setup.balls, setup.ball, {.draws = kOpenDraws});
+  setup.flow =
+      setup.options.flow == CalibrationFlow::paper
+          ? estimate_paper(setup.balls, setup.ball)
+          : estimate_smooth(setup.balls, setup.ball, {.draws = setup.options.posterior_draws});
   setup.model.field = std::make_shared<const FlowField>(
       field_of(*setup.flow, experiment.base.model.field->interpolation()));
 }

@@ -142,11 +142,8 @@ ScorePlan PreparedTank::plan() const {
     std::erase_if(p.effects, [](const Effect& e) { return e.estimated == Estimated::module; });
   }
   p.shapes = shape_catalogue(p.model, longest);
-  p.nuisances_known =
-      setup.stages.matrix("nuisances", static_cast<Eigen::Index>(nuisance_count()), [&] {
-        return nuisances_known(p.model, maps, derived_seed(setup.options.seed, kNuisanceSeed),
-                               setup.options.threads);
-      });
+  p.nuisances = std::make_shared<const Nuisances>(
+      p.model, maps, derived_seed(setup.options.seed, kNuisanceSeed), setup.options.threads);
   p.rate = calibration.training.front().rate;
   p.logged = p.latched() && std::ranges::all_of(calibration.shapes, [](const RecordingShape& s) {
                return s.logged || !s.latches;

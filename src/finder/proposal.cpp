@@ -59,11 +59,8 @@ std::vector<ProposedExperiment> proposals(PreparedTank& tank, const OpenQuestion
       const std::vector<int> seen = seen_by_frame(one);
       for (const int balls : seen) so_far.balls = std::max(so_far.balls, balls);
     }
-    so_far.known_with_all_balls = tank.setup.stages.matrix(
-        "nuisances, certain flow", static_cast<Eigen::Index>(nuisance_count()), [&] {
-          return nuisances_known(plan.model, FlowMaps(tank.maps.best()),
-                                 derived_seed(options.seed, kCertainSeed), options.threads);
-        });
+    so_far.known_with_all_balls = plan.nuisances->known_for(
+        FlowMaps(tank.maps.best()), derived_seed(options.seed, kCertainSeed), options.threads);
   }
   return propose_experiments(so_far, question, derived_seed(options.seed, kProposalSeed),
                              options.threads);

@@ -63,7 +63,7 @@ std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
   scan.effects.clear(), scan.shapes.clear();
   std::vector<FoundPlace> out = grid_of(plan.model, kWidths);
   for (const FoundPlace& place : out) scan.effects.push_back(at(effect, place));
-  if (flow_as_drawn) scan.nuisances_known.resize(0, 0);
+  if (flow_as_drawn) scan.nuisances.reset();
   const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings);
   add_amplitudes(scored, effect.paths.size(), out);
   largest_first(out, &FoundPlace::gain);

@@ -6,6 +6,7 @@
 #include "finder/selection_report.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
+#include "scores/nuisances.hpp"
 #include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
@@ -91,8 +92,10 @@ class Evidence {
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd normal = sums_.information(rows, rows);
     normal.diagonal().array() += kAmplitudePrior;
-    const Eigen::MatrixXd& known = plan_.nuisances_known;
-    normal.bottomRightCorner(known.rows(), known.cols()) += known;
+    if (plan_.nuisances) {
+      const Eigen::MatrixXd& known = plan_.nuisances->known();
+      normal.bottomRightCorner(known.rows(), known.cols()) += known;
+    }
     const Eigen::VectorXd scores = sums_.scores(rows);
     const Eigen::VectorXd fit = solve_symmetric(normal, scores);
     if (one_sided && fit(0) < 0) return 0;

@@ -1,8 +1,9 @@
 #include "scores/nuisances.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
@@ -15,76 +16,139 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Sizes: of factors on drag, flow and gusts; of dampings, 1/s; of the flow's polynomials, m/s.
-constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3, kStream = 5e-3;
-constexpr std::size_t kFactors = 6;
-constexpr std::size_t kDegree = 8;
-constexpr std::size_t kTerms = (kDegree + 1) * (kDegree + 2) / 2;
+// Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
+constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
+// Components of a map from 12 min of balls: 70 and 80 % of the variance. Twice as many of the mean
+// lower the scatter of scores by a tenth and cost a quarter of a diagnosis.
+constexpr std::size_t kMeanModes = 150, kGustModes = 12;
 constexpr int kDraws = 600;
-constexpr double kVisited = 0.9;  // of the radius: polynomials fit draws within
+constexpr double kVisited = 0.93;  // of the radius: where modules' centres are
+constexpr double kLeastVariance = 1e-4;
 
-// Chebyshev's polynomials of one coordinate, and their derivatives.
-struct Chebyshev {
-  std::array<double, kDegree + 1> value{1}, slope{0};
-  explicit Chebyshev(double x) {
-    value[1] = x, slope[1] = 1;
-    for (std::size_t d = 2; d <= kDegree; ++d) {
-      value[d] = 2 * x * value[d - 1] - value[d - 2];
-      slope[d] = 2 * value[d - 1] + 2 * x * slope[d - 1] - slope[d - 2];
-    }
-  }
+// Errors of a flow map, [value, draw]: of the mean, first along x, and, relative, of the gusts.
+struct Errors {
+  Matrix mean, gusts;
 };
 
-// Products of the polynomials of x and of y (in radii of the tank) up to a total degree, and their
-// gradients.
-struct Polynomials {
-  std::array<double, kTerms> value{}, by_x{}, by_y{};
-  Polynomials(double x, double y) {
-    const Chebyshev along(x), across(y);
-    std::size_t at = 0;
-    for (std::size_t d = 0; d <= kDegree; ++d) {
-      for (std::size_t b = 0; b <= d; ++b, ++at) {
-        value[at] = along.value[d - b] * across.value[b];
-        by_x[at] = along.slope[d - b] * across.value[b];
-        by_y[at] = along.value[d - b] * across.slope[b];
-      }
+Errors drawn_errors(const FlowMaps& maps, std::uint64_t seed, int threads) {
+  const std::vector<FlowSample>& best = maps.best()->samples();
+  const auto n = static_cast<Eigen::Index>(best.size());
+  Errors out{Matrix(2 * n, kDraws), Matrix(n, kDraws)};
+  for_each_world(kDraws, threads, [&](int d) {
+    const auto drawn = perturbed_flow(maps, seed, seed, d);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const FlowSample &a = drawn->samples()[static_cast<std::size_t>(i)],
+                       &b = best[static_cast<std::size_t>(i)];
+      out.mean(i, d) = a.mu_x - b.mu_x, out.mean(n + i, d) = a.mu_y - b.mu_y;
+      out.gusts(i, d) = b.sigma_x > 0 ? a.sigma_x / b.sigma_x - 1 : 0;
     }
-  }
-};
-
-// Accelerations by a velocity of the water that is a polynomial, along either axis: two of each.
-void push_flow(const Polynomials& p, const Features& features, std::size_t i, std::size_t first,
-               Pushes& pushes) {
-  const Model& model = features.model();
-  const double R = model.tank.radius;
-  const Wrench &along_x = features.by_x(i), &along_y = features.by_y(i);
-  const Wrench& turned = features.by_turning(i);
-  // The rotation of the water is half the curl of its velocity.
-  std::array<double, kTerms> u, by_u, by_v;
-  for (std::size_t t = 0; t < kTerms; ++t) {
-    u[t] = kStream * p.value[t];
-    by_u[t] = -0.5 * kStream * p.by_y[t] / R, by_v[t] = 0.5 * kStream * p.by_x[t] / R;
-  }
-  std::array<double, 2 * kTerms> sums;
-  const auto push = [&](double Wrench::*part, double inertia, std::vector<float>& to) {
-    const double x = along_x.*part, y = along_y.*part, turn = turned.*part;
-    for (std::size_t t = 0; t < kTerms; ++t) {
-      sums[2 * t] = u[t] * x + by_u[t] * turn, sums[2 * t + 1] = u[t] * y + by_v[t] * turn;
-    }
-    scale_all(sums.data(), sums.size(), 1 / inertia, &to[first]);
-  };
-  push(&Wrench::fx, model.module.mass, pushes.x), push(&Wrench::fy, model.module.mass, pushes.y);
-  push(&Wrench::torque, model.module.inertia(), pushes.turn);
+  });
+  out.mean.colwise() -= Vector(out.mean.rowwise().mean());
+  out.gusts.colwise() -= Vector(out.gusts.rowwise().mean());
+  return out;
 }
+
+// The cells within reach of modules' centres.
+std::vector<Eigen::Index> visited_cells(const FlowField& field, double radius) {
+  const double pitch = 2 * field.extent() / field.cells();
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(field.samples().size()); ++i) {
+    const double x = (static_cast<double>(i % field.cells()) + 0.5) * pitch - field.extent();
+    const double y = (static_cast<double>(i / field.cells()) + 0.5) * pitch - field.extent();
+    if (std::hypot(x, y) <= kVisited * radius) out.push_back(i);
+  }
+  return out;
+}
+
+// Principal components of errors, each of the size of a standard deviation, [value, component];
+// those of most variance within `rows`.
+Matrix components(const Matrix& errors, const std::vector<Eigen::Index>& rows, std::size_t count) {
+  const Matrix within = errors(rows, Eigen::all);
+  const Eigen::SelfAdjointEigenSolver<Matrix> solved(within.transpose() * within);
+  const Matrix leading =
+      solved.eigenvectors().rightCols(static_cast<Eigen::Index>(count)).rowwise().reverse();
+  return errors * leading / std::sqrt(kDraws - 1.0);
+}
+
+// The values of a grid about a cell that modules feel: the mean over 3 x 3 cells, a module's side,
+// and differences across its neighbours.
+class About {
+ public:
+  About(int cells, int x, int y) : cells_(cells), x_(x), y_(y) {}
+  double mean(const Eigen::Ref<const Vector>& of) const {
+    double sum = 0;
+    for (int b = -1; b <= 1; ++b) {
+      for (int a = -1; a <= 1; ++a) sum += of(at(a, b));
+    }
+    return sum / 9;
+  }
+  double along_x(const Eigen::Ref<const Vector>& of) const { return of(at(1, 0)) - of(at(-1, 0)); }
+  double along_y(const Eigen::Ref<const Vector>& of) const { return of(at(0, 1)) - of(at(0, -1)); }
+
+ private:
+  Eigen::Index at(int a, int b) const {
+    return std::clamp(y_ + b, 0, cells_ - 1) * cells_ + std::clamp(x_ + a, 0, cells_ - 1);
+  }
+  int cells_, x_, y_;
+};
 
 }  // namespace
 
-std::size_t nuisance_count() {
-  return kFactors + 2 * kTerms;
+Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads)
+    : cells_(maps.best()->cells()), extent_(maps.best()->extent()) {
+  const Errors errors = drawn_errors(maps, seed, threads);
+  const Eigen::Index n = errors.gusts.rows();
+  const std::vector<Eigen::Index> visited = visited_cells(*maps.best(), model.tank.radius);
+  std::vector<Eigen::Index> both = visited;
+  for (const Eigen::Index i : visited) both.push_back(n + i);
+  mean_basis_ = components(errors.mean, both, kMeanModes);
+  gust_basis_ = components(errors.gusts, visited, kGustModes);
+  const double pitch = 2 * extent_ / cells_, gain = model.flow.K_v;
+  mean_.resize(static_cast<std::size_t>(n) * 3 * kMeanModes);
+  gusts_.resize(static_cast<std::size_t>(n) * kGustModes);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const About cell(cells_, static_cast<int>(i) % cells_, static_cast<int>(i) / cells_);
+    float* mean = &mean_[static_cast<std::size_t>(i) * 3 * kMeanModes];
+    for (std::size_t k = 0; k < kMeanModes; ++k) {
+      const auto column = mean_basis_.col(static_cast<Eigen::Index>(k));
+      const auto u = column.head(n), v = column.tail(n);
+      mean[k] = static_cast<float>(gain * cell.mean(u));
+      mean[kMeanModes + k] = static_cast<float>(gain * cell.mean(v));
+      // Half the curl; differences are across two cells.
+      mean[2 * kMeanModes + k] =
+          static_cast<float>(gain * (cell.along_x(v) - cell.along_y(u)) / (4 * pitch));
+    }
+    for (std::size_t k = 0; k < kGustModes; ++k) {
+      gusts_[static_cast<std::size_t>(i) * kGustModes + k] =
+          static_cast<float>(gust_basis_(i, static_cast<Eigen::Index>(k)));
+    }
+  }
+  constexpr auto all = kParameters + static_cast<Eigen::Index>(kMeanModes + kGustModes);
+  known_ = Matrix::Identity(all, all);
 }
 
-void push_nuisances(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,
-                    Pushes& pushes) {
+Nuisances Nuisances::with_known(Matrix known) const {
+  Nuisances out = *this;
+  out.known_ = std::move(known);
+  return out;
+}
+
+Matrix Nuisances::known_for(const FlowMaps& maps, std::uint64_t seed, int threads) const {
+  const Errors errors = drawn_errors(maps, seed, threads);
+  Matrix covariance = Matrix::Identity(count(), count());
+  const auto fill = [&](const Matrix& basis, const Matrix& of, Eigen::Index first) {
+    const Matrix amplitudes = least_squares(basis, of);
+    auto block = covariance.block(first, first, basis.cols(), basis.cols());
+    block = amplitudes * amplitudes.transpose() / (kDraws - 1.0);
+    block.diagonal().array() += kLeastVariance;
+  };
+  fill(mean_basis_, errors.mean, kParameters);
+  fill(gust_basis_, errors.gusts, kParameters + mean_basis_.cols());
+  return symmetric_inverse(covariance);
+}
+
+void Nuisances::push(const Features& features, const Kinematics& k, std::size_t i,
+                     std::size_t first, Pushes& pushes) const {
   const Model& model = features.model();
   const double mass = model.module.mass, inertia = model.module.inertia(), R = model.tank.radius;
   std::size_t at = first;
@@ -99,50 +163,45 @@ void push_nuisances(const Features& features, const Kinematics& k, std::size_t i
   by(features.drag(i), kDrag), by(features.by_gain(i), kFlow);
   push(-kDamping * k.vx[i], -kDamping * k.vy[i], 0), push(0, 0, -kDamping * k.omega[i]);
   by(features.by_gusts(i), kGusts), by(features.by_gusts(i), kGusts * (x * x + y * y));
-  push_flow(Polynomials(x, y), features, i, at, pushes);
+  push_flow(features, k.x[i], k.y[i], i, at, pushes);
 }
 
-Matrix nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads) {
-  const FlowField& best = *maps.best();
-  const double R = model.tank.radius, pitch = 2 * best.extent() / best.cells();
-  std::vector<std::size_t> cells;
-  std::vector<Polynomials> rows;
-  for (std::size_t i = 0; i < best.samples().size(); ++i) {
-    const auto wide = static_cast<std::size_t>(best.cells());
-    const double x = (static_cast<double>(i % wide) + 0.5) * pitch - best.extent();
-    const double y = (static_cast<double>(i / wide) + 0.5) * pitch - best.extent();
-    if (std::hypot(x, y) > kVisited * R) continue;
-    cells.push_back(i), rows.emplace_back(x / R, y / R);
+// Bilinear between the centres of four cells, as the flow itself.
+void Nuisances::push_flow(const Features& features, double x, double y, std::size_t i,
+                          std::size_t first, Pushes& pushes) const {
+  const double pitch = 2 * extent_ / cells_;
+  const auto place = [&](double at) {
+    return std::clamp((at + extent_) / pitch - 0.5, 0.0, cells_ - 1.001);
+  };
+  const double gx = place(x), gy = place(y);
+  const auto column = static_cast<std::size_t>(gx), row = static_cast<std::size_t>(gy);
+  const auto fx = static_cast<float>(gx - std::floor(gx)),
+             fy = static_cast<float>(gy - std::floor(gy));
+  const std::size_t cell = row * static_cast<std::size_t>(cells_) + column;
+  const std::array<std::size_t, 4> corners{cell, cell + 1, cell + static_cast<std::size_t>(cells_),
+                                           cell + static_cast<std::size_t>(cells_) + 1};
+  const std::array<float, 4> weights{(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
+  std::array<float, 3 * kMeanModes> moved{};
+  std::array<float, kGustModes> gusts{};
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const float* of = &mean_[corners[c] * moved.size()];
+    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += weights[c] * of[k];
+    of = &gusts_[corners[c] * gusts.size()];
+    for (std::size_t k = 0; k < gusts.size(); ++k) gusts[k] += weights[c] * of[k];
   }
-  const auto n = static_cast<Eigen::Index>(cells.size());
-  constexpr auto terms = static_cast<Eigen::Index>(kTerms);
-  Matrix basis(n, terms), off(n, 2 * kDraws);
-  for (Eigen::Index c = 0; c < n; ++c) {
-    basis.row(c) =
-        Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(c)].value.data(), terms);
-  }
-  for_each_world(kDraws, threads, [&](int d) {
-    const auto drawn = perturbed_flow(maps, seed, seed, d);
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const std::size_t i = cells[static_cast<std::size_t>(c)];
-      off(c, d) = drawn->samples()[i].mu_x - best.samples()[i].mu_x;
-      off(c, kDraws + d) = drawn->samples()[i].mu_y - best.samples()[i].mu_y;
+  const Model& model = features.model();
+  const auto push = [&](double Wrench::*part, double inertia, float* to) {
+    const auto of = [&](const Wrench& w) { return static_cast<float>(w.*part / inertia); };
+    const float by_x = of(features.by_x(i)), by_y = of(features.by_y(i));
+    const float turned = of(features.by_turning(i)), by_gusts = of(features.by_gusts(i));
+    for (std::size_t k = 0; k < kMeanModes; ++k) {
+      to[k] = by_x * moved[k] + by_y * moved[kMeanModes + k] + turned * moved[2 * kMeanModes + k];
     }
-  });
-  const Matrix fitted = least_squares(basis, off) * (model.flow.K_v / kStream);
-  Matrix covariance = Matrix::Identity(static_cast<Eigen::Index>(nuisance_count()),
-                                       static_cast<Eigen::Index>(nuisance_count()));
-  // Rows 2 t and 2 t + 1 are the two axes of term t.
-  Matrix both(2 * terms, kDraws);
-  for (Eigen::Index t = 0; t < terms; ++t) {
-    both.row(2 * t) = fitted.row(t).head(kDraws);
-    both.row(2 * t + 1) = fitted.row(t).tail(kDraws);
-  }
-  const Matrix centred = both.colwise() - both.rowwise().mean();
-  auto flow = covariance.bottomRightCorner(2 * terms, 2 * terms);
-  flow = centred * centred.transpose() / (kDraws - 1.0);
-  flow.diagonal().array() += 1e-4 + 1e-3 * flow.diagonal().array();
-  return symmetric_inverse(covariance);
+    for (std::size_t k = 0; k < kGustModes; ++k) to[kMeanModes + k] = by_gusts * gusts[k];
+  };
+  push(&Wrench::fx, model.module.mass, &pushes.x[first]);
+  push(&Wrench::fy, model.module.mass, &pushes.y[first]);
+  push(&Wrench::torque, model.module.inertia(), &pushes.turn[first]);
 }
 
 }  // namespace lilytank

@@ -1,8 +1,9 @@
-// What a calibration could absorb: errors of the baseline's parameters and smooth errors of the
-// flow, as accelerations of modules. Scores of effects are cleared of them.
+// What a calibration could absorb: errors of the baseline's parameters and of the flow map, as
+// accelerations of modules. Scores of effects are cleared of them.
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 #include "effects/features.hpp"
 #include "filter/sensitivity.hpp"
@@ -10,19 +11,41 @@
 
 namespace lilytank {
 
-/// How many there are: factors on drag and on the flow, both dampings, the gusts' strength, alone
-/// and growing with the radius, and polynomials of the place, down to a
-/// tenth of the tank, for the flow along x and along y.
-std::size_t nuisance_count();
+/// Factors on drag and on the flow, both dampings, the gusts' strength, alone and growing with the
+/// radius; then principal components of the errors of the mean flow and of the gusts, those of most
+/// variance (Karhunen-Loeve). Constant once made.
+class Nuisances {
+ public:
+  /// From draws of the maps' errors (flow_uncertainty.hpp). `threads`: 0: one a core.
+  Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads = 0);
 
-/// The acceleration of module `i` by every one at its size, from `first` on.
-void push_nuisances(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,
-                    Pushes& pushes);
+  /// How many there are.
+  Eigen::Index count() const { return known_.rows(); }
+  /// What is known of their amplitudes before any recording of modules: the inverse of their
+  /// covariance, [nuisance, nuisance]. Parameters are hardly known.
+  const Eigen::MatrixXd& known() const { return known_; }
+  /// The same nuisances, known as said.
+  Nuisances with_known(Eigen::MatrixXd known) const;
+  /// `known` if these maps were the ones, on the grid of those of the constructor.
+  Eigen::MatrixXd known_for(const FlowMaps& maps, std::uint64_t seed, int threads = 0) const;
+  /// The first ones, which are parameters of the model and not errors of the flow.
+  static constexpr Eigen::Index kParameters = 6;
 
-/// What is known of their amplitudes, in sizes, before any recording: the inverse of their
-/// covariance, [nuisance, nuisance]. Parameters are hardly known; of the flow what the balls and
-/// its further errors (flow_uncertainty.hpp) allow, by draws of both. `threads`: 0: one a core.
-Eigen::MatrixXd nuisances_known(const Model& model, const FlowMaps& maps, std::uint64_t seed,
-                                int threads = 0);
+  /// The acceleration of module `i` by each at its size, from entry `first` of `pushes` on.
+  void push(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,
+            Pushes& pushes) const;
+
+ private:
+  void push_flow(const Features& features, double x, double y, std::size_t i, std::size_t first,
+                 Pushes& pushes) const;
+
+  Eigen::MatrixXd known_;
+  int cells_ = 0;      // a side of the grid
+  double extent_ = 0;  // m, half its side
+  // Of each cell: velocities along x and y (m/s) and rates of turning (rad/s) by all components;
+  // relative changes of the gusts' deviation.
+  std::vector<float> mean_, gusts_;
+  Eigen::MatrixXd mean_basis_, gust_basis_;  // where the components were found, [value, component]
+};
 
 }  // namespace lilytank

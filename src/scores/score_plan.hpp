@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "lilytank/predictor.hpp"
 
 namespace lilytank {
+
+class Nuisances;
 
 /// One number of the vector that is compared.
 struct ScoreEntry {
@@ -29,8 +32,7 @@ struct ScorePlan {
   bool identities = true;
   /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
   std::vector<Effect> beside;
-  /// What is known of nuisances before any recording (nuisances.hpp); empty: there are none.
-  Eigen::MatrixXd nuisances_known;
+  std::shared_ptr<const Nuisances> nuisances;  ///< empty: there are none
 
   /// Modules latch: assemblies are predicted as one body each, and bonds are counted.
   bool latched() const { return model.control.latches; }

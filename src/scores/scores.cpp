@@ -59,7 +59,7 @@ class Scorer {
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
         beside_(components_of(plan.beside)),
-        known_(known_beside(beside_, plan.nuisances_known)),
+        known_(known_beside(beside_, plan.nuisances ? plan.nuisances->known() : Eigen::MatrixXd())),
         features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
         sensitivities_(features_in_all_, (plan.latched() ? 2 : 1) * modules_,
                        all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
@@ -150,8 +150,8 @@ class Scorer {
     push_effects(i, &Wrench::torque, model_->module.inertia(), to.turn);
     slips_[i] = slip_of(*model_, frame.now, now, body);
     shapes_.push(*model_, frame.now, now, slips_[i], body, to);
-    if (plan_.nuisances_known.size() > 0) {
-      push_nuisances(*features_, frame.now, i, total_ + beside_, to);
+    if (plan_.nuisances) {
+      plan_.nuisances->push(*features_, frame.now, i, total_ + beside_, to);
     }
   }
 

@@ -30,7 +30,7 @@ class Tank {
  public:
   Tank() {
     plan_ = plan_for(model_, test::filmed(model_, 40, 1));
-    plan_.nuisances_known = nuisances_known(model_, FlowMaps(model_.field), 1);
+    plan_.nuisances = std::make_shared<const Nuisances>(model_, FlowMaps(model_.field), 1);
     plan_.modules = 2 * kModules;
   }
 

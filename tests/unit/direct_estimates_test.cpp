@@ -47,7 +47,7 @@ TEST(Scores, TellThePlaceOfAPatch) {
   const Effect patch = somewhere(model, "drag_patch", -0.1, 0.08, 0.06);
   const auto recordings = filmed(with_effect(model, patch, {1.5}), 60, 5);
   ScorePlan plan = plan_for(model, recordings);
-  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  plan.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   const PlaceScan scan = find_place(plan, patch, recordings, 1);
   const FoundPlace& found = scan.best;
   EXPECT_LT(std::hypot(found.x + 0.1, found.y - 0.08), 0.03);
@@ -68,7 +68,7 @@ TEST(Scores, TellThatNoPlaceIsOdd) {
     const auto recordings = filmed(with_effect(model, patch, {strength}), 60, 5);
     ScorePlan plan = plan_for(model, recordings);
     plan.effects = effect_catalogue(model);
-    plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+    plan.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
     std::pair<std::string, FoundPlace> out;
     for (const LinearPlaces& of : linear_places(plan, recordings)) {
       EXPECT_GT(of.places.size(), 80u) << of.effect->name;
@@ -94,9 +94,13 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
   const Effect stream = stream_at(model, 0.13, 0.08, kWidth);
   const auto recordings = filmed(with_effect(model, stream, {-0.12, -0.06}), 60, 11);
   ScorePlan known = plan_for(model, recordings);
-  known.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  known.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   ScorePlan hardly_known = known;
-  hardly_known.nuisances_known.bottomRightCorner(90, 90) *= 1e-3;  // of the flow's polynomials
+  Eigen::MatrixXd precision = known.nuisances->known();
+  const Eigen::Index flow = known.nuisances->count() - Nuisances::kParameters;
+  precision.bottomRightCorner(flow, flow) *= 1e-3;
+  hardly_known.nuisances =
+      std::make_shared<const Nuisances>(known.nuisances->with_known(precision));
   const auto expect = [&](const ScorePlan& plan, double off, double share, double gain) {
     const FoundPlace found = find_place(plan, stream, recordings, 1).best;
     EXPECT_LT(std::hypot(found.x - 0.13, found.y - 0.08), off);
@@ -118,7 +122,7 @@ TEST(Show, ARightEffectIsToldFromErrorsOfParameters) {
   const Effect stream = stream_at(model, 0.05, 0.05, 0.04);
   const auto recordings = filmed(with_effect(model, stream, {0.06, 0}), 30, 5);
   ScorePlan plan = plan_for(model, recordings);
-  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  plan.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   const std::vector<std::string> paths{"flow.K_v"};
   const Model off = with_parameters(model, paths, std::vector{1.06 * model.flow.K_v});
   const Model right = with_effect(off, stream, {0.06, 0});

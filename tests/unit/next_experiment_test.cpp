@@ -62,14 +62,15 @@ TEST_F(NextExperiment, ForcesBetweenModulesNeedMoreOfThem) {
 // More balls show as much as the flow map leaves open; none are proposed where the flow is known.
 TEST_F(NextExperiment, BallsHelpPoorFlowMaps) {
   const OpenQuestion question = between("body_force", "coriolis");
-  const auto n = static_cast<Eigen::Index>(nuisance_count());
+  const Model model = drifting(kModules);
+  const Nuisances nuisances(model, FlowMaps(model.field), 1);
   const auto known_as = [&](double flow) {
-    Eigen::VectorXd out = Eigen::VectorXd::Constant(n, flow);
-    out.head(6).setOnes();  // parameters, of which balls say nothing
+    Eigen::VectorXd out = Eigen::VectorXd::Constant(nuisances.count(), flow);
+    out.head(Nuisances::kParameters).setOnes();  // parameters, of which balls say nothing
     return Eigen::MatrixXd(out.asDiagonal());
   };
   const auto by_balls = [&](double flow) {
-    plan_.nuisances_known = known_as(flow);
+    plan_.nuisances = std::make_shared<const Nuisances>(nuisances.with_known(known_as(flow)));
     const RecordedSoFar so_far{plan_, recordings_, 24, 2, known_as(1e4)};
     const auto all = propose_experiments(so_far, question, 1);
     for (const ProposedExperiment& one : all) {

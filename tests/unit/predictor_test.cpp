@@ -129,7 +129,7 @@ TEST(Scores, MoveByAForceAsInformationsSay) {
              120, 6);
   ScorePlan plan = plan_for(model, without);
   plan.shapes.clear();
-  plan.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  plan.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   const std::vector<double> before = score(plan, without), after = score(plan, with);
   const Eigen::MatrixXd shared = score_informations(plan, with);
   const auto own = static_cast<Eigen::Index>(entry_named(plan, "self_propulsion force_x"));
@@ -155,7 +155,7 @@ TEST(Scores, AreClearedOfWhatACalibrationAbsorbs) {
   const auto right = filmed(model, 60, 5);
   ScorePlan plain = plan_for(model, right);
   ScorePlan cleared = plain;
-  cleared.nuisances_known = nuisances_known(model, FlowMaps(model.field), 3);
+  cleared.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   const std::vector<double> plain_right = score(plain, right),
                             cleared_right = score(cleared, right);
   for (const auto& [path, value] :
