@@ -65,6 +65,18 @@ void move(float* recent, std::size_t count, double* all) {
   }
 }
 
+void mix(const float* const* rows, const float* weights, std::size_t number, std::size_t count,
+         float* out) {
+  const Floats d;
+  for (std::size_t k = 0; k < count; k += hn::Lanes(d)) {
+    Float sum = hn::Zero(d);
+    for (std::size_t n = 0; n < number; ++n) {
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, weights[n]), hn::LoadU(d, rows[n] + k)));
+    }
+    hn::StoreU(sum, d, out + k);
+  }
+}
+
 void scale(const double* values, std::size_t count, double factor, float* out) {
   const hn::CappedTag<double, kFeatureLanes / 2> d;
   const hn::Rebind<float, decltype(d)> half;
@@ -85,6 +97,7 @@ namespace lilytank {
 HWY_EXPORT(pass);
 HWY_EXPORT(products);
 HWY_EXPORT(move);
+HWY_EXPORT(mix);
 HWY_EXPORT(scale);
 
 void pass_features(const FeatureAxis& axis, std::size_t count, const float* push, float* x,
@@ -100,6 +113,11 @@ void add_products(const float* rows, std::size_t count, std::size_t first, std::
 
 void move_sums(float* recent, std::size_t count, double* all) {
   HWY_DYNAMIC_DISPATCH(move)(recent, count, all);
+}
+
+void mix_rows(const float* const* rows, const float* weights, std::size_t number, std::size_t count,
+              float* out) {
+  HWY_DYNAMIC_DISPATCH(mix)(rows, weights, number, count, out);
 }
 
 void scale_all(const double* values, std::size_t count, double factor, float* out) {

@@ -28,6 +28,10 @@ void add_products(const float* rows, std::size_t count, std::size_t first, std::
 /// them to 0.
 void move_sums(float* recent, std::size_t count, double* all);
 
+/// The sum of `number` rows of `count` numbers, a multiple of kFeatureLanes, each by its weight.
+void mix_rows(const float* const* rows, const float* weights, std::size_t number, std::size_t count,
+              float* out);
+
 /// Products of numbers with a factor, in double precision, as single ones.
 void scale_all(const double* values, std::size_t count, double factor, float* out);
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lilytank/random.hpp"
+#include "filter/sensitivity_kernel.hpp"
 #include "lilytank/study.hpp"
 #include "scores/flow_uncertainty.hpp"
 #include "statistics/linear.hpp"
@@ -20,7 +20,8 @@ using Vector = Eigen::VectorXd;
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
 // Components of a map from 12 min of balls: 70 and 80 % of the variance. Twice as many of the mean
 // lower the scatter of scores by a tenth and cost a quarter of a diagnosis.
-constexpr std::size_t kMeanModes = 150, kGustModes = 12;
+constexpr std::size_t kMeanModes = 160, kGustModes = 16;
+constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
 constexpr double kVisited = 0.93;  // of the radius: where modules' centres are
 constexpr double kLeastVariance = 1e-4;
@@ -104,23 +105,21 @@ Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t see
   mean_basis_ = components(errors.mean, both, kMeanModes);
   gust_basis_ = components(errors.gusts, visited, kGustModes);
   const double pitch = 2 * extent_ / cells_, gain = model.flow.K_v;
-  mean_.resize(static_cast<std::size_t>(n) * 3 * kMeanModes);
-  gusts_.resize(static_cast<std::size_t>(n) * kGustModes);
+  changes_.resize(static_cast<std::size_t>(n) * kOfCell);
   for (Eigen::Index i = 0; i < n; ++i) {
     const About cell(cells_, static_cast<int>(i) % cells_, static_cast<int>(i) / cells_);
-    float* mean = &mean_[static_cast<std::size_t>(i) * 3 * kMeanModes];
+    float* of = &changes_[static_cast<std::size_t>(i) * kOfCell];
     for (std::size_t k = 0; k < kMeanModes; ++k) {
       const auto column = mean_basis_.col(static_cast<Eigen::Index>(k));
       const auto u = column.head(n), v = column.tail(n);
-      mean[k] = static_cast<float>(gain * cell.mean(u));
-      mean[kMeanModes + k] = static_cast<float>(gain * cell.mean(v));
+      of[k] = static_cast<float>(gain * cell.mean(u));
+      of[kMeanModes + k] = static_cast<float>(gain * cell.mean(v));
       // Half the curl; differences are across two cells.
-      mean[2 * kMeanModes + k] =
+      of[2 * kMeanModes + k] =
           static_cast<float>(gain * (cell.along_x(v) - cell.along_y(u)) / (4 * pitch));
     }
     for (std::size_t k = 0; k < kGustModes; ++k) {
-      gusts_[static_cast<std::size_t>(i) * kGustModes + k] =
-          static_cast<float>(gust_basis_(i, static_cast<Eigen::Index>(k)));
+      of[3 * kMeanModes + k] = static_cast<float>(gust_basis_(i, static_cast<Eigen::Index>(k)));
     }
   }
   constexpr auto all = kParameters + static_cast<Eigen::Index>(kMeanModes + kGustModes);
@@ -178,26 +177,23 @@ void Nuisances::push_flow(const Features& features, double x, double y, std::siz
   const auto fx = static_cast<float>(gx - std::floor(gx)),
              fy = static_cast<float>(gy - std::floor(gy));
   const std::size_t cell = row * static_cast<std::size_t>(cells_) + column;
-  const std::array<std::size_t, 4> corners{cell, cell + 1, cell + static_cast<std::size_t>(cells_),
-                                           cell + static_cast<std::size_t>(cells_) + 1};
+  const auto of_cell = [&](std::size_t at) { return &changes_[at * kOfCell]; };
+  const auto below = cell + static_cast<std::size_t>(cells_);
+  const std::array<const float*, 4> corners{of_cell(cell), of_cell(cell + 1), of_cell(below),
+                                            of_cell(below + 1)};
   const std::array<float, 4> weights{(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy};
-  std::array<float, 3 * kMeanModes> moved{};
-  std::array<float, kGustModes> gusts{};
-  for (std::size_t c = 0; c < corners.size(); ++c) {
-    const float* of = &mean_[corners[c] * moved.size()];
-    for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += weights[c] * of[k];
-    of = &gusts_[corners[c] * gusts.size()];
-    for (std::size_t k = 0; k < gusts.size(); ++k) gusts[k] += weights[c] * of[k];
-  }
+  std::array<float, kOfCell> here;
+  mix_rows(corners.data(), weights.data(), corners.size(), here.size(), here.data());
+  const std::array<const float*, 3> flow{&here[0], &here[kMeanModes], &here[2 * kMeanModes]};
+  const float* gusts = &here[3 * kMeanModes];
   const Model& model = features.model();
   const auto push = [&](double Wrench::*part, double inertia, float* to) {
     const auto of = [&](const Wrench& w) { return static_cast<float>(w.*part / inertia); };
-    const float by_x = of(features.by_x(i)), by_y = of(features.by_y(i));
-    const float turned = of(features.by_turning(i)), by_gusts = of(features.by_gusts(i));
-    for (std::size_t k = 0; k < kMeanModes; ++k) {
-      to[k] = by_x * moved[k] + by_y * moved[kMeanModes + k] + turned * moved[2 * kMeanModes + k];
-    }
-    for (std::size_t k = 0; k < kGustModes; ++k) to[kMeanModes + k] = by_gusts * gusts[k];
+    const std::array<float, 3> by{of(features.by_x(i)), of(features.by_y(i)),
+                                  of(features.by_turning(i))};
+    mix_rows(flow.data(), by.data(), flow.size(), kMeanModes, to);
+    const float by_gusts = of(features.by_gusts(i));
+    mix_rows(&gusts, &by_gusts, 1, kGustModes, to + kMeanModes);
   };
   push(&Wrench::fx, model.module.mass, &pushes.x[first]);
   push(&Wrench::fy, model.module.mass, &pushes.y[first]);

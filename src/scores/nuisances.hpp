@@ -42,9 +42,9 @@ class Nuisances {
   Eigen::MatrixXd known_;
   int cells_ = 0;      // a side of the grid
   double extent_ = 0;  // m, half its side
-  // Of each cell: velocities along x and y (m/s) and rates of turning (rad/s) by all components;
-  // relative changes of the gusts' deviation.
-  std::vector<float> mean_, gusts_;
+  // Of each cell: velocities along x and y (m/s), rates of turning (rad/s), and relative changes of
+  // the gusts' deviation, by all components.
+  std::vector<float> changes_;
   Eigen::MatrixXd mean_basis_, gust_basis_;  // where the components were found, [value, component]
 };
 
