@@ -132,7 +132,8 @@ bool Docking::join(Tick& tick, Connector a, Connector b) {
   if (merge(tick.model, tick.state, tick.assemblies, a.module, a.face, b.module, b.face)) {
     tick.commit();
     if (slot_a == slot_b) return true;
-    if (tick.movers.settle(tick.motion, tick.bodies, tick.assemblies, std::min(slot_a, slot_b)))
+    if (tick.movers.settle(tick.motion, tick.bodies, tick.assemblies, std::min(slot_a, slot_b),
+                           tick.tallies))
       return true;
   }
   restore(tick);

@@ -68,8 +68,9 @@ class Movers {
   /// Pushes the assembly in `slot` and what it touches apart until no overlap exceeds a fraction of
   /// kOverlapLimit, changing positions only. Returns false, with poses of no use, where that fails,
   /// or once latches took a quarter of the step's work. Used after a latch pulled two modules onto
-  /// their lattice.
-  bool settle(Motion& motion, Bodies& bodies, const Assemblies& assemblies, int slot);
+  /// their lattice. What is left counts in `tallies`.
+  bool settle(Motion& motion, Bodies& bodies, const Assemblies& assemblies, int slot,
+              Tallies& tallies);
 
  private:
   struct Impl;

@@ -51,7 +51,7 @@ struct Movers::Impl {
   void reserve(std::size_t worlds, std::size_t bodies);
   void link_crowds();
   void slice();
-  bool settle(Motion::Impl& m, int slot);
+  bool settle(Motion::Impl& m, int slot, Tallies& tallies);
   void link_around(Motion::Impl& m, int i, std::size_t k, std::vector<int>& slots_in);
   void take_poses(Motion::Impl& m);
   std::vector<int> entered;  // slots, of settle()
@@ -215,7 +215,7 @@ void Movers::Impl::take_poses(Motion::Impl& m) {
   }
 }
 
-bool Movers::Impl::settle(Motion::Impl& m, int slot) {
+bool Movers::Impl::settle(Motion::Impl& m, int slot, Tallies& tallies) {
   entered.assign(1, slot);
   for (int round = 0; round < kSettleRounds; ++round) {
     links.clear();
@@ -232,7 +232,11 @@ bool Movers::Impl::settle(Motion::Impl& m, int slot) {
     const Island* one = &island;
     single.pack(links, &one, 1);
     survey_block(single.block);
-    if (single.block.deepest.v[0] <= kSettled) return true;
+    const float deepest = single.block.deepest.v[0];
+    if (deepest <= kSettled) {
+      tallies.deepest_overlap = std::max(tallies.deepest_overlap, static_cast<double>(deepest));
+      return true;
+    }
     if (round + 1 == kSettleRounds) return false;
     push_block(single.block, kSettlePushes);
     m.latch_work += single.block.work.v[0];
@@ -241,11 +245,12 @@ bool Movers::Impl::settle(Motion::Impl& m, int slot) {
   return false;
 }
 
-bool Movers::settle(Motion& motion, Bodies& bodies, const Assemblies& assemblies, int slot) {
+bool Movers::settle(Motion& motion, Bodies& bodies, const Assemblies& assemblies, int slot,
+                    Tallies& tallies) {
   Motion::Impl& m = *motion.impl_;
   if (m.latch_work > m.most_work / 4) return false;
   m.bodies = &bodies, m.assemblies = &assemblies, m.searched = false;
-  return impl_->settle(m, slot);
+  return impl_->settle(m, slot, tallies);
 }
 
 Movers::Movers() : impl_(std::make_unique<Impl>()) {}
