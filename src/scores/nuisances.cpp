@@ -23,6 +23,7 @@ constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
 constexpr std::size_t kMeanModes = 160, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
+constexpr int kMostCells = 50;     // a side of the grid: finer maps would need gigabytes
 constexpr double kVisited = 0.93;  // of the radius: where modules' centres are
 constexpr double kLeastVariance = 1e-4;
 
@@ -31,33 +32,33 @@ struct Errors {
   Matrix mean, gusts;
 };
 
-Errors drawn_errors(const FlowMaps& maps, std::uint64_t seed, int threads) {
-  const std::vector<FlowSample>& best = maps.best()->samples();
-  const auto n = static_cast<Eigen::Index>(best.size());
+// Centres of the cells of a square grid, row by row.
+std::vector<Vec2> centres(int cells, double extent) {
+  const double pitch = 2 * extent / cells;
+  std::vector<Vec2> out;
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      out.emplace_back((column + 0.5) * pitch - extent, (row + 0.5) * pitch - extent);
+    }
+  }
+  return out;
+}
+
+Errors drawn_errors(const FlowMaps& maps, const std::vector<Vec2>& places, std::uint64_t seed,
+                    int threads) {
+  const auto n = static_cast<Eigen::Index>(places.size());
   Errors out{Matrix(2 * n, kDraws), Matrix(n, kDraws)};
   for_each_world(kDraws, threads, [&](int d) {
     const auto drawn = perturbed_flow(maps, seed, seed, d);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const FlowSample &a = drawn->samples()[static_cast<std::size_t>(i)],
-                       &b = best[static_cast<std::size_t>(i)];
+      const Vec2& at = places[static_cast<std::size_t>(i)];
+      const FlowSample a = drawn->at(at.x(), at.y()), b = maps.best()->at(at.x(), at.y());
       out.mean(i, d) = a.mu_x - b.mu_x, out.mean(n + i, d) = a.mu_y - b.mu_y;
       out.gusts(i, d) = b.sigma_x > 0 ? a.sigma_x / b.sigma_x - 1 : 0;
     }
   });
   out.mean.colwise() -= Vector(out.mean.rowwise().mean());
   out.gusts.colwise() -= Vector(out.gusts.rowwise().mean());
-  return out;
-}
-
-// The cells within reach of modules' centres.
-std::vector<Eigen::Index> visited_cells(const FlowField& field, double radius) {
-  const double pitch = 2 * field.extent() / field.cells();
-  std::vector<Eigen::Index> out;
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(field.samples().size()); ++i) {
-    const double x = (static_cast<double>(i % field.cells()) + 0.5) * pitch - field.extent();
-    const double y = (static_cast<double>(i / field.cells()) + 0.5) * pitch - field.extent();
-    if (std::hypot(x, y) <= kVisited * radius) out.push_back(i);
-  }
   return out;
 }
 
@@ -96,11 +97,16 @@ class About {
 }  // namespace
 
 Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads)
-    : cells_(maps.best()->cells()), extent_(maps.best()->extent()) {
-  const Errors errors = drawn_errors(maps, seed, threads);
+    : cells_(std::min(maps.best()->cells(), kMostCells)), extent_(maps.best()->extent()) {
+  const std::vector<Vec2> places = centres(cells_, extent_);
+  const Errors errors = drawn_errors(maps, places, seed, threads);
   const Eigen::Index n = errors.gusts.rows();
-  const std::vector<Eigen::Index> visited = visited_cells(*maps.best(), model.tank.radius);
-  std::vector<Eigen::Index> both = visited;
+  std::vector<Eigen::Index> visited, both;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double radius = std::sqrt(places[static_cast<std::size_t>(i)].squaredNorm());
+    if (radius <= kVisited * model.tank.radius) visited.push_back(i);
+  }
+  both = visited;
   for (const Eigen::Index i : visited) both.push_back(n + i);
   mean_basis_ = components(errors.mean, both, kMeanModes);
   gust_basis_ = components(errors.gusts, visited, kGustModes);
@@ -133,7 +139,7 @@ Nuisances Nuisances::with_known(Matrix known) const {
 }
 
 Matrix Nuisances::known_for(const FlowMaps& maps, std::uint64_t seed, int threads) const {
-  const Errors errors = drawn_errors(maps, seed, threads);
+  const Errors errors = drawn_errors(maps, centres(cells_, extent_), seed, threads);
   Matrix covariance = Matrix::Identity(count(), count());
   const auto fill = [&](const Matrix& basis, const Matrix& of, Eigen::Index first) {
     const Matrix amplitudes = least_squares(basis, of);

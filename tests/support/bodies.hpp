@@ -64,7 +64,7 @@ struct Bodies {
   }
   bool settle(int slot) {
     hot.load(state, assemblies);
-    if (!movers.settle(*motion, hot, assemblies, slot)) return false;
+    if (!movers.settle(*motion, hot, assemblies, slot, tallies)) return false;
     hot.save(state, assemblies);
     return true;
   }
