@@ -18,7 +18,7 @@ using Vector = Eigen::VectorXd;
 
 // Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
-// Components of a map from 12 min of balls: 70 and 80 % of the variance. Twice as many of the mean
+// Of a map from 12 min of balls, 70 and 80 % of the errors' variance. Twice as many of the mean
 // lower the scatter of scores by a tenth and cost a quarter of a diagnosis.
 constexpr std::size_t kMeanModes = 160, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
