@@ -103,7 +103,7 @@ struct CalibrationOptions : JobControl {
   std::int64_t search_budget = 1500;
   /// Draws of the flow's error that the intervals include; 0: the flow counts as exact.
   int flow_draws = 24;
-  /// Draws of the flow's posterior, whose combinations are the flows that could be the true one.
+  /// Draws of the flow's posterior; combinations of them are flows that could be the true one.
   int posterior_draws = 200;
   /// Simulations of a round, and of the last model.
   int round = 120, last_round = 240;

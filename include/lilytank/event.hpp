@@ -56,8 +56,9 @@ struct Tallies {
   std::int64_t snaps_refused = 0;
   /// Bodies put back to where they were before a substep, to keep overlap within bounds.
   std::int64_t moves_undone = 0;
-  /// Deepest overlap of any two bodies, or of a body and the wall, after any substep, m. Where it
-  /// is less than 0.08 mm, which the solver leaves alone, there may be others up to that.
+  /// Deepest overlap of any two bodies, or of a body and the wall, after any substep, m, of
+  /// those that were solved together: between others up to 0.08 mm are left alone and may be
+  /// missed.
   double deepest_overlap = 0;
 };
 

@@ -6,7 +6,6 @@
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/study.hpp"
-#include "scores/nuisances.hpp"
 #include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
@@ -139,20 +138,16 @@ class Comparison {
   // is there.
   double gain(const ProposedExperiment& of, const Matrix& rate, std::size_t a,
               std::size_t b) const {
-    const Matrix known = this->known();
+    const Matrix known = so_far_.plan.nuisances_known();
     if (of.alone()) return distinguished(of.minutes * rate, known, a, b);
     const double before = distinguished(old_, known, a, b);
     if (of.modules == 0) return distinguished(old_, with_balls(of.ball_minutes), a, b) - before;
     return distinguished(old_ + of.minutes * rate, known, a, b) - before;
   }
 
-  Matrix known() const {
-    return so_far_.plan.nuisances ? so_far_.plan.nuisances->known() : Matrix();
-  }
-
   // The balls' part of the nuisances' variance falls with their time.
   Matrix with_balls(double more) const {
-    const Matrix all = symmetric_inverse(known());
+    const Matrix all = symmetric_inverse(so_far_.plan.nuisances_known());
     const Matrix rest = symmetric_inverse(so_far_.known_with_all_balls);
     const double left = so_far_.ball_minutes / (so_far_.ball_minutes + more);
     return symmetric_inverse(Matrix(rest + left * (all - rest)));

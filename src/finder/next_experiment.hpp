@@ -33,7 +33,7 @@ struct RecordedSoFar {
   const std::vector<Recording>& fitted;
   int balls = 0;            ///< in the tank when the flow was recorded
   double ball_minutes = 0;  ///< recorded of them; 0: the flow is known
-  /// Nuisances::known() of the plan if balls were recorded forever; empty if the flow is known.
+  /// ScorePlan::nuisances_known() if balls were recorded forever; empty if the flow is known.
   Eigen::MatrixXd known_with_all_balls;
 };
 

@@ -6,7 +6,6 @@
 #include "finder/selection_report.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/random.hpp"
-#include "scores/nuisances.hpp"
 #include "scores/scores.hpp"
 #include "statistics/linear.hpp"
 
@@ -92,10 +91,8 @@ class Evidence {
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd normal = sums_.information(rows, rows);
     normal.diagonal().array() += kAmplitudePrior;
-    if (plan_.nuisances) {
-      const Eigen::MatrixXd& known = plan_.nuisances->known();
-      normal.bottomRightCorner(known.rows(), known.cols()) += known;
-    }
+    const Eigen::MatrixXd known = plan_.nuisances_known();
+    normal.bottomRightCorner(known.rows(), known.cols()) += known;
     const Eigen::VectorXd scores = sums_.scores(rows);
     const Eigen::VectorXd fit = solve_symmetric(normal, scores);
     if (one_sided && fit(0) < 0) return 0;

@@ -128,19 +128,11 @@ Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t see
       of[3 * kMeanModes + k] = static_cast<float>(gust_basis_(i, static_cast<Eigen::Index>(k)));
     }
   }
-  constexpr auto all = kParameters + static_cast<Eigen::Index>(kMeanModes + kGustModes);
-  known_ = Matrix::Identity(all, all);
-}
-
-Nuisances Nuisances::with_known(Matrix known) const {
-  Nuisances out = *this;
-  out.known_ = std::move(known);
-  return out;
 }
 
 Matrix Nuisances::known_for(const FlowMaps& maps, std::uint64_t seed, int threads) const {
   const Errors errors = drawn_errors(maps, centres(cells_, extent_), seed, threads);
-  Matrix covariance = Matrix::Identity(count(), count());
+  Matrix covariance = known();
   const auto fill = [&](const Matrix& basis, const Matrix& of, Eigen::Index first) {
     const Matrix amplitudes = least_squares(basis, of);
     auto block = covariance.block(first, first, basis.cols(), basis.cols());
@@ -155,7 +147,7 @@ Matrix Nuisances::known_for(const FlowMaps& maps, std::uint64_t seed, int thread
 void Nuisances::push(const Features& features, const Kinematics& k, std::size_t i,
                      std::size_t first, Pushes& pushes) const {
   const Model& model = features.model();
-  const double mass = model.module.mass, inertia = model.module.inertia(), R = model.tank.radius;
+  const double mass = model.module.mass, inertia = model.module.inertia();
   std::size_t at = first;
   const auto push = [&](double ax, double ay, double turn) {
     pushes.x[at] = static_cast<float>(ax), pushes.y[at] = static_cast<float>(ay);
@@ -164,10 +156,9 @@ void Nuisances::push(const Features& features, const Kinematics& k, std::size_t 
   const auto by = [&](const Wrench& w, double size) {
     push(size * w.fx / mass, size * w.fy / mass, size * w.torque / inertia);
   };
-  const double x = k.x[i] / R, y = k.y[i] / R;
   by(features.drag(i), kDrag), by(features.by_gain(i), kFlow);
   push(-kDamping * k.vx[i], -kDamping * k.vy[i], 0), push(0, 0, -kDamping * k.omega[i]);
-  by(features.by_gusts(i), kGusts), by(features.by_gusts(i), kGusts * (x * x + y * y));
+  by(features.by_gusts(i), kGusts);
   push_flow(features, k.x[i], k.y[i], i, at, pushes);
 }
 

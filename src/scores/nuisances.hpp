@@ -11,25 +11,23 @@
 
 namespace lilytank {
 
-/// Factors on drag and on the flow, both dampings, the gusts' strength, alone and growing with the
-/// radius; then principal components of the errors of the mean flow and of the gusts, those of most
-/// variance (Karhunen-Loeve). Constant once made.
+/// Factors on drag, on the flow and on the gusts, both dampings; then principal components of the
+/// errors of the mean flow and of the gusts, those of most variance (Karhunen-Loeve). Constant once
+/// made.
 class Nuisances {
  public:
   /// From draws of the maps' errors (flow_uncertainty.hpp). `threads`: 0: one a core.
   Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads = 0);
 
   /// How many there are.
-  Eigen::Index count() const { return known_.rows(); }
+  Eigen::Index count() const { return kParameters + mean_basis_.cols() + gust_basis_.cols(); }
   /// What is known of their amplitudes before any recording of modules: the inverse of their
-  /// covariance, [nuisance, nuisance]. Parameters are hardly known.
-  const Eigen::MatrixXd& known() const { return known_; }
-  /// The same nuisances, known as said.
-  Nuisances with_known(Eigen::MatrixXd known) const;
-  /// `known` if these maps were the ones, on the grid of those of the constructor.
+  /// covariance, [nuisance, nuisance], the identity in these sizes. Parameters are hardly known.
+  Eigen::MatrixXd known() const { return Eigen::MatrixXd::Identity(count(), count()); }
+  /// The same of other maps on the grid of those of the constructor.
   Eigen::MatrixXd known_for(const FlowMaps& maps, std::uint64_t seed, int threads = 0) const;
   /// The first ones, which are parameters of the model and not errors of the flow.
-  static constexpr Eigen::Index kParameters = 6;
+  static constexpr Eigen::Index kParameters = 5;
 
   /// The acceleration of module `i` by each at its size, from entry `first` of `pushes` on.
   void push(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,
@@ -39,7 +37,6 @@ class Nuisances {
   void push_flow(const Features& features, double x, double y, std::size_t i, std::size_t first,
                  Pushes& pushes) const;
 
-  Eigen::MatrixXd known_;
   int cells_ = 0;      // a side of the grid
   double extent_ = 0;  // m, half its side
   // Of each cell: velocities along x and y (m/s), rates of turning (rad/s), and relative changes of

@@ -33,6 +33,8 @@ struct ScorePlan {
   /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
   std::vector<Effect> beside;
   std::shared_ptr<const Nuisances> nuisances;  ///< empty: there are none
+  /// Nuisances::known(); empty if there are none.
+  Eigen::MatrixXd nuisances_known() const;
 
   /// Modules latch: assemblies are predicted as one body each, and bonds are counted.
   bool latched() const { return model.control.latches; }

@@ -59,7 +59,7 @@ class Scorer {
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
         beside_(components_of(plan.beside)),
-        known_(known_beside(beside_, plan.nuisances ? plan.nuisances->known() : Eigen::MatrixXd())),
+        known_(known_beside(beside_, plan.nuisances_known())),
         features_in_all_(total_ + static_cast<std::size_t>(known_.rows())),
         sensitivities_(features_in_all_, (plan.latched() ? 2 : 1) * modules_,
                        all_partners ? features_in_all_ : static_cast<std::size_t>(known_.rows())),
@@ -283,6 +283,10 @@ class Scorer {
 };
 
 }  // namespace
+
+Eigen::MatrixXd ScorePlan::nuisances_known() const {
+  return nuisances ? nuisances->known() : Eigen::MatrixXd();
+}
 
 std::vector<ScoreEntry> ScorePlan::entries() const {
   std::vector<ScoreEntry> out;

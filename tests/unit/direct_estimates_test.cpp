@@ -11,6 +11,7 @@
 #include "scores/nuisances.hpp"
 #include "scores/scores.hpp"
 #include "support/filmed.hpp"
+#include "support/uncertain_maps.hpp"
 #include "support/worlds.hpp"
 
 namespace lilytank {
@@ -96,11 +97,8 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
   ScorePlan known = plan_for(model, recordings);
   known.nuisances = std::make_shared<const Nuisances>(model, FlowMaps(model.field), 3);
   ScorePlan hardly_known = known;
-  Eigen::MatrixXd precision = known.nuisances->known();
-  const Eigen::Index flow = known.nuisances->count() - Nuisances::kParameters;
-  precision.bottomRightCorner(flow, flow) *= 1e-3;
   hardly_known.nuisances =
-      std::make_shared<const Nuisances>(known.nuisances->with_known(precision));
+      std::make_shared<const Nuisances>(model, test::uncertain_maps(*model.field, 0.025, 0.15), 3);
   const auto expect = [&](const ScorePlan& plan, double off, double share, double gain) {
     const FoundPlace found = find_place(plan, stream, recordings, 1).best;
     EXPECT_LT(std::hypot(found.x - 0.13, found.y - 0.08), off);

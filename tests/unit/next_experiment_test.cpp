@@ -9,6 +9,7 @@
 #include "scores/nuisances.hpp"
 #include "support/filmed.hpp"
 #include "support/recordings.hpp"
+#include "support/uncertain_maps.hpp"
 
 namespace lilytank {
 namespace {
@@ -63,15 +64,12 @@ TEST_F(NextExperiment, ForcesBetweenModulesNeedMoreOfThem) {
 TEST_F(NextExperiment, BallsHelpPoorFlowMaps) {
   const OpenQuestion question = between("body_force", "coriolis");
   const Model model = drifting(kModules);
-  const Nuisances nuisances(model, FlowMaps(model.field), 1);
-  const auto known_as = [&](double flow) {
-    Eigen::VectorXd out = Eigen::VectorXd::Constant(nuisances.count(), flow);
-    out.head(Nuisances::kParameters).setOnes();  // parameters, of which balls say nothing
-    return Eigen::MatrixXd(out.asDiagonal());
-  };
-  const auto by_balls = [&](double flow) {
-    plan_.nuisances = std::make_shared<const Nuisances>(nuisances.with_known(known_as(flow)));
-    const RecordedSoFar so_far{plan_, recordings_, 24, 2, known_as(1e4)};
+  const auto by_balls = [&](double error) {
+    const auto nuisances =
+        std::make_shared<const Nuisances>(model, test::uncertain_maps(*model.field, error), 1);
+    plan_.nuisances = nuisances;
+    const RecordedSoFar so_far{plan_, recordings_, 24, 2,
+                               nuisances->known_for(FlowMaps(model.field), 2)};
     const auto all = propose_experiments(so_far, question, 1);
     for (const ProposedExperiment& one : all) {
       EXPECT_TRUE(!one.alone() || one.ball_minutes > 0) << one.text();  // a flow of its own
@@ -79,7 +77,7 @@ TEST_F(NextExperiment, BallsHelpPoorFlowMaps) {
     }
     return 0.0;
   };
-  EXPECT_GT(by_balls(30), 10 * by_balls(9000));
+  EXPECT_GT(by_balls(0.015), 10 * by_balls(3e-4));
   for (const auto& one : propose_experiments({plan_, recordings_}, question, 1)) {
     EXPECT_EQ(one.balls, 0);
   }
