@@ -25,6 +25,8 @@ constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
 constexpr int kNever = -9;         // no frame
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
+// s for which forces on a module are held: it moves by millimetres meanwhile.
+constexpr double kHeld = 0.1;
 
 std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) {
   std::vector<std::unique_ptr<ResidualStatistic>> parts;
@@ -129,17 +131,31 @@ class Scorer {
     if (frame.model != model_ || frame.recording != recording_) {
       model_ = frame.model, recording_ = frame.recording;
       features_ = std::make_unique<Features>(plan_.effects, plan_.beside, *model_);
+      pushed_.clear();
     }
     const StepContext now{.time = frame.time, .gusts = false, .expected = true};
-    features_->find(frame.now, now);
     slips_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
-    shapes_.push_pairs(*model_, frame.now, pushes_);
+    for (std::size_t i = 0; i < n; ++i) {
+      slips_[i] = slip_of(*model_, frame.now, now, static_cast<int>(i));
+    }
+    if (due(frame)) {
+      features_->find(frame.now, now);
+      for (std::size_t i = 0; i < n; ++i) push(frame, now, i);
+      shapes_.push_pairs(*model_, frame.now, pushes_);
+    }
     seen_.resize(n);
     find_touching(frame);
     for (std::size_t i = 0; i < n; ++i) seen_[i] = pass(frame, i);
     for (const PredictedAssembly& a : frame.assemblies) pass(frame, a);
     for (const auto& part : parts_) part->add(frame, seen_);
+  }
+
+  // Whether the forces are evaluated anew; `pushes_` are of the modules of the frame afterwards.
+  bool due(const PredictedFrame& frame) {
+    const int every = std::max(1, static_cast<int>(std::lround(kHeld / frame.interval)));
+    if (frame.frame % every != 0 && std::ranges::equal(pushed_, frame.module)) return false;
+    pushed_.assign(frame.module.begin(), frame.module.end());
+    return true;
   }
 
   void push(const PredictedFrame& frame, const StepContext& now, std::size_t i) {
@@ -148,7 +164,6 @@ class Scorer {
     const double mass = model_->module.mass;
     push_effects(i, &Wrench::fx, mass, to.x), push_effects(i, &Wrench::fy, mass, to.y);
     push_effects(i, &Wrench::torque, model_->module.inertia(), to.turn);
-    slips_[i] = slip_of(*model_, frame.now, now, body);
     shapes_.push(*model_, frame.now, now, slips_[i], body, to);
     if (plan_.nuisances) {
       plan_.nuisances->push(*features_, frame.now, i, total_ + beside_, to);
@@ -267,6 +282,7 @@ class Scorer {
   Sensitivities sensitivities_;
   ShapePushes shapes_;
   std::vector<Pushes> pushes_;
+  std::vector<int> pushed_;  // modules that these are of
   std::vector<double> forces_;
   std::vector<Vec2> slips_;
   std::vector<int> last_;  // frames, of modules, then of assemblies by their first modules
