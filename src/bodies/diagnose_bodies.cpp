@@ -43,7 +43,7 @@ std::vector<std::pair<const LawTrial*, Candidate>> pairs_of(const std::vector<La
 
 std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& options) {
   Fnv hash;
-  hash.add("4 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
+  hash.add("5 " + e.name + " " + e.unit + " " + std::to_string(options.seed));
   hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.coefficients),
                                double(e.masses), e.turning, double(e.latitude),
                                double(e.current[0]), double(e.current[1]), double(e.wind[0]),

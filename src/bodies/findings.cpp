@@ -49,6 +49,7 @@ std::string name_of(const BodyExperiment& e, const Term& t, std::size_t number) 
   if (t.law->variable != "driver") return t.parameters[number].name;
   const auto axes = static_cast<std::size_t>(e.dimensions);
   const int one = driver_of(t);
+  if (one >= 0 && number >= axes) return t.parameters[number].name;
   return e.drivers[one < 0 ? number / axes : static_cast<std::size_t>(one)] + (axes == 1 ? ""
                                                                                : number % axes == 0
                                                                                    ? ", along x"

@@ -1,12 +1,17 @@
 // Laws of force between and on point bodies: one row each in laws.cpp. The same function is
 // integrated and fitted.
 #pragma once
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace lilytank {
+struct BodyRun;
+}
 
 namespace lilytank::bodies {
 
@@ -19,7 +24,11 @@ struct Scene {
   double time = 0;
   const double* x = nullptr;
   const double* v = nullptr;
+  const BodyRun* run = nullptr;  ///< for drivers at other times (driver_history.hpp)
 };
+
+/// Drivers that have laws of their own.
+inline constexpr int kSingleDrivers = 4;
 
 /// Sizes that occur in the recordings: where starts and fixed numbers of laws come from.
 struct Typical {
@@ -36,6 +45,7 @@ struct Typical {
   double turning = 0;     ///< a known constant f, 1/s
   int latitude = -1;
   int current[2] = {-1, -1}, wind[2] = {-1, -1};  ///< as in BodyExperiment
+  std::array<double, kSingleDrivers> period{};    ///< s, of each driver (period_of)
 };
 
 enum class Kind {
@@ -62,6 +72,9 @@ struct Law {
   std::string_view variable = "";
   /// The experiment that would distinguish it from others of its kind.
   std::string_view split = "a longer recording";
+  /// Laws that this one is at a value of its own parameters. One of them is reported instead where
+  /// this one does not predict better.
+  std::array<std::string_view, 2> special = {};
   /// A nonparametric force law; no known law.
   bool curve = false;
   std::vector<LawParameter> (*parameters)(const Typical& t);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/driver_history.hpp"
+
 namespace lilytank::bodies {
 namespace {
 
@@ -104,7 +106,8 @@ Scene scene_of(const BodyRun& run, int dimensions, std::size_t sample, double ti
           run.drivers_at(sample),
           time,
           x,
-          v};
+          v,
+          &run};
 }
 
 void accelerate(const BodyModel& model, const Scene& s, double* out) {
@@ -271,6 +274,9 @@ Typical typical_of(const BodyExperiment& e, const std::vector<const BodyRun*>& r
   take_place(runs, t);
   t.rate = strongest_rate(runs, e.dimensions);
   t.mass = runs.front()->mass.front();
+  for (int i = 0; i < std::min(t.drivers, kSingleDrivers); ++i) {
+    t.period[static_cast<std::size_t>(i)] = period_of(runs, i);
+  }
   return t;
 }
 

@@ -60,9 +60,32 @@ bool Comparison::distinguished(const LawTrial& better, const LawTrial& worse) co
   return still.distinguished();
 }
 
+// Outcomes of a trial's laws with one of them replaced by a special case of it.
+std::vector<const LawTrial*> Comparison::special_cases(const LawTrial& of) const {
+  std::vector<const LawTrial*> out;
+  std::vector<const Law*> laws = of.candidate.laws;
+  for (const Law*& one : laws) {
+    const Law* const general = one;
+    for (const std::string_view name : general->special) {
+      one = find_law(name);
+      const LawTrial* found = one != nullptr ? outcome_of(laws) : nullptr;
+      if (found != nullptr) out.push_back(found);
+    }
+    one = general;
+  }
+  return out;
+}
+
+// Further parameters must predict better.
+const LawTrial& Comparison::simplest(const LawTrial& of) const {
+  for (const LawTrial* one : special_cases(of)) {
+    if (one->gain > threshold() && !by_gain(of, *one)) return *one;
+  }
+  return of;
+}
+
 // The best named law; a pair or a triple where its last law gains more than chance gives; an
-// unnamed law where
-// it is distinguished from both, or where no named law is beyond chance.
+// unnamed law where it is distinguished from both, or where no named law is beyond chance.
 const LawTrial& Comparison::choice() const {
   const auto first = [&](bool curve) {
     return std::find_if(singles.begin(), singles.end(),
@@ -81,7 +104,7 @@ const LawTrial& Comparison::choice() const {
   }
   const bool better = unnamed != singles.end() && unnamed->gain > out->gain;
   if (better && (out->gain <= threshold() || distinguished(*unnamed, *out))) out = &*unnamed;
-  return *out;
+  return simplest(*out);
 }
 
 void Comparison::select() {
@@ -109,7 +132,8 @@ const LawTrial* Comparison::outcome_of(std::span<const Law* const> laws) const {
 std::vector<const LawTrial*> Comparison::alternatives() const {
   std::vector<const LawTrial*> out;
   for (const LawTrial& o : trials_of(reported->candidate.laws.size())) {
-    const bool other = &o != reported && !o.candidate.curve();
+    const bool general = std::ranges::count(special_cases(o), reported) > 0;
+    const bool other = &o != reported && !o.candidate.curve() && !general;
     if (other && o.gain > threshold() && !distinguished(*reported, o)) out.push_back(&o);
   }
   return out;

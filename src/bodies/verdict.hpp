@@ -45,6 +45,8 @@ struct Comparison {
  private:
   /// Whether the gains alone distinguish them.
   bool by_gain(const LawTrial& better, const LawTrial& worse) const;
+  std::vector<const LawTrial*> special_cases(const LawTrial& of) const;
+  const LawTrial& simplest(const LawTrial& of) const;
 };
 
 /// Adds warnings about the model that a verdict is of: the reported laws, or the baseline where
