@@ -51,6 +51,57 @@ bool has_errors(std::span<const FoundParameter> values) {
   });
 }
 
+// Weighted squares of values about A size^exponent, with the best A.
+class PowerLaw {
+ public:
+  PowerLaw(std::span<const double> sizes, std::span<const FoundParameter> values)
+      : sizes_(sizes), values_(values) {}
+
+  // `scatter`: between the values, relative to the law.
+  double squares(double exponent, double scatter) const {
+    double factor = 0, sum = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      double weights = 0, products = 0;
+      sum = 0;
+      for (std::size_t i = 0; i < sizes_.size(); ++i) {
+        const double power = std::pow(sizes_[i] / sizes_[0], exponent), law = factor * power;
+        const double w = 1 / (variance_of(values_[i]) + scatter * scatter * law * law);
+        weights += w * power * power, products += w * power * values_[i].value;
+        sum += w * std::pow(values_[i].value - law, 2);
+      }
+      factor = products / weights;
+    }
+    return sum;
+  }
+
+  double best(double scatter) const {
+    double exponent = 0;
+    for (const double step : {kCoarse, kStep}) {
+      const double reach = step == kCoarse ? kMost : kCoarse, about = exponent;
+      double least = 1e300;
+      for (double at = about - reach; at <= about + reach; at += step) {
+        const double now = squares(at, scatter);
+        if (now < least) least = now, exponent = at;
+      }
+    }
+    return exponent;
+  }
+
+  // The end of the interval about `from` in a direction; nothing beyond the largest exponents.
+  std::optional<double> end(double from, double scatter, double most, int direction) const {
+    for (double at = from; std::fabs(at) <= kMost; at += direction * kStep) {
+      if (squares(at, scatter) > most) return at;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr int kRounds = 4;
+  static constexpr double kMost = 6, kCoarse = 0.25, kStep = 0.01;
+  std::span<const double> sizes_;
+  std::span<const FoundParameter> values_;
+};
+
 FoundParameter with(FoundParameter like, const std::string& name, const std::string& path,
                     double value, double low, double high) {
   like.name = name, like.path = path, like.value = value, like.low = low, like.high = high;
@@ -75,6 +126,27 @@ Distribution distribution_of(std::span<const FoundParameter> values) {
           std::sqrt(between),
           std::sqrt(variance_at(values, chi_squared_quantile(0.975, free))),
           std::sqrt(variance_at(values, chi_squared_quantile(0.025, free)))};
+}
+
+std::optional<Growth> growth_over(std::span<const double> sizes,
+                                  std::span<const FoundParameter> values) {
+  constexpr double kLeastRatio = 1.5;
+  const auto [least, most] = std::ranges::minmax(sizes);
+  if (sizes.size() < 4 || !(least > 0) || most < kLeastRatio * least) return std::nullopt;
+  if (!has_errors(values)) return std::nullopt;
+  const PowerLaw law(sizes, values);
+  const double free = static_cast<double>(sizes.size()) - 2;
+  double low = 0, high = 1;
+  if (law.squares(law.best(0), 0) <= free) high = 0;
+  for (int k = 0; k < 20 && high > 0; ++k) {
+    const double middle = (low + high) / 2;
+    (law.squares(law.best(middle), middle) > free ? low : high) = middle;
+  }
+  const double exponent = law.best(high);
+  const double within = law.squares(exponent, high) + std::pow(student_half_width(free), 2);
+  const auto from = law.end(exponent, high, within, -1), to = law.end(exponent, high, within, 1);
+  if (!from || !to) return std::nullopt;
+  return Growth{exponent, *from, *to};
 }
 
 std::vector<FoundParameter> summarized(const std::vector<FoundParameter>& of, std::size_t number,

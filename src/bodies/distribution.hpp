@@ -1,5 +1,6 @@
 // Coefficients of many bodies, or of many runs, as a distribution.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,18 @@ struct Distribution {
 /// Laird 1986]; the mean's interval by Student's t [Knapp and Hartung 2003], the deviation's by the
 /// Q-profile method [Viechtbauer 2007].
 Distribution distribution_of(std::span<const FoundParameter> values);
+
+/// A power law of values over sizes, with the 95 % interval of its exponent.
+struct Growth {
+  double exponent = 0, low = 0, high = 0;
+};
+/// From values with 95 % intervals, and the sizes of what they belong to. Weighted least squares
+/// with a relative scatter beside the errors that makes chi^2 its degrees of freedom [Paule and
+/// Mandel 1982]; the interval is that of the chi^2 profile, by Student's t. Nothing for fewer than
+/// four values, for sizes that are not positive or differ by less than a factor of 1.5, and where
+/// the interval exceeds +-6.
+std::optional<Growth> growth_over(std::span<const double> sizes,
+                                  std::span<const FoundParameter> values);
 
 /// Groups that have a line each.
 inline constexpr std::size_t kMostListed = 12;

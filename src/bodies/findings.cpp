@@ -108,8 +108,24 @@ void add_summary(const Comparison& c, const std::vector<FoundParameter>& all, Di
   f.parameters.insert(f.parameters.end(), more.begin(), more.end());
 }
 
+// How an amplitude grows with the bodies' radii and masses, where each body has its own.
+void add_growth(const Comparison& c, const std::vector<FoundParameter>& of, DiagnosisFinding& f) {
+  if (c.experiment->coefficients != Coefficients::each_body || of.size() != c.groups.size()) return;
+  const auto over = [&](const std::string& size, std::vector<double> BodyRun::*sizes) {
+    std::vector<double> each;
+    for (const Group& group : c.groups) each.push_back((group.runs.front()->*sizes).front());
+    const auto growth = growth_over(each, of);
+    if (!growth) return;
+    const std::string name = of.front().path.substr(of.front().path.find('.') + 1);
+    f.parameters.push_back({name + ", exponent over the " + size, of.front().path + ".over_" + size,
+                            growth->exponent, growth->low, growth->high, "1"});
+  };
+  over("radius", &BodyRun::radius);
+  if (c.experiment->masses) over("mass", &BodyRun::mass);
+}
+
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
-  std::vector<FoundParameter> all;
+  std::vector<FoundParameter> all, first;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
     const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
@@ -118,12 +134,14 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
       if (t.parameters[p].kind == Kind::driver) continue;
       if (t.fitted[p] || c.groups.size() == 1) {
         all.push_back(parameter_of(c, i, fit, {k, p}));
+        if (p == 0 && t.parameters[p].kind == Kind::amplitude) first.push_back(all.back());
         const auto cd = drag_coefficient(c, i, t.parameters[p], all.back());
         if (cd) all.push_back(*cd);
       }
     }
   }
   add_summary(c, all, f);
+  add_growth(c, first, f);
 }
 
 // f over all samples; 0 where it is not known.

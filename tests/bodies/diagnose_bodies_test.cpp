@@ -56,6 +56,26 @@ TEST(DiagnoseBodies, bodiesOfWhichNothingIsHeldOutAreNotAsked) {
             "seen in P; not tested, because none of their runs is held out: Q");
 }
 
+// Five balls whose drag falls with the square of their radius.
+TEST(DiagnoseBodies, tellsHowACoefficientGrowsWithTheRadius) {
+  BodyExperiment e;
+  for (int body = 0; body < 5; ++body) {
+    const double radius = 0.02 * std::pow(1.3, body);
+    BodyExperiment one = falls(2e-4 / (radius * radius), 0, 2e-3, 10 + body);
+    for (BodyRun& run : one.runs) run.bodies = {std::to_string(body)}, run.radius = {radius};
+    one.runs.insert(one.runs.begin(), e.runs.begin(), e.runs.end());
+    e = std::move(one);
+  }
+  e.coefficients = Coefficients::each_body;
+  const Diagnosis d = diagnosis_of(e);
+  ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
+  ASSERT_EQ(d.findings.at(0).effect, "linear_drag") << diagnosis_text(d);
+  const FoundParameter& p = parameter(d.findings[0], "coefficient, exponent over the radius");
+  EXPECT_LT(p.low, -2);
+  EXPECT_GT(p.high, -2);
+  EXPECT_LT(p.high - p.low, 1);
+}
+
 // Runs that are not held out have no part in what is compared, not even as zeros.
 TEST(DiagnoseBodies, oneHeldOutRunTellsAsWell) {
   BodyExperiment e = falls(0.3, 0, 2e-3, 3);

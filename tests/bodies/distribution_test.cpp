@@ -48,6 +48,36 @@ TEST(Distribution, EqualValuesHaveNoDeviation) {
   EXPECT_GT(d.mean_high, 2.1);
 }
 
+// Eight values that grow with the square of their size, with errors of 5 % and, in the second half,
+// a scatter of 20 % beside them. Of 200 intervals 180 to 197 contain the truth with a probability
+// of 99.5 %.
+TEST(Distribution, AnExponentOverSizesHasItsInterval) {
+  int within = 0;
+  for (int run = 0; run < 200; ++run) {
+    std::vector<double> sizes;
+    std::vector<FoundParameter> values;
+    for (int k = 0; k < 8; ++k) {
+      const auto [a, b] = normal_pair({2, Stream::camera, run, static_cast<std::uint32_t>(k), 0});
+      const double size = 0.02 * std::pow(1.2, k), scatter = run < 100 ? 0 : 0.2;
+      const double law = -3 * size * size;
+      sizes.push_back(size);
+      values.push_back(value_of(law * (1 + scatter * a + 0.05 * b), 0.05 * std::fabs(law)));
+    }
+    const auto growth = growth_over(sizes, values);
+    ASSERT_TRUE(growth);
+    within += growth->low <= 2 && 2 <= growth->high;
+  }
+  EXPECT_GE(within, 180);
+  EXPECT_LE(within, 197);
+}
+
+TEST(Distribution, ThereIsNoExponentOfLikeSizesOrUnknownOnes) {
+  const std::vector<FoundParameter> values(4, value_of(2, 0.1));
+  EXPECT_FALSE(growth_over(std::vector<double>{1, 1.1, 1.2, 1.3}, values));
+  EXPECT_FALSE(growth_over(std::vector<double>{0, 0, 0, 0}, values));
+  EXPECT_TRUE(growth_over(std::vector<double>{1, 2, 3, 4}, values));
+}
+
 TEST(Distribution, ManyValuesAreNotListed) {
   const std::vector<FoundParameter> listed = summarized(drawn(1, 12, 1, 0.1), 12, "runs");
   EXPECT_EQ(listed.size(), 14u);
