@@ -7,6 +7,7 @@
 
 #include "finder/diagnosis_setup.hpp"
 #include "jobs/job_directory.hpp"
+#include "lilytank/error.hpp"
 #include "lilytank/random.hpp"
 #include "proof/proof_tank.hpp"
 #include "text/number.hpp"
@@ -72,9 +73,13 @@ GridRow run_cell(const GridOptions& options, const GridCell& cell,
   p.diagnosis.lock = &lock;
   p.sealed = [&](const std::string& hash) { forget_other_key(dir, hash); };
   p.judged = [&](const Proof& so_far) { write_proof(so_far, dir); };
-  const Proof proof = prove(p);
-  open_key(proof, dir);
-  return grid_row(cell, p.diagnosis.seed, proof);
+  try {
+    const Proof proof = prove(p);
+    open_key(proof, dir);
+    return grid_row(cell, p.diagnosis.seed, proof);
+  } catch (const InputError& error) {
+    throw InputError("cell " + cell.name() + ": " + error.what());
+  }
 }
 
 }  // namespace
