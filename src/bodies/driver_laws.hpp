@@ -42,6 +42,7 @@ inline constexpr Law kDriverForce{.name = "driver_force",
                                   .equation = "F = sum of a_i driver_i",
                                   .variable = "driver",
                                   .split = kMoreDrivers,
+                                  .special = {"driver_1", "driver_2", "driver_3", "driver_4"},
                                   .parameters = of_drivers,
                                   .add = by_drivers,
                                   .possible = has_drivers};

@@ -72,9 +72,9 @@ struct Law {
   std::string_view variable = "";
   /// The experiment that would distinguish it from others of its kind.
   std::string_view split = "a longer recording";
-  /// Laws that this one is at a value of its own parameters. One of them is reported instead where
-  /// this one does not predict better.
-  std::array<std::string_view, 2> special = {};
+  /// Laws that this one is at a value of its own parameters. The best of them is reported instead
+  /// where this one does not predict better.
+  std::array<std::string_view, kSingleDrivers> special = {};
   /// A nonparametric force law; no known law.
   bool curve = false;
   std::vector<LawParameter> (*parameters)(const Typical& t);

@@ -78,10 +78,10 @@ std::vector<const LawTrial*> Comparison::special_cases(const LawTrial& of) const
 
 // Further parameters must predict better.
 const LawTrial& Comparison::simplest(const LawTrial& of) const {
-  for (const LawTrial* one : special_cases(of)) {
-    if (one->gain > threshold() && !by_gain(of, *one)) return *one;
-  }
-  return of;
+  const std::vector<const LawTrial*> special = special_cases(of);
+  const auto best = std::ranges::max_element(special, {}, &LawTrial::gain);
+  if (best == special.end() || (*best)->gain <= threshold() || by_gain(of, **best)) return of;
+  return simplest(**best);
 }
 
 // The best named law; a pair or a triple where its last law gains more than chance gives; an

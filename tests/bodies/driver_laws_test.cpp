@@ -27,7 +27,7 @@ Diagnosis pushed_by(double (*force)(double time, double phase)) {
     BodyRun run;
     run.name = std::to_string(r), run.bodies = {"cart"}, run.mass = {1}, run.radius = {0};
     double x = 0, v = 0;
-    for (int k = 0; k < 140; ++k) {
+    for (int k = 0; k < 200; ++k) {
       const double h = 0.1, t = h * k, phase = static_cast<double>(r), a = force(t, phase);
       run.time.push_back(t);
       run.position.push_back(x + 1e-3 * normal_pair({r, Stream::camera, k, 0, 0})[0]);
