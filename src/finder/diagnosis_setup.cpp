@@ -55,7 +55,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "29 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "30 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

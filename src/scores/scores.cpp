@@ -25,8 +25,6 @@ constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
 constexpr int kNever = -9;         // no frame
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
-// s for which forces on a module are held: it moves by millimetres meanwhile.
-constexpr double kHeld = 0.1;
 
 std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) {
   std::vector<std::unique_ptr<ResidualStatistic>> parts;
@@ -152,7 +150,7 @@ class Scorer {
 
   // Whether the forces are evaluated anew; `pushes_` are of the modules of the frame afterwards.
   bool due(const PredictedFrame& frame) {
-    const int every = std::max(1, static_cast<int>(std::lround(kHeld / frame.interval)));
+    const int every = std::max(1, static_cast<int>(std::lround(plan_.held / frame.interval)));
     if (frame.frame % every != 0 && std::ranges::equal(pushed_, frame.module)) return false;
     pushed_.assign(frame.module.begin(), frame.module.end());
     return true;
@@ -389,6 +387,7 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
 
 double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings) {
   plan.shapes.clear(), plan.effects.clear();
+  plan.held = 0;  // errors of parameters do not take all they can otherwise
   Scorer scorer(plan);
   scorer.run(recordings);
   return scorer.misfit();
