@@ -33,8 +33,8 @@ struct ScorePlan {
   /// Effects that are there as well, of any amplitude: scores are cleared of these, too.
   std::vector<Effect> beside;
   std::shared_ptr<const Nuisances> nuisances;  ///< empty: there are none
-  double held =
-      0.1;  ///< s for which forces on a module are held: it moves by millimetres meanwhile
+  /// s for which forces on a module are held, as it moves by millimetres meanwhile.
+  double held = 0.1;
   /// Nuisances::known(); empty if there are none.
   Eigen::MatrixXd nuisances_known() const;
 
