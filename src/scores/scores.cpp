@@ -387,7 +387,6 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
 
 double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings) {
   plan.shapes.clear(), plan.effects.clear();
-  plan.held = 0;  // errors of parameters do not take all they can otherwise
   Scorer scorer(plan);
   scorer.run(recordings);
   return scorer.misfit();
