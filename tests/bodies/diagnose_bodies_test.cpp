@@ -56,7 +56,7 @@ TEST(DiagnoseBodies, bodiesOfWhichNothingIsHeldOutAreNotAsked) {
             "seen in P; not tested, because none of their runs is held out: Q");
 }
 
-// Five balls whose drag falls with the square of their radius.
+// The drag of five balls falls with the square of their radius.
 TEST(DiagnoseBodies, tellsHowACoefficientGrowsWithTheRadius) {
   BodyExperiment e;
   for (int body = 0; body < 5; ++body) {
