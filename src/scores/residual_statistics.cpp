@@ -342,20 +342,13 @@ class Touches final : public ResidualStatistic {
 
 }  // namespace
 
-std::unique_ptr<ResidualStatistic> memory_statistic(const ScorePlan& plan) {
-  return std::make_unique<Memory>(plan);
-}
-std::unique_ptr<ResidualStatistic> variance_statistic(const ScorePlan& plan) {
-  return std::make_unique<Variance>(plan);
-}
-std::unique_ptr<ResidualStatistic> neighbour_statistic(const ScorePlan& plan) {
-  return std::make_unique<Sharing>(plan);
-}
-std::unique_ptr<ResidualStatistic> module_statistic(const ScorePlan& plan) {
-  return std::make_unique<ModuleDifferences>(plan);
-}
-std::unique_ptr<ResidualStatistic> contact_statistic(const ScorePlan& plan) {
-  return std::make_unique<Touches>(plan);
+std::vector<std::unique_ptr<ResidualStatistic>> residual_statistics(const ScorePlan& plan) {
+  std::vector<std::unique_ptr<ResidualStatistic>> out;
+  out.push_back(std::make_unique<Memory>(plan)), out.push_back(std::make_unique<Variance>(plan));
+  out.push_back(std::make_unique<Sharing>(plan));
+  if (plan.identities) out.push_back(std::make_unique<ModuleDifferences>(plan));
+  out.push_back(spectrum_statistic(plan)), out.push_back(std::make_unique<Touches>(plan));
+  return out;
 }
 
 }  // namespace lilytank

@@ -26,11 +26,9 @@ class ResidualStatistic {
   virtual void append_to(std::vector<double>& values, ScoreDetails* details) const = 0;
 };
 
-std::unique_ptr<ResidualStatistic> memory_statistic(const ScorePlan& plan);
-std::unique_ptr<ResidualStatistic> variance_statistic(const ScorePlan& plan);
-std::unique_ptr<ResidualStatistic> neighbour_statistic(const ScorePlan& plan);
-std::unique_ptr<ResidualStatistic> module_statistic(const ScorePlan& plan);
+/// Those of a plan, in the order of its entries.
+std::vector<std::unique_ptr<ResidualStatistic>> residual_statistics(const ScorePlan& plan);
+/// One of them (spectrum.cpp).
 std::unique_ptr<ResidualStatistic> spectrum_statistic(const ScorePlan& plan);
-std::unique_ptr<ResidualStatistic> contact_statistic(const ScorePlan& plan);
 
 }  // namespace lilytank

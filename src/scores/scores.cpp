@@ -11,7 +11,6 @@
 #include "scores/residual_statistics.hpp"
 #include "scores/shape_pushes.hpp"
 #include "statistics/linear.hpp"
-#include "text/words.hpp"
 
 namespace lilytank {
 namespace {
@@ -25,15 +24,6 @@ constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
 constexpr int kNever = -9;         // no frame
 constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
-
-std::vector<std::unique_ptr<ResidualStatistic>> parts_of(const ScorePlan& plan) {
-  std::vector<std::unique_ptr<ResidualStatistic>> parts;
-  parts.push_back(memory_statistic(plan)), parts.push_back(variance_statistic(plan));
-  parts.push_back(neighbour_statistic(plan));
-  if (plan.identities) parts.push_back(module_statistic(plan));
-  parts.push_back(spectrum_statistic(plan)), parts.push_back(contact_statistic(plan));
-  return parts;
-}
 
 std::size_t components_of(const std::vector<Effect>& effects) {
   std::size_t count = 0;
@@ -55,7 +45,7 @@ class Scorer {
   explicit Scorer(const ScorePlan& plan, bool all_partners = false)
       : plan_(plan),
         modules_(static_cast<std::size_t>(plan.modules)),
-        parts_(parts_of(plan)),
+        parts_(residual_statistics(plan)),
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
         beside_(components_of(plan.beside)),
@@ -297,48 +287,6 @@ class Scorer {
 };
 
 }  // namespace
-
-Eigen::MatrixXd ScorePlan::nuisances_known() const {
-  return nuisances ? nuisances->known() : Eigen::MatrixXd();
-}
-
-std::vector<ScoreEntry> ScorePlan::entries() const {
-  std::vector<ScoreEntry> out;
-  for (const Effect& effect : effects) {
-    for (std::size_t c = 0; effect.scored && c < effect.paths.size(); ++c) {
-      std::string name = effect.name;
-      for (const auto& [of, value] : effect.held) {
-        name += " " + std::string(of->name) + " " + std::to_string(value);
-      }
-      if (effect.paths.size() > 1) name += " " + own_name(effect.paths[c]);
-      out.push_back({"score", name});
-    }
-  }
-  for (const auto& part : parts_of(*this)) {
-    for (ScoreEntry& entry : part->entries()) out.push_back(std::move(entry));
-  }
-  if (latched()) {
-    for (ScoreEntry& entry : bond_entries(*this)) out.push_back(std::move(entry));
-  }
-  for (const Shape& shape : shapes) {
-    for (int k = 1; k <= kKnots; ++k) {
-      out.push_back({"shape", shape.variable + " " + shape.direction + " " + std::to_string(k)});
-    }
-  }
-  return out;
-}
-
-std::size_t ScorePlan::first_of_effect(std::size_t index) const {
-  std::size_t first = 0;
-  for (std::size_t e = 0; e < index; ++e) {
-    first += effects[e].scored ? effects[e].paths.size() : 0;
-  }
-  return first;
-}
-
-std::size_t ScorePlan::first_of_shape(std::size_t index) const {
-  return entries().size() - (shapes.size() - index) * kKnots;
-}
 
 std::vector<Sensitivities::Amplitude> scored_amplitudes(const ScorePlan& plan,
                                                         const std::vector<Recording>& recordings) {
