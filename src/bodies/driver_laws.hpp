@@ -56,8 +56,6 @@ struct Driven {
   double (*value)(const Scene& s, int driver, Values own);
   /// The driver must oscillate.
   bool periodic = false;
-  /// It is proportionality to the driver for some values of its parameters.
-  bool general = false;
 };
 
 /// Whether a driver is none of the latitude, the current or the wind.
@@ -84,8 +82,7 @@ inline constexpr Driven kLagged{
     },
     .value = [](const Scene& s, int driver,
                 Values own) { return driver_at(*s.run, driver, s.time - own[0]); },
-    .periodic = true,
-    .general = true};
+    .periodic = true};
 
 inline constexpr Driven kEnvelope{
     .equation = "F = a times the amplitude of the driver over the last two periods",
@@ -122,7 +119,7 @@ bool is_driven(const Typical& t) {
   return other && has_driver(t, number) && (!how.periodic || t.period[number] > 0);
 }
 
-/// A law of the driver `number`; `plain` is the name of its proportional law.
+/// A law of the driver `number`; `plain` is the proportional law, where that is a special case.
 template <const Driven& how, int number>
 constexpr Law driver_law(std::string_view name, std::string_view plain = "") {
   Law law{.name = name,
@@ -132,7 +129,7 @@ constexpr Law driver_law(std::string_view name, std::string_view plain = "") {
           .parameters = of_driver<how, number>,
           .add = by_driver<how>,
           .possible = is_driven<how, number>};
-  if (how.general) law.special = {plain, kDriverForce.name};
+  if (!plain.empty()) law.special = {plain, kDriverForce.name};
   return law;
 }
 

@@ -125,7 +125,7 @@ void add_growth(const Comparison& c, const std::vector<FoundParameter>& of, Diag
 }
 
 void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, DiagnosisFinding& f) {
-  std::vector<FoundParameter> all, first;
+  std::vector<FoundParameter> all, amplitudes;
   for (std::size_t i = 0; i < c.groups.size(); ++i) {
     const Fitted& fit = o.fits[i];
     const std::size_t k = fit.model.terms.size() - o.candidate.laws.size() + law;
@@ -134,14 +134,14 @@ void add_parameters(const Comparison& c, const LawTrial& o, std::size_t law, Dia
       if (t.parameters[p].kind == Kind::driver) continue;
       if (t.fitted[p] || c.groups.size() == 1) {
         all.push_back(parameter_of(c, i, fit, {k, p}));
-        if (p == 0 && t.parameters[p].kind == Kind::amplitude) first.push_back(all.back());
+        if (p == 0 && t.parameters[p].kind == Kind::amplitude) amplitudes.push_back(all.back());
         const auto cd = drag_coefficient(c, i, t.parameters[p], all.back());
         if (cd) all.push_back(*cd);
       }
     }
   }
   add_summary(c, all, f);
-  add_growth(c, first, f);
+  add_growth(c, amplitudes, f);
 }
 
 // f over all samples; 0 where it is not known.
