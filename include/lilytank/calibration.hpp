@@ -105,6 +105,7 @@ struct CalibrationOptions : JobControl {
   int flow_draws = 24;
   /// Draws of the flow's posterior; combinations of them are flows that could be the true one.
   int posterior_draws = 200;
+  int posterior_components = 0;  ///< FlowOptions::components
   /// Simulations of a round, and of the last model.
   int round = 120, last_round = 240;
   /// Upper bound on the rounds in which the response surface is moved to its estimate.

@@ -54,7 +54,8 @@ struct FlowOptions {
   int least_samples = 20;  ///< frames; a cell with fewer is filled
   /// Level of the normality tests in the cells, and rate of false discoveries over all cells.
   double significance = 0.05;
-  int draws = 0;  ///< number of draws from the posterior (smooth only)
+  int draws = 0;       ///< number of draws from the posterior (smooth only)
+  int components = 0;  ///< number of its principal components (smooth only)
 };
 
 /// One field's difference from another, cell by cell, m/s.
@@ -91,6 +92,9 @@ struct FlowEstimate {
   /// Draws from the posterior of mean and deviation together, less the estimate: fields that the
   /// data and their smoothness allow as well. Zero outside the tank.
   std::vector<FlowDifference> draws;
+  /// Principal components of the posterior of the mean, those of most variance where bodies are,
+  /// each times its standard deviation (Karhunen-Loeve).
+  std::vector<FlowDifference> components;
   double thinning = 0;    ///< s between samples of a track that count as independent (paper only)
   double smoothness = 0;  ///< effective number of free values of the mean field (smooth only)
   std::int64_t samples = 0, dropped = 0;  ///< used, and excluded: a contact or the wall

@@ -27,9 +27,9 @@ class FlowMaps {
   /// A flow without error.
   explicit FlowMaps(std::shared_ptr<const FlowField> field) : field_(std::move(field)) {}
   /// An estimated flow with draws of its error and at least two draws from the posterior. The mean
-  /// error is subtracted.
+  /// error is subtracted. `components`: FlowEstimate::components.
   FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
-           std::vector<FlowDifference> open);
+           std::vector<FlowDifference> open, std::vector<FlowDifference> components = {});
 
   /// The extracted field less its mean error.
   const std::shared_ptr<const FlowField>& best() const { return field_; }
@@ -38,10 +38,13 @@ class FlowMaps {
   /// A field that could be the true one: the best and a normal combination of what is open, draw
   /// `run`.
   std::shared_ptr<const FlowField> draw(std::uint64_t seed, std::int64_t run) const;
+  /// Principal components of what is open in the mean; empty if they are not known.
+  const std::vector<FlowDifference>& components() const { return components_; }
 
  private:
   std::shared_ptr<const FlowField> field_;
   std::vector<FlowDifference> open_;  ///< about their mean
+  std::vector<FlowDifference> components_;
 };
 
 }  // namespace lilytank

@@ -73,8 +73,8 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
 }
 
 FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
-                   std::vector<FlowDifference> open)
-    : open_(std::move(open)) {
+                   std::vector<FlowDifference> open, std::vector<FlowDifference> components)
+    : open_(std::move(open)), components_(std::move(components)) {
   const auto mean = [&](const std::vector<FlowDifference>& of) {
     FlowDifference out(extracted.samples().size());
     for (const FlowDifference& one : of) {

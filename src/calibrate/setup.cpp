@@ -46,10 +46,11 @@ void find_flow(const Experiment& experiment, CalibrationSetup& setup) {
     throw InputError("experiment " + experiment.name +
                      " has no recordings of balls to extract the flow from");
   }
-  setup.flow =
-      setup.options.flow == CalibrationFlow::paper
-          ? estimate_paper(setup.balls, setup.ball)
-          : estimate_smooth(setup.balls, setup.ball, {.draws = setup.options.posterior_draws});
+  setup.flow = setup.options.flow == CalibrationFlow::paper
+                   ? estimate_paper(setup.balls, setup.ball)
+                   : estimate_smooth(setup.balls, setup.ball,
+                                     {.draws = setup.options.posterior_draws,
+                                      .components = setup.options.posterior_components});
   setup.model.field = std::make_shared<const FlowField>(
       field_of(*setup.flow, experiment.base.model.field->interpolation()));
 }

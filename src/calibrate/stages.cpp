@@ -130,7 +130,7 @@ FlowMaps Stages::flow_maps() {
     }
     errors.push_back(std::move(error));
   }
-  FlowMaps maps(*setup_.model.field, errors, setup_.flow->draws);
+  FlowMaps maps(*setup_.model.field, errors, setup_.flow->draws, setup_.flow->components);
   setup_.model.field = maps.best();
   whole_ = setup_.emulator(setup_.shapes, Of::experiments);
   piece_ = setup_.emulator(setup_.shapes, Of::pieces);

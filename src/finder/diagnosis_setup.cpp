@@ -8,9 +8,9 @@
 namespace lilytank {
 namespace {
 
-// Several times as many as the components with 86 % of the variance of a map's errors (300), so
-// that those found from the draws (nuisances.hpp) are those of the true error as well.
-constexpr int kPosteriorDraws = 1000;
+// A variance by so many draws is known to 5 %. The components are those that scores are cleared of
+// (nuisances.hpp).
+constexpr int kPosteriorDraws = 1000, kPosteriorComponents = 256;
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
                                   const DiagnosisBudget& budget) {
@@ -23,7 +23,7 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
                                     [](const Recording& r) { return r.body == BodyKind::lily; });
   c.hold_out = marked || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
   c.flow_draws = budget.flow_draws;
-  c.posterior_draws = kPosteriorDraws;
+  c.posterior_draws = kPosteriorDraws, c.posterior_components = kPosteriorComponents;
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;
@@ -55,7 +55,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "30 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "31 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

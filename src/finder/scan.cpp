@@ -18,7 +18,11 @@ constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
 constexpr double kMapWidth = kWidths[1];
 constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
 constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
-constexpr double kLonger = 1.25;                         // from a range to the next that is tried
+// Steps between places of the grid: halvings, steps of a length, and places tried of each ranking.
+constexpr int kHalvings = 2, kMostSteps = 3;
+constexpr std::size_t kTriedBeside = 2;
+constexpr double kWider = 1.3;     // factor on a width, of the first steps
+constexpr double kLonger = 1.25;   // from a range to the next that is tried
 constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
 std::vector<FoundPlace> grid_of(const Model& model, std::span<const double> widths) {
@@ -52,22 +56,6 @@ void add_amplitudes(std::span<const Sensitivities::Amplitude> scored, std::size_
     FoundPlace& place = places[k / components];
     place.amplitudes.push_back(scored[k].estimate), place.gain += scored[k].gain();
   }
-}
-
-// Places of the grid with linear estimates of the amplitudes, by descending gain. A smooth error
-// of the flow is almost collinear with a wide stream: orthogonalised against it, speed and place
-// are biased; without that, an error of the flow is scored as a stream.
-std::vector<FoundPlace> ranked(const ScorePlan& plan, const Effect& effect,
-                               const std::vector<Recording>& recordings, bool flow_as_drawn) {
-  ScorePlan scan = plan;
-  scan.effects.clear(), scan.shapes.clear();
-  std::vector<FoundPlace> out = grid_of(plan.model, kWidths);
-  for (const FoundPlace& place : out) scan.effects.push_back(at(effect, place));
-  if (flow_as_drawn) scan.nuisances.reset();
-  const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings);
-  add_amplitudes(scored, effect.paths.size(), out);
-  largest_first(out, &FoundPlace::gain);
-  return out;
 }
 
 std::vector<FoundPlace> map_of(std::vector<FoundPlace> places) {
@@ -115,39 +103,99 @@ std::vector<FoundPlace> around(const FoundPlace& centre, const std::vector<Found
   return out;
 }
 
+// The search for the likeliest place of an effect.
+class PlaceSearch {
+ public:
+  PlaceSearch(const ScorePlan& plan, const Effect& effect, const std::vector<Recording>& recordings,
+              int threads)
+      : plan_(plan), effect_(effect), recordings_(recordings), threads_(threads) {}
+
+  PlaceScan run() {
+    std::vector<FoundPlace> cleared, as_drawn;
+    for_each_world(2, threads_, [&](int i) {
+      (i == 0 ? cleared : as_drawn) = ranked(grid_of(plan_.model, kWidths), i == 1);
+    });
+    const double without = misfit_of(plan_, recordings_);
+    attempt(leading(cleared), leading(as_drawn));
+    attempt(around(best_, cleared), around(best_, as_drawn));
+    best_.gain = without - least_;
+    if (best_.gain > kClearRise) refine();
+    best_.gain = without - least_;
+    return {best_, map_of(std::move(cleared))};
+  }
+
+ private:
+  // Linear estimates of the amplitudes at places, by descending gain. A smooth error of the flow is
+  // almost collinear with a wide stream: orthogonalised against it, speed and place are biased;
+  // without that, an error of the flow is scored as a stream.
+  std::vector<FoundPlace> ranked(std::vector<FoundPlace> places, bool flow_as_drawn) const {
+    ScorePlan scan = plan_;
+    scan.effects.clear(), scan.shapes.clear();
+    for (const FoundPlace& place : places) scan.effects.push_back(at(effect_, place));
+    if (flow_as_drawn) scan.nuisances.reset();
+    const std::vector<Sensitivities::Amplitude> scored = scored_amplitudes(scan, recordings_);
+    add_amplitudes(scored, effect_.paths.size(), places);
+    largest_first(places, &FoundPlace::gain);
+    return places;
+  }
+
+  // Whether one of these is the likeliest so far.
+  bool attempt(std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more) {
+    tried.insert(tried.end(), more.begin(), more.end());
+    std::erase(tried, best_);  // known already
+    std::vector<double> misfit(tried.size());
+    for_each_world(static_cast<int>(tried.size()), threads_, [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      ScorePlan with = plan_;
+      with.model = with_placed(plan_.model, effect_, tried[k]);
+      misfit[k] = misfit_of(with, recordings_);
+    });
+    const auto lowest = std::min_element(misfit.begin(), misfit.end());
+    if (lowest == misfit.end() || !(*lowest < least_)) return false;
+    least_ = *lowest, best_ = tried[static_cast<std::size_t>(lowest - misfit.begin())];
+    return true;
+  }
+
+  // Towards a likelier place and width between those of the grid, in ever smaller steps.
+  void refine() {
+    double step = 0.5 * kSpacing * plan_.model.tank.radius, factor = kWider;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      for (int k = 0; k < kMostSteps; ++k) {
+        std::vector<FoundPlace> near = neighbours(step, factor);
+        std::vector<FoundPlace> cleared, as_drawn;
+        for_each_world(2, threads_,
+                       [&](int i) { (i == 0 ? cleared : as_drawn) = ranked(near, i == 1); });
+        cleared.resize(kTriedBeside), as_drawn.resize(kTriedBeside);
+        if (!attempt(std::move(cleared), as_drawn)) break;
+      }
+      step *= 0.5, factor = std::sqrt(factor);
+    }
+  }
+
+  std::vector<FoundPlace> neighbours(double step, double factor) const {
+    std::vector<FoundPlace> out;
+    for (int k = 0; k < 6; ++k) {
+      const Rot way = rotation(kPi / 3 * k);
+      out.push_back({best_.x + step * way.c, best_.y + step * way.s, best_.width, {}});
+    }
+    out.push_back({best_.x, best_.y, best_.width * factor, {}});
+    out.push_back({best_.x, best_.y, best_.width / factor, {}});
+    return out;
+  }
+
+  const ScorePlan& plan_;
+  const Effect& effect_;
+  const std::vector<Recording>& recordings_;
+  int threads_;
+  FoundPlace best_;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
 
 PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
                      const std::vector<Recording>& recordings, int threads) {
-  const auto misfits = [&](const std::vector<FoundPlace>& tried) {
-    std::vector<double> out(tried.size());
-    for_each_world(static_cast<int>(tried.size()), threads, [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
-      ScorePlan with = plan;
-      with.model = with_placed(plan.model, effect, tried[k]);
-      out[k] = misfit_of(with, recordings);
-    });
-    return out;
-  };
-  std::vector<FoundPlace> cleared, as_drawn;
-  for_each_world(2, threads, [&](int i) {
-    (i == 0 ? cleared : as_drawn) = ranked(plan, effect, recordings, i == 1);
-  });
-  FoundPlace best;
-  double least = std::numeric_limits<double>::infinity();
-  const auto attempt = [&](std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more) {
-    tried.insert(tried.end(), more.begin(), more.end());
-    std::erase(tried, best);  // known already
-    const std::vector<double> misfit = misfits(tried);
-    const auto lowest = std::min_element(misfit.begin(), misfit.end());
-    if (lowest != misfit.end() && *lowest < least) {
-      least = *lowest, best = tried[static_cast<std::size_t>(lowest - misfit.begin())];
-    }
-  };
-  attempt(leading(cleared), leading(as_drawn));
-  attempt(around(best, cleared), around(best, as_drawn));
-  best.gain = misfit_of(plan, recordings) - least;
-  return {best, map_of(std::move(cleared))};
+  return PlaceSearch(plan, effect, recordings, threads).run();
 }
 
 std::vector<LinearPlaces> linear_places(const ScorePlan& plan,

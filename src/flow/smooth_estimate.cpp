@@ -9,6 +9,7 @@ namespace lilytank {
 namespace {
 
 constexpr std::int64_t kFewest = 100;  // balances
+constexpr double kVisited = 0.96;      // of the tank's radius: where modules are
 
 // What moves the balls besides the mean flow.
 NoiseBudget noise_budget(const SmoothSolver& solver, std::span<const Recording> recordings,
@@ -107,6 +108,20 @@ FlowDifference drawn(const SmoothSolver& solver, const FlowEstimate& estimate, i
   return out;
 }
 
+std::vector<FlowDifference> components(const SmoothSolver& solver, const FlowEstimate& estimate,
+                                       int count, double radius) {
+  const Eigen::MatrixXd found = solver.components(count, radius);
+  std::vector<FlowDifference> out;
+  for (Eigen::Index k = 0; k < found.cols(); ++k) {
+    FlowDifference& one = out.emplace_back(estimate.cell.size());
+    for (int n = 0; n < solver.nodes().size(); ++n) {
+      FlowSample& of = one[static_cast<std::size_t>(solver.nodes().cell(n))];
+      of.mu_x = found(2 * n, k), of.mu_y = found(2 * n + 1, k);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 FlowEstimate estimate_smooth(std::span<const Recording> recordings, const BallPhysics& ball,
@@ -126,6 +141,9 @@ FlowEstimate estimate_smooth(std::span<const Recording> recordings, const BallPh
   fill_cells(out);
   out.noise = noise_budget(solver, recordings, ball, out);
   for (int run = 0; run < options.draws; ++run) out.draws.push_back(drawn(solver, out, run));
+  if (options.components > 0) {
+    out.components = components(solver, out, options.components, kVisited * ball.tank_radius);
+  }
   return out;
 }
 

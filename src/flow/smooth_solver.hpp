@@ -34,6 +34,9 @@ class SmoothSolver {
     Eigen::VectorXd mean, log_s2;
   };
   Change draw(int run) const;
+  /// Principal components of the mean flow's posterior, those of most variance within `radius` of
+  /// the centre, each times its standard deviation (Karhunen-Loeve), [value, component].
+  Eigen::MatrixXd components(int count, double radius) const;
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
@@ -45,6 +48,7 @@ class SmoothSolver {
   void step_mean();
   double step_both();
   Eigen::MatrixXd couple(Matrix& own) const;
+  Eigen::MatrixXd covariance_times(const Eigen::MatrixXd& of) const;
   void set_smoothness();
   void set_kick();
   void find_covariance();

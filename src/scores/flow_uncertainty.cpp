@@ -10,9 +10,6 @@ namespace lilytank {
 namespace {
 
 constexpr double kMeanError = 0.02, kGustError = 0.03;
-// Measured on blinded tanks: the true flow is 1.2 to 1.7 posterior deviations from the best map,
-// most at the centre and at the wall, where balls are rare.
-constexpr double kWider = 1.4;
 constexpr int kWaves = 12;
 
 // A smooth random function of variance one: waves of half to twice the tank's diameter.
@@ -43,7 +40,9 @@ class Smooth {
 };
 
 void widen(FlowSample& drawn, const FlowSample& best) {
-  const auto wider = [](double& value, double about) { value = about + kWider * (value - about); };
+  const auto wider = [](double& value, double about) {
+    value = about + kPosteriorScale * (value - about);
+  };
   wider(drawn.mu_x, best.mu_x), wider(drawn.mu_y, best.mu_y);
   wider(drawn.sigma_x, best.sigma_x), wider(drawn.sigma_y, best.sigma_y);
   drawn.sigma_x = std::max(drawn.sigma_x, 0.0), drawn.sigma_y = std::max(drawn.sigma_y, 0.0);

@@ -18,16 +18,17 @@ using Vector = Eigen::VectorXd;
 
 // Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
-// Of a map from 12 min of balls, 70 and 80 % of the errors' variance. Twice as many of the mean
-// lower the scatter of scores by a tenth and cost a quarter of a diagnosis.
-constexpr std::size_t kMeanModes = 160, kGustModes = 16;
+// Of a map from 12 min of balls, 80 % of the errors' variance. With these, the scatter of most
+// scores by the rest is a third of what the map leaves open in any case.
+constexpr std::size_t kMeanModes = 256, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
 constexpr int kMostCells = 50;     // a side of the grid: finer maps would need gigabytes
-constexpr double kVisited = 0.93;  // of the radius: where modules' centres are
+constexpr double kVisited = 0.96;  // of the radius: where modules are
 constexpr double kLeastVariance = 1e-4;
 
 // Errors of a flow map, [value, draw]: of the mean, first along x, and, relative, of the gusts.
+// Divided by the root of their number: a sum of squares is a variance.
 struct Errors {
   Matrix mean, gusts;
 };
@@ -57,8 +58,36 @@ Errors drawn_errors(const FlowMaps& maps, const std::vector<Vec2>& places, std::
       out.gusts(i, d) = b.sigma_x > 0 ? a.sigma_x / b.sigma_x - 1 : 0;
     }
   });
-  out.mean.colwise() -= Vector(out.mean.rowwise().mean());
-  out.gusts.colwise() -= Vector(out.gusts.rowwise().mean());
+  const auto centre = [](Matrix& of) {
+    of.colwise() -= Vector(of.rowwise().mean());
+    of /= std::sqrt(kDraws - 1.0);
+  };
+  centre(out.mean), centre(out.gusts);
+  return out;
+}
+
+// Columns of which the sum of squares is the covariance of the mean's errors: where the posterior's
+// components are known, these and draws of the other errors. Draws of the posterior itself are too
+// few to find its components: fewer than it has directions.
+Matrix root_of_mean(const FlowMaps& maps, const std::vector<Vec2>& places, const Errors& drawn,
+                    std::uint64_t seed, int threads) {
+  if (maps.components().empty()) return drawn.mean;
+  const FlowField& field = *maps.best();
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Matrix open(2 * n, static_cast<Eigen::Index>(maps.components().size()));
+  for (Eigen::Index k = 0; k < open.cols(); ++k) {
+    const FlowField one(field.cells(), field.extent(),
+                        maps.components()[static_cast<std::size_t>(k)], field.measured(),
+                        field.interpolation());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Vec2& at = places[static_cast<std::size_t>(i)];
+      const FlowSample of = one.at(at.x(), at.y());
+      open(i, k) = kPosteriorScale * of.mu_x, open(n + i, k) = kPosteriorScale * of.mu_y;
+    }
+  }
+  const Matrix others = drawn_errors(FlowMaps(maps.best()), places, seed, threads).mean;
+  Matrix out(2 * n, open.cols() + others.cols());
+  out << open, others;
   return out;
 }
 
@@ -69,7 +98,7 @@ Matrix components(const Matrix& errors, const std::vector<Eigen::Index>& rows, s
   const Eigen::SelfAdjointEigenSolver<Matrix> solved(within.transpose() * within);
   const Matrix leading =
       solved.eigenvectors().rightCols(static_cast<Eigen::Index>(count)).rowwise().reverse();
-  return errors * leading / std::sqrt(kDraws - 1.0);
+  return errors * leading;
 }
 
 // The values of a grid about a cell that modules feel: the mean over 3 x 3 cells, a module's side,
@@ -108,7 +137,7 @@ Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t see
   }
   both = visited;
   for (const Eigen::Index i : visited) both.push_back(n + i);
-  mean_basis_ = components(errors.mean, both, kMeanModes);
+  mean_basis_ = components(root_of_mean(maps, places, errors, seed, threads), both, kMeanModes);
   gust_basis_ = components(errors.gusts, visited, kGustModes);
   const double pitch = 2 * extent_ / cells_, gain = model.flow.K_v;
   changes_.resize(static_cast<std::size_t>(n) * kOfCell);
@@ -136,7 +165,7 @@ Matrix Nuisances::known_for(const FlowMaps& maps, std::uint64_t seed, int thread
   const auto fill = [&](const Matrix& basis, const Matrix& of, Eigen::Index first) {
     const Matrix amplitudes = least_squares(basis, of);
     auto block = covariance.block(first, first, basis.cols(), basis.cols());
-    block = amplitudes * amplitudes.transpose() / (kDraws - 1.0);
+    block = amplitudes * amplitudes.transpose();
     block.diagonal().array() += kLeastVariance;
   };
   fill(mean_basis_, errors.mean, kParameters);
