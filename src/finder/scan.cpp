@@ -156,30 +156,38 @@ class PlaceSearch {
     return true;
   }
 
-  // Towards a likelier place and width between those of the grid, in ever smaller steps.
+  // Towards a likelier place and width between those of the grid, in ever smaller steps, and
+  // amplitudes that a filter with the effect in its model finds there.
   void refine() {
+    attempt({corrected()}, {});
     double step = 0.5 * kSpacing * plan_.model.tank.radius, factor = kWider;
     for (int halving = 0; halving < kHalvings; ++halving) {
-      for (int k = 0; k < kMostSteps; ++k) {
-        std::vector<FoundPlace> near = neighbours(step, factor);
-        std::vector<FoundPlace> cleared, as_drawn;
-        for_each_world(2, threads_,
-                       [&](int i) { (i == 0 ? cleared : as_drawn) = ranked(near, i == 1); });
-        cleared.resize(kTriedBeside), as_drawn.resize(kTriedBeside);
-        if (!attempt(std::move(cleared), as_drawn)) break;
+      for (int k = 0; k < kMostSteps && attempt(neighbours(step, factor), {}); ++k) {
+        attempt({corrected()}, {});
       }
       step *= 0.5, factor = std::sqrt(factor);
     }
   }
 
-  std::vector<FoundPlace> neighbours(double step, double factor) const {
-    std::vector<FoundPlace> out;
-    for (int k = 0; k < 6; ++k) {
-      const Rot way = rotation(kPi / 3 * k);
-      out.push_back({best_.x + step * way.c, best_.y + step * way.s, best_.width, {}});
+  FoundPlace corrected() const {
+    ScorePlan with = plan_;
+    with.model = with_placed(plan_.model, effect_, best_);
+    const Eigen::VectorXd more =
+        joint_amplitudes(with, recordings_, {at(effect_, best_)}).front().estimate;
+    FoundPlace out = best_;
+    for (std::size_t c = 0; c < out.amplitudes.size(); ++c) {
+      out.amplitudes[c] += more(static_cast<Eigen::Index>(c));
     }
-    out.push_back({best_.x, best_.y, best_.width * factor, {}});
-    out.push_back({best_.x, best_.y, best_.width / factor, {}});
+    return out;
+  }
+
+  std::vector<FoundPlace> neighbours(double step, double factor) const {
+    std::vector<FoundPlace> out(8, best_);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Rot way = rotation(kPi / 3 * static_cast<double>(k));
+      out[k].x += step * way.c, out[k].y += step * way.s;
+    }
+    out[6].width *= factor, out[7].width /= factor;
     return out;
   }
 

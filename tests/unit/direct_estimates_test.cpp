@@ -31,15 +31,15 @@ Effect stream_at(const Model& model, double x, double y, double width) {
   return somewhere(model, "local_flow", x, y, width);
 }
 
-// A stream is found where it is, at its strength; the grid of places is 5 cm wide.
+// A stream is found where it is, between places of the grid, which are 5 cm apart, at its strength.
 TEST(Scores, TellThePlaceOfAStream) {
   const Model model = drifting(8);
   Effect stream = stream_at(model, -0.05, 0.12, 0.06);
   const auto recordings = filmed(with_effect(model, stream, {0.12, -0.06}), 60, 5);
   const FoundPlace found = find_place(plan_for(model, recordings), stream, recordings, 1).best;
-  EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.05);
-  EXPECT_NEAR(found.amplitudes[0], 2, 1);  // in sizes of 6 cm/s
-  EXPECT_NEAR(found.amplitudes[1], -1, 1);
+  EXPECT_LT(std::hypot(found.x + 0.05, found.y - 0.12), 0.012);
+  EXPECT_NEAR(found.amplitudes[0], 2, 0.15);  // in sizes of 6 cm/s
+  EXPECT_NEAR(found.amplitudes[1], -1, 0.15);
 }
 
 // A disc of stronger drag likewise; it is no stream.
@@ -52,7 +52,7 @@ TEST(Scores, TellThePlaceOfAPatch) {
   const PlaceScan scan = find_place(plan, patch, recordings, 1);
   const FoundPlace& found = scan.best;
   EXPECT_LT(std::hypot(found.x + 0.1, found.y - 0.08), 0.03);
-  EXPECT_NEAR(found.amplitudes[0], 5, 2);  // in sizes of 0.3
+  EXPECT_NEAR(found.amplitudes[0], 5, 1.25);  // in sizes of 0.3
   const FoundPlace stream = find_place(plan, stream_at(model, 0, 0, 0.06), recordings, 1).best;
   EXPECT_GT(found.gain, stream.gain + 100);
   // The map over the tank peaks there.
