@@ -18,8 +18,8 @@ using Vector = Eigen::VectorXd;
 
 // Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
-// Of a map from 12 min of balls, 80 % of the errors' variance. With these, the scatter of most
-// scores by the rest is a third of what the map leaves open in any case.
+// Of a map from 12 min of balls, 68 % of the variance of the errors of the mean where modules are.
+// Beside them most scores scatter as their information says (docs/validation.md).
 constexpr std::size_t kMeanModes = 256, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
