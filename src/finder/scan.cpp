@@ -18,10 +18,10 @@ constexpr double kWidths[] = {0.04, 0.06, 0.09};    // m
 constexpr double kMapWidth = kWidths[1];
 constexpr double kPlacesApart = 0.06;                    // m, of places that are tried
 constexpr std::size_t kTriedPlaces = 3, kTriedNear = 4;  // of each way to rank them
-// Steps between places of the grid: halvings, steps of a length, and places tried of each ranking.
+// Between places of the grid: halvings of the step, most steps of a length, and the first steps'
+// factor on a width.
 constexpr int kHalvings = 2, kMostSteps = 3;
-constexpr std::size_t kTriedBeside = 2;
-constexpr double kWider = 1.3;     // factor on a width, of the first steps
+constexpr double kWider = 1.3;
 constexpr double kLonger = 1.25;   // from a range to the next that is tried
 constexpr double kClearRise = 30;  // twice a log-likelihood: a rise that is no chance
 
@@ -188,6 +188,11 @@ class PlaceSearch {
       out[k].x += step * way.c, out[k].y += step * way.s;
     }
     out[6].width *= factor, out[7].width /= factor;
+    const FitParameter &edge = effect_.refine[0], &width = effect_.refine[2];
+    std::erase_if(out, [&](const FoundPlace& place) {
+      return std::hypot(place.x, place.y) > edge.high || place.width < width.low ||
+             place.width > width.high;
+    });
     return out;
   }
 
