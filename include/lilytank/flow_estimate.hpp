@@ -58,6 +58,9 @@ struct FlowOptions {
   int components = 0;  ///< number of its principal components (smooth only)
 };
 
+/// Of the tank's radius: where modules are.
+inline constexpr double kVisitedRadius = 0.96;
+
 /// One field's difference from another, cell by cell, m/s.
 using FlowDifference = std::vector<FlowSample>;
 
@@ -92,8 +95,8 @@ struct FlowEstimate {
   /// Draws from the posterior of mean and deviation together, less the estimate: fields that the
   /// data and their smoothness allow as well. Zero outside the tank.
   std::vector<FlowDifference> draws;
-  /// Principal components of the posterior of the mean, those of most variance where bodies are,
-  /// each times its standard deviation (Karhunen-Loeve).
+  /// Principal components of the posterior of the mean, those of most variance within
+  /// kVisitedRadius, each times its standard deviation (Karhunen-Loeve).
   std::vector<FlowDifference> components;
   double thinning = 0;    ///< s between samples of a track that count as independent (paper only)
   double smoothness = 0;  ///< effective number of free values of the mean field (smooth only)

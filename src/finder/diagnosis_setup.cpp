@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scores/nuisances.hpp"
 #include "text/number.hpp"
 
 namespace lilytank {
 namespace {
 
-// A variance by so many draws is known to 5 %. The components are those that scores are cleared of
-// (nuisances.hpp).
-constexpr int kPosteriorDraws = 1000, kPosteriorComponents = 256;
+constexpr int kPosteriorDraws = 1000;  // a variance by these is known to 5 %
 
 CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisOptions& o,
                                   const DiagnosisBudget& budget) {
@@ -23,7 +22,7 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
                                     [](const Recording& r) { return r.body == BodyKind::lily; });
   c.hold_out = marked || lilies < 2 ? 0 : std::min(o.hold_out, static_cast<int>(lilies) - 1);
   c.flow_draws = budget.flow_draws;
-  c.posterior_draws = kPosteriorDraws, c.posterior_components = kPosteriorComponents;
+  c.posterior_draws = kPosteriorDraws, c.posterior_components = Nuisances::kMeanModes;
   c.round = budget.centre, c.seed = o.seed, c.out = o.out, c.force = o.force;
   c.threads = o.threads, c.stop = o.stop, c.progress = o.progress;
   return c;

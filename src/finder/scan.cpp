@@ -118,8 +118,7 @@ class PlaceSearch {
     const double without = misfit_of(plan_, recordings_);
     attempt(leading(cleared), leading(as_drawn));
     attempt(around(best_, cleared), around(best_, as_drawn));
-    best_.gain = without - least_;
-    if (best_.gain > kClearRise) refine();
+    if (without - least_ > kClearRise) refine();
     best_.gain = without - least_;
     return {best_, map_of(std::move(cleared))};
   }
@@ -140,7 +139,7 @@ class PlaceSearch {
   }
 
   // Whether one of these is the likeliest so far.
-  bool attempt(std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more) {
+  bool attempt(std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more = {}) {
     tried.insert(tried.end(), more.begin(), more.end());
     std::erase(tried, best_);  // known already
     std::vector<double> misfit(tried.size());
@@ -159,11 +158,11 @@ class PlaceSearch {
   // Towards a likelier place and width between those of the grid, in ever smaller steps, and
   // amplitudes that a filter with the effect in its model finds there.
   void refine() {
-    attempt({corrected()}, {});
+    attempt({corrected()});
     double step = 0.5 * kSpacing * plan_.model.tank.radius, factor = kWider;
     for (int halving = 0; halving < kHalvings; ++halving) {
-      for (int k = 0; k < kMostSteps && attempt(neighbours(step, factor), {}); ++k) {
-        attempt({corrected()}, {});
+      for (int k = 0; k < kMostSteps && attempt(neighbours(step, factor)); ++k) {
+        attempt({corrected()});
       }
       step *= 0.5, factor = std::sqrt(factor);
     }

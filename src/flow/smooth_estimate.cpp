@@ -9,7 +9,6 @@ namespace lilytank {
 namespace {
 
 constexpr std::int64_t kFewest = 100;  // balances
-constexpr double kVisited = 0.96;      // of the tank's radius: where modules are
 
 // What moves the balls besides the mean flow.
 NoiseBudget noise_budget(const SmoothSolver& solver, std::span<const Recording> recordings,
@@ -142,7 +141,7 @@ FlowEstimate estimate_smooth(std::span<const Recording> recordings, const BallPh
   out.noise = noise_budget(solver, recordings, ball, out);
   for (int run = 0; run < options.draws; ++run) out.draws.push_back(drawn(solver, out, run));
   if (options.components > 0) {
-    out.components = components(solver, out, options.components, kVisited * ball.tank_radius);
+    out.components = components(solver, out, options.components, kVisitedRadius * ball.tank_radius);
   }
   return out;
 }

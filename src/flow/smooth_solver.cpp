@@ -18,8 +18,7 @@ constexpr int kFirstRounds = 5, kRounds = 7;
 constexpr double kOutlier = 20;     // variances; a fair difference exceeds this once in 22,000
 constexpr double kSettled = 3e-4;   // m/s, change of the mean flow
 constexpr double kLongestStep = 1;  // of log s^2 in a round
-// Subspace iteration: vectors beside those that are wanted, and passes. The last component's
-// variance is then within 2 % of its own.
+// Subspace iteration: vectors beside those that are wanted, and passes.
 constexpr int kBeside = 32, kPasses = 4;
 
 }  // namespace

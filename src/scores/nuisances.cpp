@@ -18,13 +18,10 @@ using Vector = Eigen::VectorXd;
 
 // Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
 constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
-// Of a map from 12 min of balls, 68 % of the variance of the errors of the mean where modules are.
-// Beside them most scores scatter as their information says (docs/validation.md).
-constexpr std::size_t kMeanModes = 256, kGustModes = 16;
+constexpr std::size_t kMeanModes = Nuisances::kMeanModes, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
-constexpr int kMostCells = 50;     // a side of the grid: finer maps would need gigabytes
-constexpr double kVisited = 0.96;  // of the radius: where modules are
+constexpr int kMostCells = 50;  // a side of the grid: finer maps would need gigabytes
 constexpr double kLeastVariance = 1e-4;
 
 // Errors of a flow map, [value, draw]: of the mean, first along x, and, relative, of the gusts.
@@ -133,7 +130,7 @@ Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t see
   std::vector<Eigen::Index> visited, both;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double radius = std::sqrt(places[static_cast<std::size_t>(i)].squaredNorm());
-    if (radius <= kVisited * model.tank.radius) visited.push_back(i);
+    if (radius <= kVisitedRadius * model.tank.radius) visited.push_back(i);
   }
   both = visited;
   for (const Eigen::Index i : visited) both.push_back(n + i);

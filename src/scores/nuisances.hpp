@@ -26,6 +26,10 @@ class Nuisances {
   Eigen::MatrixXd known() const { return Eigen::MatrixXd::Identity(count(), count()); }
   /// The same of other maps on the grid of those of the constructor.
   Eigen::MatrixXd known_for(const FlowMaps& maps, std::uint64_t seed, int threads = 0) const;
+  /// How many are errors of the mean flow: of a map from 12 min of balls, 68 % of their variance
+  /// where modules are. Beside them most scores scatter as their information says
+  /// (docs/validation.md).
+  static constexpr std::size_t kMeanModes = 256;
   /// The first ones, which are parameters of the model and not errors of the flow.
   static constexpr Eigen::Index kParameters = 5;
 
