@@ -10,20 +10,22 @@
 namespace lilytank {
 namespace {
 
-// Pushed by one of two drivers, a cart is found to be pushed by that one, or by its square.
-Diagnosis steadily_pushed_by(double (*force)(double voltage)) {
+using Signal = double (*)(double time, double phase);
+
+// A cart that is pushed for so many frames while two drivers are recorded, of which the voltage is
+// the first.
+Diagnosis pushed_by(Signal force, Signal voltage, int frames) {
   BodyExperiment e;
   e.name = "pushed", e.noise = 1e-3, e.drivers = {"voltage", "temperature"};
   for (std::uint64_t r = 1; r <= 2; ++r) {
     BodyRun run;
     run.name = std::to_string(r), run.bodies = {"cart"}, run.mass = {1}, run.radius = {0};
     double x = 0, v = 0;
-    for (int k = 0; k < 60; ++k) {
-      const double h = 0.1, t = h * k, phase = static_cast<double>(r);
-      const double voltage = std::sin(2 * t + phase), a = force(voltage);
+    for (int k = 0; k < frames; ++k) {
+      const double h = 0.1, t = h * k, phase = static_cast<double>(r), a = force(t, phase);
       run.time.push_back(t);
       run.position.push_back(x + 1e-3 * normal_pair({r, Stream::camera, k, 0, 0})[0]);
-      run.drivers.push_back(voltage), run.drivers.push_back(std::cos(t + phase));
+      run.drivers.push_back(voltage(t, phase)), run.drivers.push_back(std::cos(t + phase));
       x += h * v + 0.5 * h * h * a, v += h * a;
     }
     e.runs.push_back(run);
@@ -31,8 +33,16 @@ Diagnosis steadily_pushed_by(double (*force)(double voltage)) {
   return diagnosis_of(e);
 }
 
+double steady(double time, double phase) {
+  return std::sin(2 * time + phase);
+}
+Diagnosis steadily_pushed_by(Signal force) {
+  return pushed_by(force, steady, 60);
+}
+
 TEST(Drivers, HaveTheirNamesInTheReport) {
-  const Diagnosis d = steadily_pushed_by([](double voltage) { return 0.3 * voltage; });
+  const Diagnosis d =
+      steadily_pushed_by([](double t, double phase) { return 0.3 * steady(t, phase); });
   ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
   const DiagnosisFinding& f = d.findings.front();
   EXPECT_EQ(f.effect, "driver_1") << diagnosis_text(d);
@@ -42,7 +52,8 @@ TEST(Drivers, HaveTheirNamesInTheReport) {
 }
 
 TEST(Drivers, ActByTheirSquare) {
-  const Diagnosis d = steadily_pushed_by([](double voltage) { return 0.3 * voltage * voltage; });
+  const Diagnosis d = steadily_pushed_by(
+      [](double t, double phase) { return 0.3 * std::pow(steady(t, phase), 2); });
   ASSERT_EQ(d.verdict, Verdict::missing) << diagnosis_text(d);
   const DiagnosisFinding& f = d.findings.front();
   EXPECT_EQ(f.effect, "driver_1_squared") << diagnosis_text(d);
@@ -58,24 +69,8 @@ double voltage(double time, double phase) {
   return amplitude(time, phase) * std::sin(2 * time + phase);
 }
 
-// A cart that the voltage pushes, the first of two drivers.
-Diagnosis pushed_by(double (*force)(double time, double phase)) {
-  BodyExperiment e;
-  e.name = "pushed", e.noise = 1e-3, e.drivers = {"voltage", "temperature"};
-  for (std::uint64_t r = 1; r <= 2; ++r) {
-    BodyRun run;
-    run.name = std::to_string(r), run.bodies = {"cart"}, run.mass = {1}, run.radius = {0};
-    double x = 0, v = 0;
-    for (int k = 0; k < 200; ++k) {
-      const double h = 0.1, t = h * k, phase = static_cast<double>(r), a = force(t, phase);
-      run.time.push_back(t);
-      run.position.push_back(x + 1e-3 * normal_pair({r, Stream::camera, k, 0, 0})[0]);
-      run.drivers.push_back(voltage(t, phase)), run.drivers.push_back(std::cos(t + phase));
-      x += h * v + 0.5 * h * h * a, v += h * a;
-    }
-    e.runs.push_back(run);
-  }
-  return diagnosis_of(e);
+Diagnosis pushed_by(Signal force) {
+  return pushed_by(force, voltage, 200);
 }
 
 TEST(Drivers, ActAtOnceWhereALagIsPossible) {
