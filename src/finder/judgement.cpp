@@ -80,9 +80,10 @@ Judged judge(PreparedTank& tank, MeasuredVectors measured, const std::vector<Rec
   }
   SelectedModel first = explained(ensemble, selection, sensitivity, residual);
   const DiagnosisOptions& options = tank.setup.options;
+  const Model calibrated = tank.baseline_at(ensemble.calibrated(measured.observed.summary));
   RefinedSelection r = refined_selection(
-      {ensemble, sensitivity, measured.observed, residual, tank.selection.baseline_misfit(residual),
-       options.false_alarms, options.threads},
+      {ensemble, sensitivity, measured.observed, calibrated, residual,
+       tank.selection.baseline_misfit(residual), options.false_alarms, options.threads},
       {std::move(first), std::move(selection), std::move(measured.details)});
   std::vector<EffectFit> open = report_selection(ensemble, r, residual, options.false_alarms, out);
   std::string tag = hex(fnv_of(measured.observed.scores));

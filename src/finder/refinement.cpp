@@ -23,6 +23,13 @@ bool is_clear(const Effect& effect, const JointAmplitudes& own) {
   return own.gain > kClearGain && (effect.two_sided || own.estimate.minCoeff() > 0);
 }
 
+// Whether something is found, and none of it pushes or turns modules on average.
+bool only_noise(const ScorePlan& plan, const std::vector<EffectFit>& found) {
+  return !found.empty() && std::ranges::none_of(found, [&](const EffectFit& f) {
+    return f.effect < 0 || effect_in(plan, f).mean_force;
+  });
+}
+
 // Distance between parameter values; ranges on a log scale.
 double far_apart(const std::vector<HeldParameter>& a, const std::vector<HeldParameter>& b) {
   if (a.size() == 1) return std::fabs(std::log(a[0].value / b[0].value));
@@ -52,6 +59,7 @@ Refinement::Refinement(const RefinementInput& input, const RefinedSelection& sta
       sensitivity_(input.sensitivity),
       residual_(input.residual),
       calibrated_(input.ensemble.calibrated(input.observed.summary)),
+      scan_model_(input.calibrated),
       baseline_misfit_(input.baseline_misfit),
       threads_(input.threads),
       state_{start.selection, start.details, {}, {}} {
@@ -92,6 +100,10 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
   if (by_place) {
     only = likeliest_first(*by_place);
     const EffectFit likeliest = fit_at_place(only->clear.front().fit);
+    if (only_noise(plan_, m.found)) {
+      SelectedModel with = state_.selection.select(residual_, {likeliest});
+      if (with.found.size() == 1) m = std::move(with);
+    }
     if (shows_only(m, likeliest)) {
       m.found = {likeliest};
     } else {
@@ -285,12 +297,15 @@ RefinedSelection refined_selection(const RefinementInput& input, RefinedSelectio
   const ScorePlan& plan = input.ensemble.plan();
   const std::vector<Recording>& recordings = input.sensitivity.recordings();
   std::optional<PlaceFinding> by_place;
-  if (start.model.found.empty()) {
+  // A stream between the places of the plan may look like noise that modules share.
+  if (start.model.found.empty() || only_noise(plan, start.model.found)) {
     by_place = find_clear_place(input.ensemble, recordings, start.selection.effect_threshold(),
                                 kOfPlaces * input.false_alarms);
-    if (!by_place) return start;
+    if (!by_place && start.model.found.empty()) return start;
   }
-  start.details.scans = scans_of(plan, recordings, input.threads);
+  ScorePlan scan = plan;
+  scan.model = input.calibrated;
+  start.details.scans = scans_of(scan, recordings, input.threads);
   if (!by_place && is_plain(plan, start.selection, start.model, input.residual)) return start;
   return Refinement(input, start).run(by_place);
 }

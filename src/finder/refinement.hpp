@@ -37,6 +37,7 @@ struct RefinementInput {
   ReferenceEnsemble& ensemble;
   ScoreSensitivity& sensitivity;  ///< of the recordings
   const Vectors& observed;
+  const Model& calibrated;  ///< the baseline with the parameters calibrated to the recordings
   const Eigen::VectorXd& residual;
   double baseline_misfit;  ///< of the residual, by the scatter of nulls
   double false_alarms;     ///< false-positive rate of null experiments
@@ -173,6 +174,7 @@ class Refinement {
   ScoreSensitivity& sensitivity_;
   const Eigen::VectorXd& residual_;
   const Eigen::VectorXd calibrated_;  // the recordings' parameters by the baseline
+  const Model& scan_model_;           // the baseline with these, as errors of them shift places
   const double baseline_misfit_;
   const int threads_;
   State state_;

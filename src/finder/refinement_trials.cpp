@@ -25,6 +25,7 @@ constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range
 
 ScorePlan Refinement::beside(const SelectedModel& m, const Effect& scanned) const {
   ScorePlan plan = plan_;
+  plan.model = scan_model_;
   for (const EffectFit& f : m.found) {
     const Effect effect = found_effect(f);
     const bool own = f.effect < 0 ? effect.variable == scanned.variable : effect.is_of(scanned);

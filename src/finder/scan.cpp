@@ -115,7 +115,7 @@ class PlaceSearch {
     for_each_world(2, threads_, [&](int i) {
       (i == 0 ? cleared : as_drawn) = ranked(grid_of(plan_.model, kWidths), i == 1);
     });
-    const double without = misfit_of(plan_, recordings_);
+    const double without = deviance_of(plan_, recordings_);
     attempt(leading(cleared), leading(as_drawn));
     attempt(around(best_, cleared), around(best_, as_drawn));
     if (without - least_ > kClearRise) refine();
@@ -142,16 +142,16 @@ class PlaceSearch {
   bool attempt(std::vector<FoundPlace> tried, const std::vector<FoundPlace>& more = {}) {
     tried.insert(tried.end(), more.begin(), more.end());
     std::erase(tried, best_);  // known already
-    std::vector<double> misfit(tried.size());
+    std::vector<double> deviance(tried.size());
     for_each_world(static_cast<int>(tried.size()), threads_, [&](int i) {
       const auto k = static_cast<std::size_t>(i);
       ScorePlan with = plan_;
       with.model = with_placed(plan_.model, effect_, tried[k]);
-      misfit[k] = misfit_of(with, recordings_);
+      deviance[k] = deviance_of(with, recordings_);
     });
-    const auto lowest = std::min_element(misfit.begin(), misfit.end());
-    if (lowest == misfit.end() || !(*lowest < least_)) return false;
-    least_ = *lowest, best_ = tried[static_cast<std::size_t>(lowest - misfit.begin())];
+    const auto lowest = std::min_element(deviance.begin(), deviance.end());
+    if (lowest == deviance.end() || !(*lowest < least_)) return false;
+    least_ = *lowest, best_ = tried[static_cast<std::size_t>(lowest - deviance.begin())];
     return true;
   }
 

@@ -11,7 +11,7 @@ namespace lilytank {
 /// The place of an effect that has one, and its width, with which the recordings are likeliest,
 /// one step ahead and errors of the flow allowed for, of several widths about the places of a
 /// hexagonal grid. The scores of all places, which are linear, propose; the predictor with the
-/// effect in its model at each proposal decides (scores.hpp, misfit_of). `threads`: 0 is one a
+/// effect in its model at each proposal decides (scores.hpp, deviance_of). `threads`: 0 is one a
 /// core.
 PlaceScan find_place(const ScorePlan& plan, const Effect& effect,
                      const std::vector<Recording>& recordings, int threads);

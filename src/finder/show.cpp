@@ -268,7 +268,7 @@ bool likelier_but_for_errors(const ScorePlan& plan, const Model& after,
   for (const Recording& one : recordings) {
     ScorePlan with = before;
     with.model = in_phase(after, one, plan.predictor);
-    fallen += misfit_of(before, {one}) - misfit_of(with, {one});
+    fallen += deviance_of(before, {one}) - deviance_of(with, {one});
   }
   return fallen > 0;
 }

@@ -22,8 +22,16 @@ constexpr double kKnotKnown = 10;  // information of a knot's value, in sizes, b
 constexpr double kTouch = 1e-3;    // m: nearer ones may touch before the next frame
 constexpr double kHaste = 1.5;     // of the way that a gap closes by until then
 constexpr double kLost = 10;       // deviations: no innovation but a fault of the tracker
-constexpr int kNever = -9;         // no frame
-constexpr double kLoss = 1.5;      // 1/s, share of a velocity that drag takes at usual slips
+constexpr double kPlaceScale = 1e-3, kHeadingScale = 1e-2;  // m, rad
+constexpr int kNever = -9;                                  // no frame
+constexpr double kLoss = 1.5;  // 1/s, share of a velocity that drag takes at usual slips
+
+// Log determinant of an innovation's covariance, by its standard deviations along both axes and of
+// the heading relative to kPlaceScale and kHeadingScale. Without it the deviance would prefer
+// models that expect more scatter.
+double log_determinant(double sd_place, double sd_heading) {
+  return 4 * std::log(sd_place / kPlaceScale) + 2 * std::log(sd_heading / kHeadingScale);
+}
 
 std::size_t components_of(const std::vector<Effect>& effects) {
   std::size_t count = 0;
@@ -93,7 +101,7 @@ class Scorer {
     return out;
   }
 
-  double misfit() const { return misfit_ - sensitivities_.absorbed(known_); }
+  double deviance() const { return deviance_ - sensitivities_.absorbed(known_); }
 
   Eigen::MatrixXd informations() const { return sensitivities_.informations(known_); }
   ScoreSums sums() const { return {sensitivities_.scores(), sensitivities_.products()}; }
@@ -224,7 +232,10 @@ class Scorer {
     const bool lost = std::max({std::fabs(out.zx), std::fabs(out.zy), std::fabs(out.zt)}) > kLost;
     const bool held = frame.contact[i] > kContactPush || touching_[i] != 0 || assembly_[i] >= 0;
     if (visible && frame.usable[i] != 0 && !held) {
-      for (const double z : {out.zx, out.zy, out.zt}) misfit_ += std::min(z * z, kLost * kLost) - 1;
+      for (const double z : {out.zx, out.zy, out.zt}) {
+        deviance_ += std::min(z * z, kLost * kLost) - 1;
+      }
+      deviance_ += log_determinant(frame.sd_x[i], frame.sd_theta[i]);
     }
     out.usable = visible && frame.usable[i] != 0 && !held && !lost;
     if (last_[out.module] + 1 != frame.frame || held || lost) sensitivities_.forget(out.module);
@@ -248,7 +259,7 @@ class Scorer {
     const bool lost = farthest > kLost, usable = visible && a.usable && !held && !lost;
     if (usable) {
       const double x = e.dx / e.sd_x, y = e.dy / e.sd_x, t = e.dtheta / e.sd_theta;
-      misfit_ += x * x + y * y + t * t - 3;
+      deviance_ += x * x + y * y + t * t - 3 + log_determinant(e.sd_x, e.sd_theta);
     }
     if (last_[body] + 1 != frame.frame || a.begun == frame.frame || held || lost) {
       sensitivities_.forget(body);
@@ -283,7 +294,7 @@ class Scorer {
   int recording_ = -1;
   std::unique_ptr<Features> features_;
   std::vector<Seen> seen_;
-  double misfit_ = 0;  // squares of innovations beyond 1 each
+  double deviance_ = 0;  // less what is absorbed
 };
 
 }  // namespace
@@ -333,11 +344,11 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
   return scorer.jointly();
 }
 
-double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings) {
+double deviance_of(ScorePlan plan, const std::vector<Recording>& recordings) {
   plan.shapes.clear(), plan.effects.clear();
   Scorer scorer(plan);
   scorer.run(recordings);
-  return scorer.misfit();
+  return scorer.deviance();
 }
 
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,

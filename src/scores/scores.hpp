@@ -57,9 +57,9 @@ std::vector<JointAmplitudes> joint_amplitudes(ScorePlan plan,
                                               const std::vector<Recording>& recordings,
                                               const std::vector<Effect>& effects);
 
-/// How far recordings are from what the plan's model predicts one step ahead, once errors of
-/// parameters and of the flow, and the effects beside, have taken what they can: minus twice the
-/// log-likelihood, less what it is expected to be.
-double misfit_of(ScorePlan plan, const std::vector<Recording>& recordings);
+/// Minus twice the log-likelihood of recordings, one step ahead, at the likeliest errors of the
+/// plan's parameters and flow map and the likeliest amplitudes of the effects beside; less a
+/// constant of the recordings.
+double deviance_of(ScorePlan plan, const std::vector<Recording>& recordings);
 
 }  // namespace lilytank

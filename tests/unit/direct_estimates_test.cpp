@@ -110,7 +110,22 @@ TEST(Scores, TellThePlaceOfAStrongWideStream) {
   // With it in the model the recordings are as the predictor expects, but for what it leaves out.
   ScorePlan with = known;
   with.model = with_effect(model, stream, {-0.12, -0.06});
-  EXPECT_LT(misfit_of(with, recordings), misfit_of(known, recordings) - 800);
+  EXPECT_LT(deviance_of(with, recordings), deviance_of(known, recordings) - 800);
+}
+
+// Larger drag makes the predictor expect more scatter from gusts, smaller drag less: neither is as
+// likely as the true one.
+TEST(Scores, PreferTheTrueDrag) {
+  const Model model = drifting(12);
+  const auto recordings = filmed(model, 60, 5);
+  const std::vector<std::string> paths{"forces.face_drag.K_F"};
+  const double K_F = parameter_value(model, paths[0]);
+  const auto deviance = [&](double factor) {
+    const Model other = with_parameters(model, paths, std::vector{factor * K_F});
+    return deviance_of(plan_for(other, recordings), recordings);
+  };
+  EXPECT_LT(deviance(1), deviance(1.3) - 20);
+  EXPECT_LT(deviance(1), deviance(0.7) - 20);
 }
 
 // A right stream beside a K_v that is too large loses one step ahead; allowing for that it is
