@@ -79,6 +79,10 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   null_residuals_ = held_out_residuals(summaries_, numbers, prior());
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
+  const std::vector<ScoreEntry> entries = plan_.entries();
+  for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
+    deviation_(k) = std::max(deviation_(k), entries[static_cast<std::size_t>(k)].least_deviation);
+  }
   // A floor: statistics that almost never vary would make any change significant.
   for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();

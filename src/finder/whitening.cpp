@@ -115,6 +115,11 @@ Whitening whitening_by_nulls(const Matrix& nulls, const Matrix& expected_correla
 
 Whitening with_nulls(Whitening w, const Matrix& nulls) {
   w.covariance = covariance_of(nulls.leftCols(w.named), w.expected_root);
+  // A statistic that shows little in most nulls has at least the deviation of its scale.
+  const Matrix off = nulls.leftCols(w.named).rowwise() - nulls.leftCols(w.named).colwise().mean();
+  const Vector variance =
+      off.colwise().squaredNorm().transpose() / static_cast<double>(nulls.rows() - 1);
+  w.covariance.diagonal() += (1 - variance.array()).cwiseMax(0).matrix();
   w.whitener = inverse_root(w.covariance);
   return w;
 }

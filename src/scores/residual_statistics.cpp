@@ -86,10 +86,10 @@ class Variance final : public ResidualStatistic {
   std::vector<ScoreEntry> entries() const override {
     std::vector<ScoreEntry> out{{"noise", "variance"}, {"noise", "variance of turning"}};
     for (int k = 0; k < kBins; ++k) {
-      out.push_back({"noise", "variance at slip " + std::to_string(k + 1)});
+      out.push_back({"noise", "variance at slip " + std::to_string(k + 1), 1});
     }
     for (int k = 0; k < kBins; ++k) {
-      out.push_back({"noise", "variance at radius " + std::to_string(k + 1)});
+      out.push_back({"noise", "variance at radius " + std::to_string(k + 1), 1});
     }
     for (const char* name :
          {"along the slip over across", "fourth moment", "far ones", "fourth moment of turning",
@@ -123,8 +123,13 @@ class Variance final : public ResidualStatistic {
   void append_to(std::vector<double>& values, ScoreDetails*) const override {
     const double all = std::max(all_.value(), 1e-9);
     values.push_back(std::log(all)), values.push_back(std::log(std::max(turn_.value(), 1e-9)));
-    for (const Mean& m : by_slip_) values.push_back(m.value() / all);
-    for (const Mean& m : by_radius_) values.push_back(m.value() / all);
+    // In standard errors of a mean of normal squares: slips and places may be rare, and a single
+    // frame is then no evidence.
+    const auto excess = [all](const Mean& m) {
+      return (m.sum / all - m.count) / std::sqrt(std::max(m.count, 1.0));
+    };
+    for (const Mean& m : by_slip_) values.push_back(excess(m));
+    for (const Mean& m : by_radius_) values.push_back(excess(m));
     values.push_back(along_.value() / std::max(across_.value(), 1e-9));
     values.push_back(fourth_.value() / (all * all)), values.push_back(std::sqrt(far_.value()));
     const double turn = std::max(turn_.value(), 1e-9);

@@ -17,6 +17,7 @@ class Nuisances;
 struct ScoreEntry {
   std::string group;  ///< score, module, noise, spectrum, contact, camera, bond, shape
   std::string name;
+  double least_deviation = 0;  ///< among null experiments, by theory; 0: unknown
 };
 
 /// What is measured: fixed before anything is measured, the same for recordings and simulations.
