@@ -294,7 +294,7 @@ class Scorer {
   int recording_ = -1;
   std::unique_ptr<Features> features_;
   std::vector<Seen> seen_;
-  double deviance_ = 0;  // less what is absorbed
+  double deviance_ = 0;  // before nuisances absorb a part
 };
 
 }  // namespace
