@@ -90,6 +90,7 @@ class IslandLanes {
   F push_apart(int rounds, Mask which);
   F keep_good(F deepest, F before, Mask which);
   void begin();
+  void mark_touched(Mask which);
   void accept(Mask which);
   void move(F h, Mask which);
 
@@ -286,15 +287,23 @@ HWY_NOINLINE void IslandLanes::begin() {
   }
 }
 
+// Marks what no longer has the twist of the start.
+HWY_NOINLINE void IslandLanes::mark_touched(Mask which) {
+  for (int k = 1; k < b.movers; ++k) {
+    MoverRows& m = b.mover[k];
+    const Mask off = (load(m.vx, o) != load(m.course_x, o)) |
+                     (load(m.vy, o) != load(m.course_y, o)) |
+                     (load(m.omega, o) != load(m.course_omega, o));
+    store(load_mask(m.touched, o) | (which & off), m.touched, o);
+  }
+}
+
 // Poses as they are now count as good.
 HWY_NOINLINE void IslandLanes::accept(Mask which) {
   for (int k = 1; k < b.movers; ++k) {
     MoverRows& m = b.mover[k];
     store(load(m.x, o), m.good_x, o), store(load(m.y, o), m.good_y, o);
     store(load(m.c, o), m.good_c, o), store(load(m.s, o), m.good_s, o);
-    const Mask off = (load(m.vx, o) != load(m.course_x, o)) |
-                     (load(m.vy, o) != load(m.course_y, o)) |
-                     (load(m.omega, o) != load(m.course_omega, o));
-    store(load_mask(m.touched, o) | (which & off), m.touched, o);
   }
+  mark_touched(which);
 }

@@ -36,6 +36,7 @@ void run_vector(Block& block, std::size_t first) {
     const F margin = kReach * limits.fastest * step + kReachSpare;
     Mask met = going & ~free;
     if (any(met)) met = contacts.approach(margin, step, met);
+    if (any(met)) l.mark_touched(met);  // a rebound can restore the twist, but not the way
     l.move(step, going);
     if (any(met)) contacts.rebound(step, met);
     left = choose(going, keep(step < left, left - step), left);

@@ -25,7 +25,7 @@ struct Scene {
 std::vector<Scene> scenes() {
   return {{"chain, firmware clock", test::chain_scene(Clock::firmware), 120, "3674c71333330d40"},
           {"chain, event clock", test::chain_scene(Clock::events), 120, "e11ebd68d3a4aa18"},
-          {"balls and modules", test::mixed_scene(), 60, "f68df91d9e2c7ff3"},
+          {"balls and modules", test::mixed_scene(), 60, "1f261a6c6dd3e31f"},
           {"packed", test::packed_scene(), 5, "95e0e173628c3d35"},
           {"moment-matched gusts", test::drawn_scene(Gusts::moment_matched, FlowAt::points), 30,
            "f6ba4b5b5e19b4ca"},
