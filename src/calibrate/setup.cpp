@@ -106,7 +106,7 @@ void find_summary(CalibrationSetup& setup) {
 std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& setup) {
   const CalibrationOptions& o = setup.options;
   Fnv hash;
-  hash.add("calibration 2 " + std::to_string(experiment.base.identity));
+  hash.add("calibration 3 " + std::to_string(experiment.base.identity));
   for (const auto* of : {&setup.training, &setup.held_out, &setup.balls}) add_recordings(*of, hash);
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const FitParameter& p = setup.parameters[i];

@@ -106,7 +106,8 @@ class Velocity final : public SummaryPart {
   std::array<double, kBins> histogram_{};
 };
 
-// How often bodies are in each ring about the centre, and how they move there.
+// How often bodies are in each ring about the centre, and how fast they go around there. Not
+// outwards: a body leaves a ring as often as it comes, so that the sum shows only missing frames.
 class Place final : public SummaryPart {
  public:
   explicit Place(const MotionSummary& s)
@@ -120,10 +121,10 @@ class Place final : public SummaryPart {
       const auto a = static_cast<std::size_t>(i - half_), b = static_cast<std::size_t>(i + half_);
       const double x = track.x[i], y = track.y[i], r = std::sqrt(x * x + y * y);
       const double vx = scale * (track.x[b] - track.x[a]), vy = scale * (track.y[b] - track.y[a]);
-      const double out = (x * vx + y * vy) / r, around = (x * vy - y * vx) / r;
-      if (out - out != 0 || around - around != 0) continue;
+      const double around = (x * vy - y * vx) / r;
+      if (around - around != 0) continue;
       const auto ring = static_cast<std::size_t>(std::min(r / width_, kRings - 1.0));
-      share_[ring] += 1, around_[ring] += around, out_[ring] += out, all_ += 1;
+      share_[ring] += 1, around_[ring] += around, all_ += 1;
     }
   }
   void report(SummaryValues& out) const override {
@@ -136,13 +137,12 @@ class Place final : public SummaryPart {
     // Products with the share: defined also where no body came.
     rings("share", [&](std::size_t r) { return std::sqrt(share_[r] / all); });
     rings("around", [&](std::size_t r) { return around_[r] / all; });
-    rings("outwards", [&](std::size_t r) { return out_[r] / all; });
   }
 
  private:
   int half_, stride_;
   double rate_, width_, all_ = 0;
-  std::array<double, kRings> share_{}, around_{}, out_{};
+  std::array<double, kRings> share_{}, around_{};
 };
 
 }  // namespace
