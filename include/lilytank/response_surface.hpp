@@ -82,6 +82,11 @@ class ResponseSurface {
   explicit ResponseSurface(const Design& design, Misfit misfit = Misfit::covariance,
                            Slopes slopes = Slopes::found);
 
+  /// Moves the surface to the mean of experiments (a row of numbers each) simulated at `point`, and
+  /// takes the scatter of these for the numbers' covariance: residuals of a design also hold what
+  /// is not quadratic, most of it for numbers that the parameters change most.
+  void anchor(const Eigen::VectorXd& point, const Eigen::MatrixXd& numbers);
+
   /// The mean of the numbers at a point.
   Eigen::VectorXd mean(const Eigen::VectorXd& point) const;
   /// Derivatives of the means, [number, parameter].

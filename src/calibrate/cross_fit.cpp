@@ -1,5 +1,6 @@
 #include "calibrate/cross_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "calibrate/design.hpp"
@@ -13,6 +14,19 @@ constexpr int kFolds = 8;
 
 // No bounds but a distance from the centre, in deviations of the design.
 const FitBounds kFree{{}, {}, 5};
+
+// Row i is estimated by the surface that was made without it.
+void estimate(const Eigen::MatrixXd& numbers, const Eigen::VectorXd& data, CrossFit& out) {
+  out.misfits.resize(numbers.rows());
+  for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
+    const ResponseSurface& model = out.models[static_cast<std::size_t>(i % kFolds)];
+    const LocalFit fit = model.fit(numbers.row(i).transpose(), kFree);
+    if (i == 0) out.estimates.resize(numbers.rows(), fit.point.size());
+    out.estimates.row(i) = fit.point, out.misfits(i) = fit.misfit;
+  }
+  LocalFit of_data = out.of(data);
+  out.answer = std::move(of_data.point), out.misfit = of_data.misfit;
+}
 
 }  // namespace
 
@@ -28,18 +42,10 @@ LocalFit CrossFit::of(const Eigen::VectorXd& numbers) const {
 
 CrossFit cross_fit(const Design& design, const Eigen::VectorXd& data, Misfit misfit,
                    Slopes slopes) {
-  const Eigen::Index n = design.points.rows(), p = design.points.cols();
-  CrossFit out{Eigen::MatrixXd(n, p), Eigen::VectorXd(n), {}, 0, {}};
-  for (int fold = 0; fold < kFolds; ++fold) {
-    const ResponseSurface& model =
-        out.models.emplace_back(without_fold(design, fold, kFolds), misfit, slopes);
-    for (Eigen::Index i = fold; i < n; i += kFolds) {
-      const LocalFit fit = model.fit(design.numbers.row(i).transpose(), kFree);
-      out.estimates.row(i) = fit.point, out.misfits(i) = fit.misfit;
-    }
-  }
-  LocalFit of_data = out.of(data);
-  out.answer = std::move(of_data.point), out.misfit = of_data.misfit;
+  CrossFit out;
+  for (int fold = 0; fold < kFolds; ++fold)
+    out.models.emplace_back(without_fold(design, fold, kFolds), misfit, slopes);
+  estimate(design.numbers, data, out);
   return out;
 }
 
@@ -70,6 +76,28 @@ InverseRegression inverse_regression(const Design& design, const Eigen::VectorXd
   Line line = line_through(design.points.rowwise() - centre.transpose(), by_others.estimates);
   ParameterEstimate answer = estimate_of(line, centre, by_others.answer, prior);
   return {std::move(by_others), std::move(line), std::move(answer)};
+}
+
+InverseRegression anchored(const InverseRegression& about, const Design& design,
+                           const Eigen::VectorXd& point, const Eigen::MatrixXd& experiments,
+                           const Prior& prior, const Eigen::VectorXd& data) {
+  CrossFit fit;
+  for (int fold = 0; fold < kFolds; ++fold) {
+    ResponseSurface& model =
+        fit.models.emplace_back(about.by_others.models[static_cast<std::size_t>(fold)]);
+    model.anchor(point, rows_without_fold(experiments, fold, kFolds));
+  }
+  estimate(design.numbers, data, fit);
+  const Line along = line_through(design.points.rowwise() - point.transpose(), fit.estimates);
+  estimate(experiments, data, fit);
+  Line line = line_through(Eigen::MatrixXd::Zero(experiments.rows(), point.size()), fit.estimates);
+  // The inverse covariance of few experiments is biased [Hartlap, Simon and Schneider 2007].
+  const auto n = static_cast<double>(experiments.rows()), p = static_cast<double>(point.size());
+  line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
+  line.freedom = std::max(1.0, n - 1 - p);
+  line.slope = along.slope;
+  ParameterEstimate answer = estimate_of(line, point, fit.answer, prior);
+  return {std::move(fit), std::move(line), std::move(answer)};
 }
 
 }  // namespace lilytank

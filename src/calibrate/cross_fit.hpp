@@ -48,5 +48,12 @@ struct InverseRegression {
 /// `centre`: of the line. Throws as cross_fit.
 InverseRegression inverse_regression(const Design& design, const Eigen::VectorXd& centre,
                                      const Prior& prior, const Eigen::VectorXd& data);
+/// The same surfaces, each anchored (ResponseSurface::anchor) to `experiments` (a row of numbers
+/// each) that were simulated at `point`, but for every eighth of them. The scatter of estimates is
+/// that of these experiments, each estimated by the surface without it; the line passes through
+/// `point`, with the slope of estimates of the design's simulations.
+InverseRegression anchored(const InverseRegression& about, const Design& design,
+                           const Eigen::VectorXd& point, const Eigen::MatrixXd& experiments,
+                           const Prior& prior, const Eigen::VectorXd& data);
 
 }  // namespace lilytank

@@ -77,12 +77,17 @@ Design joined(const Design& above, const Design& below) {
   return out;
 }
 
-Design without_fold(const Design& design, int fold, int folds) {
+Eigen::MatrixXd rows_without_fold(const Eigen::MatrixXd& of, int fold, int folds) {
   std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < design.points.rows(); ++i) {
+  for (Eigen::Index i = 0; i < of.rows(); ++i) {
     if (i % folds != fold) rows.push_back(i);
   }
-  return {design.points(rows, Eigen::all), design.numbers(rows, Eigen::all), design.independent};
+  return of(rows, Eigen::all);
+}
+
+Design without_fold(const Design& design, int fold, int folds) {
+  return {rows_without_fold(design.points, fold, folds),
+          rows_without_fold(design.numbers, fold, folds), design.independent};
 }
 
 Matrix shrunk_correlations(const Matrix& z, double least) {

@@ -25,6 +25,8 @@ Design design_of(const Eigen::MatrixXd& points, const std::vector<std::vector<do
 Design joined(const Design& above, const Design& below);
 
 /// All rows but those of one fold, which are every `folds`-th from `fold` on.
+Eigen::MatrixXd rows_without_fold(const Eigen::MatrixXd& of, int fold, int folds);
+/// The same of points and numbers.
 Design without_fold(const Design& design, int fold, int folds);
 
 /// Correlations of columns, drawn towards none by their summed sampling variance over their summed

@@ -46,6 +46,12 @@ ResponseSurface::ResponseSurface(const Design& design, Misfit misfit, Slopes slo
   shrink(errors.cwiseSqrt());
 }
 
+void ResponseSurface::anchor(const Vector& point, const Matrix& numbers) {
+  const Vector average = numbers.colwise().mean();
+  coefficients_.col(0) += average - mean(point);
+  find_covariance(numbers.rowwise() - average.transpose(), static_cast<double>(numbers.rows() - 1));
+}
+
 // The coefficients of what numbers do not depend on. Points are scattered along the axes: standard
 // parameters are the parameters but for their sampled correlations.
 void ResponseSurface::clear(const Matrix& independent) {

@@ -191,24 +191,6 @@ Design about(const Design& all, const Vector& centre, const Matrix& width) {
   return {all.points(near, Eigen::all), all.numbers(near, Eigen::all), all.independent};
 }
 
-// Errors of the estimate from experiments simulated at it and estimated as the data were.
-// Experiments of the design scatter more, as errors of slopes and nonlinearity grow with the
-// distance from its centre.
-ParameterEstimate checked(const InverseRegression& last, const Vector& at, const Matrix& numbers,
-                          const Prior& prior) {
-  Matrix estimates(numbers.rows(), at.size());
-  for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
-    estimates.row(i) = last.by_others.of(numbers.row(i).transpose()).point.transpose();
-  }
-  Line line = line_through(Matrix::Zero(estimates.rows(), at.size()), estimates);
-  // The inverse covariance of few experiments is biased [Hartlap, Simon and Schneider 2007].
-  const auto n = static_cast<double>(estimates.rows()), p = static_cast<double>(at.size());
-  line.covariance *= (n - 1) / std::max(1.0, n - p - 2);
-  line.freedom = std::max(1.0, n - 1 - p);
-  line.slope = last.line.slope;
-  return estimate_of(line, at, last.by_others.answer, prior);
-}
-
 void set_interval(const ParameterEstimate& answer, JointFit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -256,9 +238,10 @@ class Rounds {
 
   JointFit run() {
     InverseRegression last;
+    Design design;
     int most = kMostRounds;
     for (int k = 1; k <= most && !fit_.settled; ++k) {
-      const Design design = simulated(k);
+      design = simulated(k);
       const Prior prior = known_before();
       if (drops_one(design, prior)) {
         ++most;
@@ -267,7 +250,7 @@ class Rounds {
       last = inverse_regression(design, centre_, prior, data_);
       fit_.settled = settled(last.answer, bounds_, most_, centre_, width_);
     }
-    set_interval(check(last), fit_);
+    set_interval(check(last, design), fit_);
     return std::move(fit_);
   }
 
@@ -299,12 +282,15 @@ class Rounds {
     return out;
   }
 
-  ParameterEstimate check(const InverseRegression& last) {
+  // The estimate and its errors from experiments at the last estimate, which are estimated as the
+  // data are. Those of the design scatter more, as errors of slopes and nonlinearity grow with the
+  // distance from its centre.
+  ParameterEstimate check(const InverseRegression& last, const Design& design) {
     const Vector at = last.answer.estimate.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     const std::uint64_t seed = derived_seed(rounds_.seed, kCheckSeed);
     const Matrix points = at.transpose().replicate(kChecks, 1);
     const Design made = joint_->simulate("joint " + rounds_.tag + " check", points, seed);
-    return checked(last, at, made.numbers, known_before());
+    return anchored(last, design, at, made.numbers, known_before(), data_).answer;
   }
 
   // Simulations of all rounds about the centre.
