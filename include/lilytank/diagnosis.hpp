@@ -140,6 +140,7 @@ struct Diagnosis {
   std::vector<RankedEffect> ranking;  ///< strongest first
   double effect_threshold = 0, shape_threshold = 0, false_alarms = 0;
   double strongest_left = 0;  ///< z of the residuals after the findings
+  double inexact = 0;         ///< z that errors of the findings' fingerprints may leave
   std::vector<std::string> checks, warnings;
   int recordings = 0, modules = 0;
   /// What was recorded: wording and sections of the report. Never null.

@@ -15,6 +15,7 @@ struct SelectedModel {
   std::vector<EffectFit> found;
   /// The strongest effect and shape in the remaining residual, by the thresholds of nulls.
   EffectFit left_effect, left_shape;
+  double inexact = 0;  ///< z that errors of the findings' fingerprints may leave
   /// Remaining squared distance of all named statistics, over the noise of the fingerprints.
   double misfit = 0;
   double share_left = 1;          ///< of the squared distance before

@@ -61,7 +61,7 @@ SelectedModel Refinement::selected_by(const ModelSelection& selection) const {
 SelectedModel Refinement::at_least(const ModelSelection& selection, const EffectFit& likely) const {
   SelectedModel e = selection.select(residual_, {likely});
   if (e.found.empty() || e.found[0].z < kLeastOwn) {
-    e.found.clear(), e.misfit = baseline_misfit_, e.share_left = 1;
+    e.found.clear(), e.inexact = 0, e.misfit = baseline_misfit_, e.share_left = 1;
   }
   return e;
 }

@@ -105,7 +105,15 @@ double null_threshold(const Diagnosis& d) {
 }
 
 bool residual_remains(const Diagnosis& d) {
-  return d.subject->curves_tested && d.strongest_left > null_threshold(d);
+  return d.subject->curves_tested && d.strongest_left > std::max(null_threshold(d), d.inexact);
+}
+
+/// What to say of the residual after the findings.
+std::string residual_of(const Diagnosis& d) {
+  const std::string z = digits(d.strongest_left);
+  if (residual_remains(d)) return z + ", which is larger than chance explains";
+  if (d.strongest_left <= null_threshold(d)) return z;
+  return z + ", within the errors of the findings' fingerprints (" + digits(d.inexact) + ")";
 }
 
 /// "coefficient = 0.3 1/s [0.2, 0.4]; ..."; of many bodies their distribution alone.
@@ -235,8 +243,7 @@ ReportSection ranking_section(const Diagnosis& d) {
         share + "have an effect beyond z " + digits(d.effect_threshold) +
         ", a force law beyond z " + digits(d.shape_threshold) +
         ", too large a residual, or too clear a place; residual after the findings: z " +
-        digits(d.strongest_left) +
-        (residual_remains(d) ? ", which is larger than chance explains" : ""));
+        residual_of(d));
   } else {
     section.above.push_back(share + "exceed z " + digits(d.effect_threshold));
   }

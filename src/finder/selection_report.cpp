@@ -66,6 +66,7 @@ void SelectionReport::add_ranking() {
   out.effect_threshold = selection.effect_threshold();
   out.shape_threshold = selection.shape_threshold();
   out.strongest_left = std::max(model.left_effect.z, model.left_shape.z);
+  out.inexact = model.inexact;
   std::vector<double> z(plan.shapes.size(), 0.0);
   for (const EffectFit& f : selection.shapes(residual)) z[static_cast<std::size_t>(f.shape)] = f.z;
   for (std::size_t s = 0; s < z.size(); ++s) out.maps.push_back(curve(s, z[s]));

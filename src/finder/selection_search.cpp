@@ -311,7 +311,7 @@ SelectedModel SelectionSearch::select(const std::vector<EffectFit>& start) const
     set = std::move(more);
   }
   extensions(set, out.left_effect);
-  out.left_shape = strongest_shape(set.left);
+  out.left_shape = strongest_shape(set.left), out.inexact = floor_beside(set.fits);
   const double squared = set.left.head(named).squaredNorm();
   out.misfit = squared / (1 + noise_of(set));
   out.share_left = squared / all_.head(named).squaredNorm();
