@@ -98,7 +98,7 @@ TEST(SmallTank, StrongEffectsInShortRecordings) {
   const Diagnosis patch = of(patchy, 31, 0);
   ASSERT_EQ(patch.verdict, Verdict::missing) << diagnosis_text(patch);
   EXPECT_EQ(patch.findings.front().effect, "drag_patch") << diagnosis_text(patch);
-  EXPECT_GT(patch.findings.front().z, 5) << diagnosis_text(patch);
+  EXPECT_GT(patch.findings.front().z, 1.1 * patch.effect_threshold) << diagnosis_text(patch);
   EXPECT_NE(patch.findings.front().text.find("about (x, y) = (0, -0.08"), std::string::npos)
       << patch.findings.front().text;
   const Diagnosis camera = of(small_tank(), 61, 0.1);
