@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "calibrate/design.hpp"
 #include "forces/empirical_force.hpp"
 #include "lilytank/math.hpp"
 
@@ -27,17 +28,6 @@ struct NullGains {
   std::vector<double> misfits;                 // squared distance of the named statistics
 };
 
-// Null residuals without those of one fold.
-Matrix rows_outside(const Matrix& nulls, int fold) {
-  const Eigen::Index n = nulls.rows();
-  Matrix out(n - (n - fold + kNullFolds - 1) / kNullFolds, nulls.cols());
-  Eigen::Index at = 0;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (i % kNullFolds != fold) out.row(at++) = nulls.row(i);
-  }
-  return out;
-}
-
 NullGains gains_of_nulls(const Matrix& nulls, const Whitening& whitening,
                          const std::vector<EffectCandidate>& candidates) {
   const Eigen::Index n = nulls.rows();
@@ -45,7 +35,7 @@ NullGains gains_of_nulls(const Matrix& nulls, const Whitening& whitening,
   out.candidates.resize(candidates.size());
   out.knots.resize(n, static_cast<Eigen::Index>(whitening.curves()));
   for (int fold = 0; fold < kNullFolds; ++fold) {
-    const Whitening others = with_nulls(whitening, rows_outside(nulls, fold));
+    const Whitening others = with_nulls(whitening, rows_without_fold(nulls, fold, kNullFolds));
     std::vector<EffectCandidate> by_others;
     for (const EffectCandidate& c : candidates) by_others.push_back(renewed(c, others, c.source));
     for (Eigen::Index i = fold; i < n; i += kNullFolds) {

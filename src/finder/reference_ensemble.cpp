@@ -80,11 +80,9 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
   const Matrix off = null_residuals_.rowwise() - null_residuals_.colwise().mean();
   deviation_ = (off.colwise().squaredNorm() / static_cast<double>(n - 1)).cwiseSqrt().transpose();
   const std::vector<ScoreEntry> entries = plan_.entries();
+  // Floors: statistics that almost never vary would make any change significant.
   for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     deviation_(k) = std::max(deviation_(k), entries[static_cast<std::size_t>(k)].least_deviation);
-  }
-  // A floor: statistics that almost never vary would make any change significant.
-  for (Eigen::Index k = 0; k < deviation_.size(); ++k) {
     const double size = numbers.numbers.col(k).cwiseAbs().maxCoeff();
     if (deviation_(k) < kNeverVaries * std::max(size, 1e-3)) deviation_(k) = kNoWeight;
   }

@@ -100,6 +100,9 @@ Whitening whitening_by_nulls(const Matrix& nulls, const Matrix& expected_correla
   if (expected.size() > 0) out.expected_root.topLeftCorner(first, first) = lower_root(expected);
   out.centre = nulls.colwise().mean().transpose();
   const auto n = static_cast<double>(nulls.rows());
+  // By all nulls, also where some are left out: by chance these scatter less than all.
+  const Matrix off = nulls.leftCols(out.named).rowwise() - out.centre.head(out.named).transpose();
+  out.missing = (1 - off.colwise().squaredNorm().transpose().array() / (n - 1)).cwiseMax(0);
   for (std::size_t s = 0; s < curves; ++s) {
     const Eigen::Index at = out.first_knot(s);
     const Matrix block =
@@ -115,11 +118,7 @@ Whitening whitening_by_nulls(const Matrix& nulls, const Matrix& expected_correla
 
 Whitening with_nulls(Whitening w, const Matrix& nulls) {
   w.covariance = covariance_of(nulls.leftCols(w.named), w.expected_root);
-  // A statistic that shows little in most nulls has at least the deviation of its scale.
-  const Matrix off = nulls.leftCols(w.named).rowwise() - nulls.leftCols(w.named).colwise().mean();
-  const Vector variance =
-      off.colwise().squaredNorm().transpose() / static_cast<double>(nulls.rows() - 1);
-  w.covariance.diagonal() += (1 - variance.array()).cwiseMax(0).matrix();
+  w.covariance.diagonal() += w.missing;
   w.whitener = inverse_root(w.covariance);
   return w;
 }

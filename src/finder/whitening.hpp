@@ -13,7 +13,9 @@ struct Whitening {
   Eigen::Index named = 0;         ///< statistics before the curves' knots
   Eigen::MatrixXd expected_root;  ///< lower root of the expected correlations, [named, named]
   Eigen::VectorXd centre;         ///< mean of null residuals
-  Eigen::MatrixXd covariance;     ///< of the named statistics of nulls
+  /// Variance up to 1 that named statistics do not show among all nulls: of rare places.
+  Eigen::VectorXd missing;
+  Eigen::MatrixXd covariance;                    ///< of the named statistics of nulls
   std::vector<Eigen::MatrixXd> knot_covariance;  ///< of every curve
   Eigen::MatrixXd whitener;                      ///< of the named statistics
   std::vector<Eigen::MatrixXd> knot_whitener;    ///< of every curve
