@@ -7,7 +7,7 @@
 //   overlap_check check DIR
 //       reads DIR/trajectory.csv, resolved.toml and summary.json, prints a row: frames, deepest
 //       overlap of two bodies, of a body and the wall, and the one that the run reports (mm);
-//       exit 1 if one exceeds 0.5 mm, or 0.08 mm and what is reported
+//       exit 1 if one exceeds 0.5 mm or what is reported
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,6 @@
 namespace {
 
 constexpr double kLimit = 0.5e-3;     // m, the promise
-constexpr double kSlop = 0.08e-3;     // m, overlaps that are left alone, and need not be reported
 constexpr double kRounding = 0.5e-6;  // m, poses are stored as float32
 constexpr double kFrames = 800;       // at most, of one scenario
 
@@ -162,7 +161,7 @@ int check(const std::string& dir) {
   const double most = std::max(deepest.pair, deepest.wall);
   if (frames == 0 || !frame.empty()) return std::puts("  frames are cut or missing"), 1;
   if (most > kLimit + kRounding) return std::puts("  beyond 0.5 mm"), 1;
-  if (most > std::max(reported, kSlop) + kRounding) return std::puts("  not reported"), 1;
+  if (most > reported + kRounding) return std::puts("  not reported"), 1;
   return std::puts(""), 0;
 }
 

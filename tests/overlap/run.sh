@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs random scenarios and measures their overlaps with another program. Prints a table; exit 1 if
-# an overlap exceeds 0.5 mm, or 0.08 mm and what the run reports.
+# an overlap exceeds 0.5 mm or is deeper than the run reports.
 #   run.sh LILYTANK OVERLAP_CHECK SCENARIOS [FIRST] [COUNT] [STEPS]
 # STEPS: module-steps of each scenario (0: a few seconds).
 set -uo pipefail
