@@ -121,12 +121,13 @@ void Sensitivities::finish() {
 Matrix Sensitivities::products(Eigen::Index count) const {
   const auto features = static_cast<Eigen::Index>(features_);
   const double all = taken_ > 0 ? static_cast<double>(passed_) / static_cast<double>(taken_) : 0;
+  const std::size_t first = features_ - partners_;
   Matrix out(features, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto partner = partners_ - static_cast<std::size_t>(count - k);
+    const std::size_t partner = features_ - static_cast<std::size_t>(count - k);
     for (Eigen::Index f = 0; f < features; ++f) {
-      const std::size_t at = partner * wide_ + static_cast<std::size_t>(f);
-      out(f, k) = all * shared_[at];
+      const auto [early, late] = std::minmax({partner, static_cast<std::size_t>(f)});
+      out(f, k) = all * shared_[(late - first) * wide_ + early];
     }
   }
   return out;

@@ -20,7 +20,8 @@ void pass_features(const FeatureAxis& axis, std::size_t count, const float* push
                    float* v, float* now, float* score, float* information);
 
 /// Adds the products of the `partners` numbers from `first` on with all `count` of each of
-/// kRowsAtOnce rows, `count` apart, to sums, [partner * count + feature].
+/// kRowsAtOnce rows, `count` apart, to sums, [partner * count + feature]. Products of two partners
+/// are symmetric: those with a later partner may be left out.
 void add_products(const float* rows, std::size_t count, std::size_t first, std::size_t partners,
                   float* sums);
 

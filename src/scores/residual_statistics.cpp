@@ -111,8 +111,8 @@ class Variance final : public ResidualStatistic {
       const double slip2 = one.slip_x * one.slip_x + one.slip_y * one.slip_y;
       const double slip = std::sqrt(slip2);
       by_slip_[bin(slip / kSlip)].add(square);
-      const double r = std::hypot(frame.now.x[one.index], frame.now.y[one.index]);
-      by_radius_[bin(r / radius_)].add(square);
+      const double x = frame.now.x[one.index], y = frame.now.y[one.index];
+      by_radius_[bin(std::sqrt(x * x + y * y) / radius_)].add(square);
       if (slip > 0.02) {
         const double along = (zx * one.slip_x + zy * one.slip_y) / slip;
         along_.add(along * along), across_.add(2 * square - along * along);

@@ -211,7 +211,7 @@ class Scorer {
     const double u = std::copysign(half, k.c[i] * k.x[i] + k.s[i] * k.y[i]);
     const double v = std::copysign(half, k.c[i] * k.y[i] - k.s[i] * k.x[i]);
     const double px = k.c[i] * u - k.s[i] * v, py = k.s[i] * u + k.c[i] * v;
-    const double x = k.x[i] + px, y = k.y[i] + py, radius = std::hypot(x, y);
+    const double x = k.x[i] + px, y = k.y[i] + py, radius = std::sqrt(x * x + y * y);
     const double closing =
         ((k.vx[i] - k.omega[i] * py) * x + (k.vy[i] + k.omega[i] * px) * y) / radius;
     const double way = kHaste * interval * std::max(0.0, closing);
