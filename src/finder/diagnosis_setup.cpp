@@ -54,7 +54,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "34 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "35 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

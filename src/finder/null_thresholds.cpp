@@ -15,6 +15,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kNullFolds = 20;
+// Share of the false positives that the largest effect has, and that it has beside others, where
+// what remains is more than noise: errors of the others' fingerprints.
+constexpr double kOfEffect = 0.5, kOfFurther = 0.05;
 constexpr double kEulerGamma = 0.57721566490153286;
 
 // Gains of one candidate in one null.
@@ -113,7 +116,8 @@ NullCalibration calibrate_on_nulls(const Matrix& nulls, const Whitening& whiteni
   }
   NullThresholds& t = out.thresholds;
   t.largest_effect = ExtremeLaw(largest_effect), t.largest_shape = ExtremeLaw(largest_shape);
-  t.effect = t.largest_effect.exceeded_with(0.5 * false_alarms);
+  t.effect = t.largest_effect.exceeded_with(kOfEffect * false_alarms);
+  t.further = t.largest_effect.exceeded_with(kOfFurther * false_alarms);
   t.shape = t.largest_shape.exceeded_with(0.2 * false_alarms);
   t.misfit = ExtremeLaw(gains.misfits).exceeded_with(0.2 * false_alarms);
   t.mean_misfit = std::accumulate(gains.misfits.begin(), gains.misfits.end(), 0.0) /

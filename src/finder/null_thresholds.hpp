@@ -30,6 +30,7 @@ inline constexpr double kOfPlaces = 0.1;
 struct NullThresholds {
   ExtremeLaw largest_effect, largest_shape;  ///< largest z of a null
   double effect = 0, shape = 0;              ///< z
+  double further = 0;                        ///< z of each effect where several are found
   double misfit = 0;                         ///< squared distance of the named statistics
   double mean_misfit = 0;                    ///< likewise, mean of nulls
 };

@@ -84,6 +84,7 @@ class SelectionSearch {
   bool each_significant(const CandidateSet& set) const;
   double noise_of(const CandidateSet& set) const;
   double floor_beside(const std::vector<EffectFit>& found) const;
+  double threshold_beside(const std::vector<EffectFit>& found) const;
 
   const SelectionState& s_;
   Vector all_;  // whitened
@@ -101,6 +102,12 @@ double SelectionSearch::floor_beside(const std::vector<EffectFit>& found) const 
     floor = std::max(floor, error * f.z);
   }
   return floor;
+}
+
+// z beyond which an effect is significant beside others.
+double SelectionSearch::threshold_beside(const std::vector<EffectFit>& found) const {
+  return found.empty() ? s_.thresholds.effect
+                       : std::max(s_.thresholds.further, floor_beside(found));
 }
 
 EffectFit SelectionSearch::strongest_shape(const Vector& all) const {
@@ -182,7 +189,7 @@ Vector SelectionSearch::interactions(const CandidateSet& set) const {
 std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
                                                    EffectFit& strongest) const {
   const EffectFit shape = strongest_shape(set.left);
-  const double floor = floor_beside(set.fits);
+  const double floor = floor_beside(set.fits), least = threshold_beside(set.fits);
   std::vector<Extension> out;
   strongest = EffectFit{};
   for (std::size_t k = 0; k < s_.candidates.size(); ++k) {
@@ -192,7 +199,7 @@ std::vector<Extension> SelectionSearch::extensions(const CandidateSet& set,
     // A curve may be significant by its own knots, too.
     const bool own = one.shape >= 0 && one.shape == shape.shape &&
                      shape.z > std::max(s_.thresholds.shape, floor);
-    if (one.z <= std::max(s_.thresholds.effect, floor) && !own) continue;
+    if (one.z <= least && !own) continue;
     EffectFit whole = alone(k, set.left);
     const double worth = worth_of(whole.gain, whole);
     if (worth > 0) out.push_back({k, std::move(whole), worth});
@@ -234,7 +241,7 @@ bool SelectionSearch::each_significant(const CandidateSet& set) const {
   for (std::size_t m = 0; m < set.of.size(); ++m) {
     std::vector<EffectFit> others = set.fits;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-    if (set.fits[m].z <= std::max(s_.thresholds.effect, floor_beside(others))) return false;
+    if (set.fits[m].z <= threshold_beside(others)) return false;
     if (within_curve(s_.candidates[set.of[m]], others)) return false;
   }
   return true;
@@ -278,7 +285,7 @@ CandidateSet SelectionSearch::larger(const CandidateSet& set) const {
     best = exchanged(std::move(best));
     if (!set.of.empty() && !each_significant(best)) return set;
   }
-  const double least = std::max(s_.thresholds.effect, floor_beside(set.fits));
+  const double least = threshold_beside(set.fits);
   return cost(best) < cost(set) - least * least || set.of.empty() ? best : set;
 }
 
