@@ -20,10 +20,11 @@ constexpr double kRoughSpread = 3, kLastSpread = 2.5;  // of designs, in standar
 constexpr double kNarrowest =
     0.4;  // of whole experiments' first design, as a share of pieces' last
 constexpr double kSettledWithin =
-    2;                             // deviations of the design that the answer may be off its centre
-constexpr double kFarOff = 2;      // ... beyond which the next design is stretched that way
-constexpr double kWidest = 2;      // most of both, in deviations of the first design
-constexpr double kWidestLast = 3;  // the same of whole experiments
+    2;  // deviations of the design that the answer may be off its centre
+constexpr double kSettledErrors = 1;        // ... or its standard errors: bounds may narrow designs
+constexpr double kFarOff = 2;               // deviations beyond which the next design is stretched
+constexpr double kWidest = 2;               // most of both, in deviations of the first design
+constexpr double kWidestLast = 3;           // the same of whole experiments
 constexpr double kLeastAnswerSlope = 0.25;  // of an answer in the truth
 constexpr double kResolved = 1.5;           // times a design that is wide enough would be wider
 constexpr double kNear = 1.6;      // farthest points that count, over the root of their dimension
@@ -110,11 +111,14 @@ class Way {
     near.reach = kRoundReach;
     LocalFit fit = model.fit(observed_, near);
     Matrix next = own_;
+    bool within_errors = false;
     if (fixed_ && kind_ == Misfit::covariance) {
       const CrossFit by_others = cross_fit(design, observed_, kind_, Slopes::found);
       const BiasCorrectedFit corrected = bias_corrected(design, by_others, kLeastAnswerSlope);
       fit = within_reach(corrected.point, by_others.misfit);
       next = next_spread(corrected.covariance);
+      const Vector step = solve_lower(lower_root(corrected.covariance), corrected.point - centre_);
+      within_errors = step.norm() < kSettledErrors;
     } else if (fixed_) {
       next = next_spread(model.parameter_covariance(fit.point));
     } else if (!fit.at_bound) {
@@ -122,8 +126,8 @@ class Way {
     }
     const Vector moved = solve_lower(spread_, fit.point - centre_);
     const bool wide = (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0;
-    const bool settled =
-        close && wide && !stretched_ && !fit.at_bound && moved.norm() < kSettledWithin;
+    const bool within_design = !stretched_ && !fit.at_bound && moved.norm() < kSettledWithin;
+    const bool settled = close && wide && (within_design || within_errors);
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_bound, stages_.from_scale(fit.point)});
     answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
