@@ -75,6 +75,17 @@ class ModelSelectionTest : public testing::Test {
     return out;
   }
 
+  // Of the second effect, at which this share of null experiments exceeds its z.
+  double size_with_chance(double chance) const {
+    double low = 0, high = 2;
+    for (int i = 0; i < 50; ++i) {
+      const double size = 0.5 * (low + high);
+      const EffectFit strongest = selection_->effects(size * second_)[0];
+      (1 - selection_->confidence(strongest) > chance ? low : high) = size;
+    }
+    return high;
+  }
+
   Vector first_, second_, both_, other_;
   std::unique_ptr<ModelSelection> selection_;
 };
@@ -95,6 +106,14 @@ TEST_F(ModelSelectionTest, oneEffectIsNamedAloneAndMeasured) {
     // Ten deviations tell the amplitude to a tenth, and nulls are whitened with an error.
     EXPECT_NEAR(e.found[0].amplitudes(0), 1.5, 0.5);
   }
+}
+
+// A z that 3 of 1000 null experiments exceed is significant alone, but not beside another effect.
+TEST_F(ModelSelectionTest, aSecondNameNeedsMoreEvidenceThanTheFirst) {
+  const Vector weak = size_with_chance(0.003) * second_, strong = size_with_chance(1e-5) * second_;
+  EXPECT_EQ(said(weak), (std::vector<int>{kSecond}));
+  EXPECT_EQ(said(2 * other_ + weak), (std::vector<int>{kOther}));
+  EXPECT_EQ(said(2 * other_ + strong), (std::vector<int>{kSecond, kOther}));
 }
 
 // An effect that looks like two others at once is the first choice, and not kept.
