@@ -44,7 +44,7 @@ void products(const float* rows, std::size_t count, std::size_t first, std::size
   for (std::size_t f = 0; f < count; f += hn::Lanes(d)) {
     Float of[kRowsAtOnce];
     for (std::size_t k = 0; k < kRowsAtOnce; ++k) of[k] = hn::LoadU(d, rows + k * count + f);
-    // A product of two partners is summed once, with the earlier of the two.
+    // Products of a partner with later ones are summed by those.
     for (std::size_t n = f > first ? f - first : 0; n < partners; ++n) {
       float* sum = sums + n * count + f;
       Float all = hn::LoadU(d, sum);

@@ -15,9 +15,11 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr int kNullFolds = 20;
-// Share of the false positives that the largest effect has, and that it has beside others, where
-// what remains is more than noise: errors of the others' fingerprints.
-constexpr double kOfEffect = 0.5, kOfFurther = 0.05;
+// Shares of the false positives; with kOfPlaces they sum to 1.
+constexpr double kOfEffect = 0.5, kOfShape = 0.2, kOfMisfit = 0.2;
+// The share of an effect beside others, where what remains is more than noise: errors of the
+// others' fingerprints.
+constexpr double kOfFurther = 0.05;
 constexpr double kEulerGamma = 0.57721566490153286;
 
 // Gains of one candidate in one null.
@@ -118,8 +120,8 @@ NullCalibration calibrate_on_nulls(const Matrix& nulls, const Whitening& whiteni
   t.largest_effect = ExtremeLaw(largest_effect), t.largest_shape = ExtremeLaw(largest_shape);
   t.effect = t.largest_effect.exceeded_with(kOfEffect * false_alarms);
   t.further = t.largest_effect.exceeded_with(kOfFurther * false_alarms);
-  t.shape = t.largest_shape.exceeded_with(0.2 * false_alarms);
-  t.misfit = ExtremeLaw(gains.misfits).exceeded_with(0.2 * false_alarms);
+  t.shape = t.largest_shape.exceeded_with(kOfShape * false_alarms);
+  t.misfit = ExtremeLaw(gains.misfits).exceeded_with(kOfMisfit * false_alarms);
   t.mean_misfit = std::accumulate(gains.misfits.begin(), gains.misfits.end(), 0.0) /
                   static_cast<double>(nulls.rows());
   return out;
