@@ -101,7 +101,8 @@ home flow coverage flow_estimate flow_maps flow_report
 home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize
-home calibrate calibration emulator response_surface recovery
+home emulator emulator fit_parameter
+home calibrate calibration response_surface recovery
 home filter predictor
 home finder diagnosis diagnosis_subject next_experiment
 home proof proof proof_grid
@@ -142,11 +143,12 @@ layer flow tracks smoothing recording io "${base[@]}"
 layer synthesis assemblies io "${base[@]}"
 layer study synthesis jobs search assemblies io "${base[@]}"
 layer optimize study synthesis jobs search assemblies io "${base[@]}"
-base+=(io assemblies recording smoothing tracks flow)
-layer calibrate study jobs search "${base[@]}"
+base+=(io assemblies recording smoothing tracks flow emulator)
+layer emulator "${base[@]}"
 layer filter "${base[@]}"
-layer effects calibrate study forces "${base[@]}"
-layer scores effects filter calibrate study forces "${base[@]}"
+layer effects study forces "${base[@]}"
+layer scores effects filter study forces "${base[@]}"
+layer calibrate scores effects filter study jobs search forces "${base[@]}"
 layer finder scores effects filter calibrate study jobs forces "${base[@]}"
 layer proof finder scores effects filter calibrate study jobs forces "${base[@]}"
 layer bodies finder study jobs "${base[@]}"

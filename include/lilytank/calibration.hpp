@@ -19,6 +19,7 @@
 #include "lilytank/distributions.hpp"
 #include "lilytank/emulator.hpp"
 #include "lilytank/experiment.hpp"
+#include "lilytank/fit_parameter.hpp"
 #include "lilytank/flow_maps.hpp"
 #include "lilytank/job_control.hpp"
 #include "lilytank/motion_summary.hpp"
@@ -29,21 +30,6 @@ namespace lilytank {
 
 class DirectoryLock;
 
-/// A parameter that is looked for.
-struct FitParameter {
-  /// Dotted scenario path, or the camera's (emulator.hpp), and its SI unit.
-  std::string path, unit;
-  /// Bounds, inclusive: simulations within them are stable.
-  double low = 0, high = 1;
-  /// Whether fitted on a logarithmic scale; then low > 0.
-  bool logarithmic = false;
-  /// Nuisance parameter: fitted with the others but not reported, such as the camera's noise.
-  bool nuisance = false;
-  /// From the parameter's unit to the fitted scale: the logarithm, or the value itself.
-  double to_scale(double value) const;
-  /// Inverse of to_scale().
-  double from_scale(double value) const;
-};
 /// The paper's five of Lilies: K_v, K_F, sigma_stoch, D_linear, D_angular; of balls the drag
 /// coefficient in place of K_F, and no D_angular.
 std::vector<FitParameter> standard_parameters(BodyKind body);

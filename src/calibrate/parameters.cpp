@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "lilytank/calibration.hpp"
-#include "lilytank/math.hpp"
 #include "lilytank/model_parameter.hpp"
 
 namespace lilytank {
@@ -34,13 +33,6 @@ FitParameter linear(const std::string& path, double high) {
 }
 
 }  // namespace
-
-double FitParameter::to_scale(double value) const {
-  return logarithmic ? log_portable(value) : value;
-}
-double FitParameter::from_scale(double value) const {
-  return logarithmic ? exp_portable(value) : value;
-}
 
 std::vector<FitParameter> standard_parameters(BodyKind body) {
   if (body == BodyKind::ball) {

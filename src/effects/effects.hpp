@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "forces/empirical_force.hpp"
-#include "lilytank/calibration.hpp"
 #include "lilytank/emulator.hpp"
+#include "lilytank/fit_parameter.hpp"
 #include "lilytank/force.hpp"
 #include "lilytank/model.hpp"
 #include "lilytank/model_parameter.hpp"
