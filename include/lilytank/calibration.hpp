@@ -38,13 +38,19 @@ std::vector<FitParameter> standard_parameters(BodyKind body);
 enum class CalibrationObjective : std::uint8_t {
   /// Distance of motion summaries by their covariance.
   summary,
+  /// Errors of predictions one frame ahead: of the paper's five parameters of Lilies, from
+  /// recordings with headings.
+  prediction,
   /// Distance of MSDs by their covariance.
   msd_weighted,
   msd,  ///< Eq. 9
 };
-/// From "summary", "msd_weighted" or "msd". Throws InputError on another word.
+/// From "summary", "prediction", "msd-weighted" or "msd". Throws InputError on another word.
 CalibrationObjective objective_named(const std::string& word);
 std::string name_of(CalibrationObjective objective);
+/// `prediction` where it can be used, else `summary`.
+CalibrationObjective default_objective(const Experiment& experiment, BodyKind body,
+                                       const std::vector<FitParameter>& parameters);
 
 /// Where the flow field of the simulations comes from.
 enum class CalibrationFlow : std::uint8_t {
@@ -81,23 +87,26 @@ struct CalibrationOptions : JobControl {
   std::vector<double> start;
   /// Number of recordings, from the last, to hold out beside those that are marked as held out.
   int hold_out = 0;
-  /// The search: its name for reports, and how it is made from a space, a start and a seed.
-  std::string search_name = "cma-es";
+  /// The search of the region: "cma-es", a swarm's (swarm_presets()) or "none"; empty: "none" where
+  /// the objective is `prediction`, else "cma-es".
+  std::string search_name;
   /// Of a swarm; 0 for other searches.
   int search_particles = 0, search_iterations = 0;
   /// Budget of other searches, evaluations.
   std::int64_t search_budget = 1500;
   /// Draws of the flow's error that the intervals include; 0: the flow counts as exact.
-  int flow_draws = 24;
+  /// Negative: 12 for `prediction`, else 24.
+  int flow_draws = -1;
   /// Draws of the flow's posterior; combinations of them are flows that could be the true one.
   int posterior_draws = 200;
   int posterior_components = 0;  ///< FlowOptions::components
-  /// Simulations of a round, and of the last model.
-  int round = 120, last_round = 240;
+  /// Simulations of a round, and of the last model. 0: 60 for `prediction`, else 120; twice as
+  /// many.
+  int round = 0, last_round = 0;
   /// Upper bound on the rounds in which the response surface is moved to its estimate.
   int most_rounds = 8;
-  /// Experiments simulated for the intervals.
-  int replicates = 200;
+  /// Experiments simulated for the intervals. 0: 100 for `prediction`, else 200.
+  int replicates = 0;
   /// Experiments simulated for Eq. 9 before and after.
   int comparisons = 24;
   /// Key of every random number of the calibration.

@@ -44,7 +44,7 @@ struct RecoveryOptions {
   double position_noise = 3e-4, heading_noise = 0.01;
   /// Balls in each of as many recordings of balls; 0: the flow is known.
   int balls = 0;
-  std::vector<CalibrationObjective> objectives{CalibrationObjective::summary,
+  std::vector<CalibrationObjective> objectives{CalibrationObjective::prediction,
                                                CalibrationObjective::msd};
   /// Settings of each calibration; objective, flow and directory are set by recover().
   CalibrationOptions calibration;

@@ -37,6 +37,9 @@ enum class Slopes {
   found,
   /// Shrunk by their signal-to-noise ratio: for many statistics and few simulations.
   shrunk,
+  /// Curvatures are shrunk by their signal-to-noise ratio, slopes are not: for statistics that are
+  /// nearly linear in the parameters.
+  straightened,
 };
 
 /// The region that a fit searches.
@@ -120,7 +123,7 @@ class ResponseSurface {
   LocalFit solve(const Eigen::VectorXd& numbers, int held, double value, const FitBounds& bounds,
                  const Prior& prior) const;
   void clear(const Eigen::MatrixXd& independent);
-  void shrink(const Eigen::VectorXd& errors);
+  void shrink(const Eigen::VectorXd& errors, Eigen::Index from);
   void find_covariance(const Eigen::MatrixXd& residuals, double freedom);
 
   Misfit kind_;

@@ -60,6 +60,10 @@ CalibrationPlan plan_of(const CalibrationSetup& setup, const Stages& stages) {
   out.experiment_time = time_of([&] {
     return setup.emulator(setup.shapes, CalibrationSetup::Of::experiments).record(setup.start, 1);
   });
+  if (setup.predicted()) {
+    const ScorePlan plan = prediction_plan(setup.model, setup.training, out.bodies);
+    out.experiment_time += time_of([&] { return prediction_numbers(plan, setup.training); });
+  }
   if (setup.draws_flow()) {
     out.extractions = setup.options.flow_draws;
     out.extraction_time = time_of(
@@ -88,12 +92,9 @@ CalibrationResult calibrate(const Experiment& experiment, const CalibrationOptio
   out.flow_csv = setup.corrected_csv(*maps.best());
   const std::vector<double> searched = stages.search(out);
   for (std::size_t i = 0; i < searched.size(); ++i) out.parameters[i].searched = searched[i];
-  const std::vector<double> recorded = setup.numbers(setup.training);
-  const Eigen::VectorXd observed = Eigen::Map<const Eigen::VectorXd>(
-      recorded.data(), static_cast<Eigen::Index>(recorded.size()));
-  const LocalAnswer answer = find_locally(stages, searched, maps, observed, out);
+  const LocalAnswer answer = find_locally(stages, searched, maps, out);
   out.rounds = answer.rounds;
-  find_intervals(stages, answer, maps, observed, out);
+  find_intervals(stages, answer, maps, out);
   if (options.comparisons > 0) compare_with_data(stages, out);
   out.simulations = stages.simulations();
   return out;

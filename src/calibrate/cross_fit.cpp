@@ -70,6 +70,15 @@ BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, doubl
           student_half_width(line.freedom) * std::sqrt(1 + x.dot(line.inverse * x))};
 }
 
+BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, const Prior& prior) {
+  const Eigen::VectorXd centre = design.points.colwise().mean().transpose();
+  const Line line = line_through(design.points.rowwise() - centre.transpose(), fit.estimates);
+  const ParameterEstimate answer = estimate_of(line, centre, fit.answer, prior);
+  const auto scale = answer.deviation.asDiagonal();
+  return {answer.estimate, scale * answer.correlation * scale,
+          line.residuals * answer.back.transpose(), answer.wide};
+}
+
 InverseRegression inverse_regression(const Design& design, const Eigen::VectorXd& centre,
                                      const Prior& prior, const Eigen::VectorXd& data) {
   CrossFit by_others = cross_fit(design, data, Misfit::covariance, Slopes::shrunk);

@@ -38,6 +38,9 @@ struct BiasCorrectedFit {
 /// and its inverse would diverge.
 BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, double least);
 
+/// The same by the posterior under a prior: a direction that is not identifiable keeps the prior's.
+BiasCorrectedFit bias_corrected(const Design& design, const CrossFit& fit, const Prior& prior);
+
 /// Bias correction with a prior: the cross-fitted estimates are regressed on the true parameters,
 /// and the inverse of this line at the data's estimate is combined with the prior.
 struct InverseRegression {

@@ -77,6 +77,10 @@ Design joined(const Design& above, const Design& below) {
   return out;
 }
 
+Design with_columns(const Design& design, const std::vector<Eigen::Index>& columns) {
+  return {design.points, design.numbers(Eigen::all, columns), design.independent};
+}
+
 Eigen::MatrixXd rows_without_fold(const Eigen::MatrixXd& of, int fold, int folds) {
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < of.rows(); ++i) {

@@ -27,6 +27,8 @@ Design joined(const Design& above, const Design& below);
 /// All rows but those of one fold, which are every `folds`-th from `fold` on.
 Eigen::MatrixXd rows_without_fold(const Eigen::MatrixXd& of, int fold, int folds);
 /// The same of points and numbers.
+/// With these numbers alone.
+Design with_columns(const Design& design, const std::vector<Eigen::Index>& columns);
 Design without_fold(const Design& design, int fold, int folds);
 
 /// Correlations of columns, drawn towards none by their summed sampling variance over their summed

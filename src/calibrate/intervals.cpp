@@ -43,15 +43,21 @@ struct Replicates {
 
 // Cross-fitted, over all simulations about the estimate. The regression of their estimates on the
 // truth corrects the bias by noise in the slopes.
-Replicates by_others(const LocalAnswer& answer, Design made, const Vector& observed) {
+// Estimates are made of the fitted statistics. All show whether the model fits.
+Replicates by_others(const Stages& stages, const LocalAnswer& answer, Design made) {
+  const CalibrationSetup& setup = stages.setup();
+  const std::vector<Eigen::Index> fitted = stages.fitted();
+  const Slopes slopes = setup.slopes();
   const Eigen::Index n = made.points.rows();
-  const Design all = joined(answer.design, made);
-  const CrossFit fit = cross_fit(all, observed, Misfit::covariance, Slopes::found);
-  const BiasCorrectedFit corrected = bias_corrected(all, fit, kLeastSlope);
-  return {std::move(made),      corrected.errors.bottomRows(n),
-          fit.misfits.tail(n),  corrected.point,
-          corrected.covariance, corrected.wide,
-          fit.misfit,           ResponseSurface(all)};
+  const Design whole = joined(answer.design, made), all = with_columns(whole, fitted);
+  const CrossFit fit = cross_fit(all, answer.observed(fitted), Misfit::covariance, slopes);
+  const CrossFit whole_fit = cross_fit(whole, answer.observed, Misfit::covariance, slopes);
+  const BiasCorrectedFit corrected = setup.predicted() ? bias_corrected(all, fit, setup.prior())
+                                                       : bias_corrected(all, fit, kLeastSlope);
+  return {std::move(made),           corrected.errors.bottomRows(n),
+          whole_fit.misfits.tail(n), corrected.point,
+          corrected.covariance,      corrected.wide,
+          whole_fit.misfit,          ResponseSurface(all, Misfit::covariance, slopes)};
 }
 
 // The paper's objective has flat directions, along which no regression can be inverted: its
@@ -117,7 +123,7 @@ void set_numbers(const Stages& stages, const Replicates& replicates, const Vecto
   }
   Vector expected = line.at_centre;
   if (line.inverse.rows() > 1) expected += line.slope * (estimate - centre);
-  const std::vector<SummaryEntry> entries = stages.setup().entries();
+  const std::vector<SummaryEntry> entries = stages.entries();
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     out.numbers.push_back({entries[k], observed(i), expected(i), std::sqrt(line.covariance(i, i))});
@@ -275,22 +281,23 @@ void warn_of_choice(const Stages& stages, const NearestPoint& chosen, Calibratio
 }  // namespace
 
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
-                    const Vector& observed, CalibrationResult& out) {
+                    CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
+  const Vector& observed = answer.observed;
   const Vector centre = stages.to_scale(stages.from_scale(answer.fit.point));
   const std::uint64_t seed = derived_seed(setup.options.seed, kReplicateSeed);
   const Matrix points = replicate_points(stages, answer, centre, seed);
   Design made = design_of(points, stages.simulate("replicates", points, seed, maps));
   const Replicates replicates = setup.options.objective == CalibrationObjective::msd
                                     ? by_the_answer(stages, answer, std::move(made))
-                                    : by_others(answer, std::move(made), observed);
+                                    : by_others(stages, answer, std::move(made));
   NearestPoint chosen{replicates.middle, 0, true};
   if (setup.chosen_by_displacements()) {
     chosen = nearest_displacements(stages, replicates.middle, replicates.covariance, centre);
   }
   set_parameters(stages, answer, replicates, chosen.point, out);
   set_numbers(stages, replicates, centre, observed, out);
-  set_profiles(stages, replicates, observed, out);
+  set_profiles(stages, replicates, observed(stages.fitted()), out);
   warn(stages, answer, out);
   warn_of_choice(stages, chosen, out);
 }

@@ -21,10 +21,14 @@ constexpr double kNarrowest =
     0.4;  // of whole experiments' first design, as a share of pieces' last
 constexpr double kSettledWithin =
     2;  // deviations of the design that the answer may be off its centre
-constexpr double kSettledErrors = 1;        // ... or its standard errors: bounds may narrow designs
-constexpr double kFarOff = 2;               // deviations beyond which the next design is stretched
-constexpr double kWidest = 2;               // most of both, in deviations of the first design
-constexpr double kWidestLast = 3;           // the same of whole experiments
+constexpr double kSettledErrors = 1;  // ... or its standard errors: bounds may narrow designs
+constexpr double kFarOff = 2;         // deviations beyond which the next design is stretched
+constexpr double kWidest = 2;         // most of both, in deviations of the first design
+constexpr double kWidestLast = 3;     // the same of whole experiments
+// The same of predicted ones: statistics are linear in dampings, but not in large factors.
+constexpr double kWidestLinear = 6, kWidestFactor = 1.5;
+constexpr double kShrink = 0.3;   // widths of a predicted design that the next one has at least
+constexpr double kTooWide = 2.5;  // times the width that its errors ask for
 constexpr double kLeastAnswerSlope = 0.25;  // of an answer in the truth
 constexpr double kResolved = 1.5;           // times a design that is wide enough would be wider
 constexpr double kNear = 1.6;      // farthest points that count, over the root of their dimension
@@ -62,26 +66,30 @@ struct Phase {
 // The sequence of response surfaces from the search's estimate to the last one.
 class Way {
  public:
-  Way(Stages& stages, const FlowMaps& maps, const Vector& observed, const std::vector<double>& from)
+  Way(Stages& stages, const FlowMaps& maps, const std::vector<double>& from)
       : stages_(stages),
         maps_(maps),
-        observed_(observed),
+        observed_(observed()),
         bounds_(stages.bounds()),
         centre_(stages.to_scale(from)) {
     const CalibrationSetup& setup = stages.setup();
     kind_ = setup.options.objective == CalibrationObjective::msd ? Misfit::absolute
                                                                  : Misfit::covariance;
+    slopes_ = setup.slopes();
     most_ = kFirstSpread * (bounds_.high - bounds_.low);
     for (std::size_t i = setup.reported_count(); i < setup.parameters.size(); ++i) {
       most_(static_cast<Eigen::Index>(i)) = kNoiseSpread;
     }
     spread_ = own_ = most_.asDiagonal();
+    widest_ = kWidestLast * most_;
   }
 
   void go(const Phase& phase) {
     Simulated simulated;
     bool close = false;
     for (int round = 1; round <= phase.most_rounds; ++round) {
+      // Parameters' errors are seen to first order: from afar, only where to go.
+      if (predicted_ && !close) predict(), simulated = {};
       const std::string name = phase.name + std::to_string(round);
       const std::uint64_t seed = derived_seed(stages_.setup().options.seed, seed_++);
       const Matrix points = scattered(centre_, spread_, phase.round, bounds_, seed);
@@ -89,6 +97,17 @@ class Way {
       const LocalRound last = look(simulated.near(centre_, spread_), close || fixed_, name);
       if (answer_->settled && last.simulations >= phase.enough) return;
       close = !last.at_bound;
+    }
+  }
+
+  /// Experiments are compared by how a model predicts them, from the first, wide design on. Their
+  /// numbers say where to go even from afar, so that no search is needed.
+  void begin_predicted() {
+    least_ = kShrink * own_, fixed_ = predicted_ = true;
+    const std::vector<FitParameter>& parameters = stages_.setup().parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      widest_(static_cast<Eigen::Index>(k)) *=
+          (parameters[k].logarithmic ? kWidestFactor : kWidestLinear) / kWidestLast;
     }
   }
 
@@ -101,20 +120,38 @@ class Way {
   }
 
   const std::vector<LocalRound>& taken() const { return taken_; }
-  LocalAnswer answer() { return std::move(*answer_); }
+  LocalAnswer answer() {
+    answer_->observed = observed_;
+    return std::move(*answer_);
+  }
 
  private:
+  Vector observed() const {
+    const std::vector<double> numbers = stages_.numbers(stages_.setup().training);
+    return Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  }
+
+  void predict() {
+    stages_.predict_with(stages_.from_scale(centre_));
+    observed_ = observed();
+  }
+
   // Fits one response surface and centres the next design at its estimate.
-  LocalRound look(Design design, bool close, const std::string& name) {
-    ResponseSurface model(design, kind_);
+  LocalRound look(Design whole, bool close, const std::string& name) {
+    const std::vector<Eigen::Index> fitted = stages_.fitted();
+    const Design design = with_columns(whole, fitted);
+    const Vector observed = observed_(fitted);
+    ResponseSurface model(design, kind_, slopes_);
     FitBounds near = bounds_;
     near.reach = kRoundReach;
-    LocalFit fit = model.fit(observed_, near);
+    LocalFit fit = model.fit(observed, near);
     Matrix next = own_;
     bool within_errors = false;
     if (fixed_ && kind_ == Misfit::covariance) {
-      const CrossFit by_others = cross_fit(design, observed_, kind_, Slopes::found);
-      const BiasCorrectedFit corrected = bias_corrected(design, by_others, kLeastAnswerSlope);
+      const CrossFit by_others = cross_fit(design, observed, kind_, slopes_);
+      const BiasCorrectedFit corrected =
+          predicted_ ? bias_corrected(design, by_others, stages_.setup().prior())
+                     : bias_corrected(design, by_others, kLeastAnswerSlope);
       fit = within_reach(corrected.point, by_others.misfit);
       next = next_spread(corrected.covariance);
       const Vector step = solve_lower(lower_root(corrected.covariance), corrected.point - centre_);
@@ -125,18 +162,26 @@ class Way {
       next = rough_spread(model, fit);
     }
     const Vector moved = solve_lower(spread_, fit.point - centre_);
-    const bool wide = (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0;
+    const bool wide =
+        (next.rowwise().norm() - kResolved * own_.rowwise().norm()).maxCoeff() < 0 &&
+        (!predicted_ || (own_.rowwise().norm() - kTooWide * next.rowwise().norm()).maxCoeff() < 0);
     const bool within_design = !stretched_ && !fit.at_bound && moved.norm() < kSettledWithin;
     const bool settled = close && wide && (within_design || within_errors);
     taken_.push_back({name, static_cast<int>(design.points.rows()), moved.norm(), fit.misfit,
                       fit.at_bound, stages_.from_scale(fit.point)});
-    answer_.emplace(LocalAnswer{std::move(design), std::move(model), fit,
-                                static_cast<int>(taken_.size()), settled, own_});
+    answer_.emplace(LocalAnswer{std::move(whole),
+                                std::move(model),
+                                fit,
+                                static_cast<int>(taken_.size()),
+                                settled,
+                                own_,
+                                {}});
     // A settled centre stays, so that all simulations about it are used.
     if (settled) return taken_.back();
     Vector step = fit.point - centre_;
     step *= std::min(1.0, kWidest / step.cwiseAbs().cwiseQuotient(most_).maxCoeff());
     centre_ = fit.point, own_ = next;
+    if (predicted_) least_ = kShrink * own_;
     // Nearly collinear parameters form a long, narrow valley; a design stretched along the last
     // step crosses it in a few rounds.
     stretched_ = fit.at_bound || moved.norm() > kFarOff;
@@ -163,19 +208,20 @@ class Way {
 
   // In proportion to the errors, never narrower than the first design of whole experiments.
   Matrix next_spread(const Matrix& errors) const {
-    const Matrix asked = spread_of(errors, kLastSpread, kWidestLast * most_);
+    const Matrix asked = spread_of(errors, kLastSpread, widest_);
     return lower_root(least_ * least_.transpose() + asked * asked.transpose());
   }
 
   Stages& stages_;
   const FlowMaps& maps_;
-  const Vector& observed_;
+  Vector observed_;
   FitBounds bounds_;
-  Vector centre_, most_;
-  Matrix own_, spread_;  ///< of the points by themselves, and stretched along the way
-  Matrix least_;         ///< of the points of whole experiments
+  Vector centre_, most_, widest_;  ///< of designs, of whole experiments'
+  Matrix own_, spread_;            ///< of the points by themselves, and stretched along the way
+  Matrix least_;                   ///< of the points of whole experiments
   Misfit kind_ = Misfit::covariance;
-  bool fixed_ = false, stretched_ = false;
+  Slopes slopes_ = Slopes::found;
+  bool fixed_ = false, predicted_ = false, stretched_ = false;
   std::uint64_t seed_ = kRoundSeed;
   std::optional<LocalAnswer> answer_;
   std::vector<LocalRound> taken_;
@@ -184,14 +230,18 @@ class Way {
 }  // namespace
 
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
-                         const Vector& observed, CalibrationResult& out) {
+                         CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
-  Way way(stages, maps, observed, from);
-  // Pieces are cheap and scatter widely: they find the centre of the first design of whole
-  // experiments.
-  way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
-          setup.options.most_rounds});
-  way.narrow();
+  Way way(stages, maps, from);
+  if (setup.predicted()) {
+    way.begin_predicted();
+  } else {
+    // Pieces are cheap and scatter widely: they find the centre of the first design of whole
+    // experiments.
+    way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,
+            setup.options.most_rounds});
+    way.narrow();
+  }
   way.go({"local model ", Stages::Of::experiments, setup.options.round, setup.options.last_round,
           setup.options.most_rounds});
   out.rounds_taken = way.taken();

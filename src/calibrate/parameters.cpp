@@ -18,7 +18,7 @@ std::size_t index_of(const std::string& word, const std::string (&words)[n], con
                    did_you_mean(word, words));
 }
 
-const std::string kObjectives[]{"summary", "msd-weighted", "msd"};
+const std::string kObjectives[]{"summary", "prediction", "msd-weighted", "msd"};
 const std::string kFlows[]{"smooth", "paper", "scenario"};
 
 // The ranges that are searched are narrower than the bounds of the keys: within them a step of 25
@@ -51,6 +51,19 @@ CalibrationObjective objective_named(const std::string& word) {
 std::string name_of(CalibrationObjective objective) {
   return kObjectives[static_cast<std::size_t>(objective)];
 }
+CalibrationObjective default_objective(const Experiment& experiment, BodyKind body,
+                                       const std::vector<FitParameter>& parameters) {
+  const std::vector<FitParameter> five = standard_parameters(BodyKind::lily);
+  const bool others = !std::ranges::all_of(parameters, [&](const FitParameter& p) {
+    return std::ranges::any_of(five, [&](const FitParameter& one) { return one.path == p.path; });
+  });
+  const bool headings = std::ranges::all_of(experiment.recordings, [](const Recording& one) {
+    return one.body != BodyKind::lily || one.has_heading();
+  });
+  return body == BodyKind::lily && headings && !others ? CalibrationObjective::prediction
+                                                       : CalibrationObjective::summary;
+}
+
 CalibrationFlow flow_named(const std::string& word) {
   return static_cast<CalibrationFlow>(index_of(word, kFlows, "flow"));
 }

@@ -57,9 +57,10 @@ ReportSection parameters_section(const CalibrationResult& c) {
   section.title = "Parameters";
   section.table.head = {"parameter", "unit", "before", "search", "estimate", "95 % from", "to"};
   for (const CalibratedParameter& p : c.parameters) {
-    section.table.rows.push_back({p.parameter.path, p.parameter.unit == "1" ? "" : p.parameter.unit,
-                                  digits(p.start), p.parameter.nuisance ? "-" : digits(p.searched),
-                                  digits(p.estimate), digits(p.low), digits(p.high)});
+    section.table.rows.push_back(
+        {p.parameter.path, p.parameter.unit == "1" ? "" : p.parameter.unit, digits(p.start),
+         p.parameter.nuisance || c.search_name == "none" ? "-" : digits(p.searched),
+         digits(p.estimate), digits(p.low), digits(p.high)});
   }
   return section;
 }

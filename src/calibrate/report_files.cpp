@@ -181,9 +181,9 @@ std::vector<std::string> write_calibration(const CalibrationResult& c, const Rep
   std::vector<std::pair<std::string, std::string>> files{
       {"calibrated.toml", overlay(c)},         {"intervals.csv", intervals_csv(c)},
       {"correlation.csv", correlation_csv(c)}, {"profiles.csv", profiles_csv(c)},
-      {"numbers.csv", numbers_csv(c)},         {"history.csv", history_csv(c)},
-      {"rounds.csv", rounds_csv(c)},           {"calibration.json", json(c)},
-      {"calibration.txt", report_text(report)}};
+      {"numbers.csv", numbers_csv(c)},         {"rounds.csv", rounds_csv(c)},
+      {"calibration.json", json(c)},           {"calibration.txt", report_text(report)}};
+  if (!c.history.empty()) files.emplace_back("history.csv", history_csv(c));
   if (!c.msd.empty()) {
     files.emplace_back("msd.csv", msd_csv(c));
     files.emplace_back("velocity.csv", velocity_csv(c));

@@ -43,7 +43,7 @@ ResponseSurface::ResponseSurface(const Design& design, Misfit misfit, Slopes slo
   find_covariance(design.numbers - x * coefficients_.transpose(), static_cast<double>(n - q));
   if (slopes == Slopes::found) return;
   const Vector errors = symmetric_inverse(x.transpose() * x).diagonal();
-  shrink(errors.cwiseSqrt());
+  shrink(errors.cwiseSqrt(), slopes == Slopes::shrunk ? 1 : 1 + p);
 }
 
 void ResponseSurface::anchor(const Vector& point, const Matrix& numbers) {
@@ -66,13 +66,13 @@ void ResponseSurface::clear(const Matrix& independent) {
   }
 }
 
-// Shrinks coefficients by their ratio to their errors [Breiman's garrote, Technometrics 37, 1995]:
-// a hundred statistics that depend on a parameter by noise alone would seem to constrain it, and
-// bias the estimate to the centre.
-void ResponseSurface::shrink(const Vector& errors) {
+// Shrinks coefficients, from one on, by their ratio to their errors [Breiman's garrote,
+// Technometrics 37, 1995]: a hundred statistics that depend on a parameter by noise alone would
+// seem to constrain it, and bias the estimate to the centre.
+void ResponseSurface::shrink(const Vector& errors, Eigen::Index from) {
   for (Eigen::Index k = 0; k < coefficients_.rows(); ++k) {
     const double deviation = std::sqrt(covariance_(k, k));
-    for (Eigen::Index j = 1; j < coefficients_.cols(); ++j) {
+    for (Eigen::Index j = from; j < coefficients_.cols(); ++j) {
       const double noise = kNoise * deviation * errors(j), size = coefficients_(k, j);
       const double ratio = size != 0 ? noise / size : 0;
       coefficients_(k, j) *= std::max(0.0, 1 - ratio * ratio);

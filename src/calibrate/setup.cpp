@@ -106,7 +106,7 @@ void find_summary(CalibrationSetup& setup) {
 std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& setup) {
   const CalibrationOptions& o = setup.options;
   Fnv hash;
-  hash.add("calibration 3 " + std::to_string(experiment.base.identity));
+  hash.add("calibration 4 " + std::to_string(experiment.base.identity));
   for (const auto* of : {&setup.training, &setup.held_out, &setup.balls}) add_recordings(*of, hash);
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const FitParameter& p = setup.parameters[i];
@@ -122,6 +122,23 @@ std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& 
     hash.add(std::to_string(number));
   }
   return hash.value();
+}
+
+// Options that go by the objective.
+void complete(const Experiment& experiment, CalibrationSetup& setup) {
+  const bool predicted = setup.predicted();
+  if (predicted && default_objective(experiment, setup.body, setup.parameters) !=
+                       CalibrationObjective::prediction) {
+    throw InputError(
+        "objective prediction is for the paper's five parameters of Lilies recorded with headings: "
+        "use summary");
+  }
+  CalibrationOptions& o = setup.options;
+  if (o.search_name.empty()) o.search_name = predicted ? "none" : "cma-es";
+  if (o.flow_draws < 0) o.flow_draws = predicted ? 12 : 24;
+  if (o.round == 0) o.round = predicted ? 60 : 120;
+  if (o.last_round == 0) o.last_round = 2 * o.round;
+  if (o.replicates == 0) o.replicates = predicted ? 100 : 200;
 }
 
 std::vector<RecordingShape> shapes_of(const std::vector<Recording>& recordings) {
@@ -157,6 +174,25 @@ bool CalibrationSetup::draws_flow() const {
   return flow && flow->noise && options.flow_draws >= 2;
 }
 
+Prior CalibrationSetup::prior() const {
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  Prior out{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const FitParameter& p = parameters[static_cast<std::size_t>(k)];
+    const double low = p.to_scale(p.low), high = p.to_scale(p.high);
+    out.expected(k) = 0.5 * (low + high), out.deviation(k) = (high - low) / std::sqrt(12.0);
+  }
+  return out;
+}
+
+bool CalibrationSetup::summarised() const {
+  return options.objective == CalibrationObjective::summary || predicted();
+}
+
+bool CalibrationSetup::predicted() const {
+  return options.objective == CalibrationObjective::prediction;
+}
+
 bool CalibrationSetup::chosen_by_displacements() const {
   return options.objective == CalibrationObjective::summary && draws_flow();
 }
@@ -173,7 +209,7 @@ Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& shapes_of
 }
 
 std::vector<double> CalibrationSetup::numbers(const std::vector<Recording>& recordings) const {
-  if (options.objective == CalibrationObjective::summary) return summarise(recordings, summary);
+  if (summarised()) return summarise(recordings, summary);
   return displacements(recordings);
 }
 
@@ -189,7 +225,7 @@ std::vector<double> CalibrationSetup::displacements(
 }
 
 std::vector<SummaryEntry> CalibrationSetup::entries() const {
-  if (options.objective == CalibrationObjective::summary) return summary_entries(summary);
+  if (summarised()) return summary_entries(summary);
   std::vector<SummaryEntry> out;
   const auto n = std::lround(piece / kLocalCurve.lag);
   for (long k = 1; k <= n; ++k) {
@@ -214,6 +250,7 @@ CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& 
   find_flow(experiment, setup);
   find_summary(setup);
   find_parameters(experiment, setup);
+  complete(experiment, setup);
   find_noise(setup);
   setup.shapes = shapes_of(setup.training), setup.held_out_shapes = shapes_of(setup.held_out);
   setup.model.control.latches =

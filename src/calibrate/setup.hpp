@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lilytank/calibration.hpp"
+#include "lilytank/response_surface.hpp"
 #include "text/fnv.hpp"
 
 namespace lilytank {
@@ -32,6 +33,15 @@ struct CalibrationSetup {
   std::size_t reported_count() const;  ///< parameters without nuisances
   /// The flow is the balls', with an error that can be drawn.
   bool draws_flow() const;
+  /// The objective is CalibrationObjective::prediction.
+  bool predicted() const;
+  /// Of response surfaces of what the objective compares.
+  Slopes slopes() const { return predicted() ? Slopes::straightened : Slopes::found; }
+  /// Where parameters are sought, as a prior: with the mean and variance of a uniform one, on the
+  /// fitted scale.
+  Prior prior() const;
+  /// Motion summaries are among what is compared.
+  bool summarised() const;
   /// The estimate is the one among those that numbers allow that moves modules most alike.
   bool chosen_by_displacements() const;
   /// Of pieces, which must be fast, or of whole experiments, which must be right: their gusts are
@@ -39,7 +49,8 @@ struct CalibrationSetup {
   enum class Of { experiments, pieces };
   Emulator emulator(const std::vector<RecordingShape>& shapes_of, Of of = Of::pieces) const;
 
-  /// What the objective compares, of recordings of the experiment's whole length.
+  /// What the objective compares, of recordings of the experiment's whole length; its summary if
+  /// that is predictions, which a filter makes.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;
   /// Eq. 9's MSD at coarse lags, m^2: what the displacement objectives compare.
   std::vector<double> displacements(const std::vector<Recording>& recordings) const;

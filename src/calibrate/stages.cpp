@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/search_run.hpp"
 #include "lilytank/state.hpp"
@@ -16,7 +17,8 @@ namespace fs = std::filesystem;
 
 // Of simulating balls and extracting, in simulated experiments; 24 with the experiment of the tour.
 constexpr double kFlowCost = 20;
-constexpr double kRoundsExpected = 3, kRoughExpected = 4, kNearestExpected = 2;
+constexpr double kRoundsExpected = 3, kRoughExpected = 4, kPredictedExpected = 6,
+                 kNearestExpected = 2;
 constexpr std::uint64_t kFlowSeed = 3, kFlowMix = 4, kSearchOrder = 5;
 
 std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchSpace& space) {
@@ -39,6 +41,7 @@ std::unique_ptr<Search> make_search(const CalibrationSetup& setup, const SearchS
 }
 
 std::int64_t budget_of(const CalibrationOptions& o) {
+  if (o.search_name == "none") return 0;
   if (o.search_name == "cma-es") return o.search_budget;
   const SwarmOptions swarm = swarm_preset(o.search_name);
   return std::int64_t{o.search_particles > 0 ? o.search_particles : swarm.particles} *
@@ -56,8 +59,10 @@ Stages::Stages(CalibrationSetup& setup)
   for (const RecordingShape& shape : setup.shapes) seconds += shape.frames / shape.rate;
   piece_cost_ = setup.piece / seconds;
   search_cost_ = static_cast<double>(budget_of(o)) * piece_cost_;
-  usual_ = search_cost_ + (kRoundsExpected + kRoughExpected * 2 * piece_cost_) * o.round +
-           o.replicates + (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
+  const double rounds =
+      setup.predicted() ? kPredictedExpected : kRoundsExpected + kRoughExpected * 2 * piece_cost_;
+  usual_ = search_cost_ + rounds * o.round + o.replicates +
+           (setup.chosen_by_displacements() ? kNearestExpected * o.round : 0) +
            (setup.held_out.empty() ? 2 : 4) * o.comparisons;
   expected_ = (setup.draws_flow() ? kFlowCost * o.flow_draws : 0) + usual_;
 }
@@ -138,6 +143,7 @@ FlowMaps Stages::flow_maps() {
 }
 
 std::vector<double> Stages::search(CalibrationResult& out) {
+  if (setup_.options.search_name == "none") return setup_.start;
   const CalibrationSearch objective(setup_);
   std::unique_ptr<Search> search = make_search(setup_, objective.space());
   const auto value = [&](const Trial& trial) { return objective.value(trial); };
@@ -173,6 +179,42 @@ std::vector<double> Stages::search(CalibrationResult& out) {
   return values;
 }
 
+void Stages::predict_with(const std::vector<double>& values) {
+  const auto reported = static_cast<std::ptrdiff_t>(setup_.reported_count());
+  std::vector<std::string> paths = setup_.paths();
+  paths.resize(setup_.reported_count());
+  int bodies = 0;
+  for (const RecordingShape& shape : setup_.shapes) bodies = std::max(bodies, shape.bodies);
+  predicted_ = prediction_plan(
+      with_parameters(setup_.model, paths, {values.begin(), values.begin() + reported}),
+      setup_.training, bodies);
+}
+
+std::vector<double> Stages::numbers(const std::vector<Recording>& recordings) const {
+  std::vector<double> out = setup_.numbers(recordings);
+  if (!predicted_) return out;
+  const std::vector<double> more = prediction_numbers(*predicted_, recordings);
+  out.insert(out.end(), more.begin(), more.end());
+  return out;
+}
+
+std::vector<SummaryEntry> Stages::entries() const {
+  std::vector<SummaryEntry> out = setup_.entries();
+  if (!predicted_) return out;
+  for (const std::string& name : prediction_names()) out.push_back({"prediction", name});
+  return out;
+}
+
+std::vector<Eigen::Index> Stages::fitted() const {
+  std::vector<Eigen::Index> out;
+  Eigen::Index k = 0;
+  for (const SummaryEntry& entry : entries()) {
+    if (!predicted_ || entry.group == "kicks" || entry.group == "prediction") out.push_back(k);
+    ++k;
+  }
+  return out;
+}
+
 std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
                                                   const Eigen::MatrixXd& points, std::uint64_t seed,
                                                   const FlowMaps& maps, Of of) {
@@ -184,7 +226,7 @@ std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
     const auto run = static_cast<std::uint64_t>(i);
     const auto field = maps.draw(derived_seed(seed, kFlowMix), i);
     const auto made = whole_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
-    return made ? setup_.numbers(*made) : std::vector<double>{};
+    return made ? numbers(*made) : std::vector<double>{};
   };
   const auto count = static_cast<int>(points.rows());
   if (of == Of::pieces) return rows(stage, count, piece, piece_cost_);

@@ -8,6 +8,7 @@
 
 #include "calibrate/setup.hpp"
 #include "lilytank/response_surface.hpp"
+#include "scores/prediction_numbers.hpp"
 #include "study/kept_rows.hpp"
 
 namespace lilytank {
@@ -23,6 +24,14 @@ class Stages {
   std::vector<double> search(CalibrationResult& out);
 
   using Of = CalibrationSetup::Of;
+  /// From here on a model with these values predicts whole experiments.
+  void predict_with(const std::vector<double>& values);
+  /// Statistics of whole experiments, and what they are.
+  std::vector<double> numbers(const std::vector<Recording>& recordings) const;
+  std::vector<SummaryEntry> entries() const;
+  /// Which of them estimates are made of: if a model predicts, what its errors and the kicks are;
+  /// else all.
+  std::vector<Eigen::Index> fitted() const;
   /// Numbers that the objective compares, of whole experiments simulated at points (a row each, on
   /// the fitted scale), each in another flow that the balls allow; or of single pieces in the best
   /// flow. Empty rows where worlds diverged.
@@ -76,6 +85,7 @@ class Stages {
   void tell(double spent, const std::string& stage) const;
   CalibrationSetup& setup_;
   Emulator whole_, piece_;  ///< in the flow without its mean error
+  std::optional<ScorePlan> predicted_;
   int simulations_ = 0;
   double piece_cost_ = 0, search_cost_ = 0, usual_ = 0, expected_ = 0,
          spent_ = 0;  ///< in simulated experiments
@@ -90,13 +100,14 @@ struct LocalAnswer {
   bool settled = false;  ///< the last design was centred at the estimate
   Eigen::MatrixXd
       spread;  ///< of the designs: a lower triangle, points are its products with normals
+  Eigen::VectorXd observed;  ///< the data's numbers
 };
 LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const FlowMaps& maps,
-                         const Eigen::VectorXd& observed, CalibrationResult& out);
+                         CalibrationResult& out);
 
 /// Fills in estimates, intervals, correlations, profiles, misfit and numbers.
 void find_intervals(Stages& stages, const LocalAnswer& answer, const FlowMaps& maps,
-                    const Eigen::VectorXd& observed, CalibrationResult& out);
+                    CalibrationResult& out);
 
 /// Where the search by displacements ended, on the fitted scale.
 struct NearestPoint {

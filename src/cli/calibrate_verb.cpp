@@ -21,7 +21,7 @@ namespace {
 struct CalibrateJob {
   CalibrationOptions calibration;
   RecoveryOptions recovery;
-  std::string objective = "summary", flow = "smooth";
+  std::string objective, flow = "smooth";
   std::vector<std::string> vary, sets;
   FigureStyle style;
   bool quiet = false;
@@ -30,7 +30,10 @@ struct CalibrateJob {
 void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
   CalibrationOptions& c = job.calibration;
   RecoveryOptions& r = job.recovery;
-  options.add({"objective", "summary (default), msd-weighted, or msd (the paper's Eq. 9)", "WORD"},
+  options.add({"objective",
+               "prediction (default where it can be used), summary, msd-weighted, or msd (the "
+               "paper's Eq. 9)",
+               "WORD"},
               &job.objective);
   options.add({"flow", "smooth (default) or paper: from the balls; or scenario", "WORD"},
               &job.flow);
@@ -41,18 +44,26 @@ void add_calibrate_options(VerbOptions& options, CalibrateJob& job) {
       &job.vary);
   options.add({"hold-out", "keep the last N recordings for testing (0)", "N"}, &c.hold_out, 0,
               1000);
-  options.add({"search", "cma-es, paper-lilies, paper-balls: how the region is found", "WORD"});
-  options.add({"evaluations", "of the search (1500; of a swarm as many as the paper)", "N"},
-              &c.search_budget, 20, 100000000);
-  options.add({"replicates", "experiments simulated for the intervals (200)", "N"}, &c.replicates,
-              20, 100000);
   options.add(
-      {"simulations", "of the first response surfaces (120); the last one has twice as many", "N"},
+      {"search",
+       "how the region is found: none (for prediction), cma-es, paper-lilies or paper-balls",
+       "WORD"});
+  options.add({"evaluations", "of a search (1500; of a swarm as many as the paper)", "N"},
+              &c.search_budget, 20, 100000000);
+  options.add(
+      {"replicates", "experiments simulated for the intervals (200; for prediction 100)", "N"},
+      &c.replicates, 20, 100000);
+  options.add(
+      {"simulations",
+       "of the first response surfaces (120; for prediction 60); the last one has twice as many",
+       "N"},
       &c.round, 40, 100000);
   options.add({"comparisons", "experiments simulated for Eq. 9 before and after (24)", "N"},
               &c.comparisons, 2, 100000);
   options.add(
-      {"flow-draws", "extractions simulated for the flow's error (24; 0: the flow is exact)", "N"},
+      {"flow-draws",
+       "extractions simulated for the flow's error (24; for prediction 12; 0: the flow is exact)",
+       "N"},
       &c.flow_draws, 0, 10000);
   options.add(
       {"start", "overlay with the values at which the search starts, as calibrated.toml", "FILE"});
@@ -109,24 +120,25 @@ void vary(const VerbOptions& options, const std::string& assignment,
 void complete(const VerbOptions& options, CalibrateJob& job) {
   CalibrationOptions& c = job.calibration;
   c.body = options.has("balls") ? BodyKind::ball : BodyKind::lily;
-  c.objective = objective_named(job.objective);
+  if (!job.objective.empty()) c.objective = objective_named(job.objective);
   c.flow = flow_named(job.flow);
   c.parameters = standard_parameters(c.body);
   for (const std::string& one : job.vary) vary(options, one, c.parameters);
-  c.search_name = options.text(
-      "search", c.objective == CalibrationObjective::msd ? "paper-lilies" : c.search_name);
-  std::vector<std::string> searches = swarm_presets();
-  searches.push_back("cma-es");
-  if (std::find(searches.begin(), searches.end(), c.search_name) == searches.end()) {
+  if (options.has("evaluations")) c.search_name = "cma-es";
+  if (c.objective == CalibrationObjective::msd) c.search_name = "paper-lilies";
+  c.search_name = options.text("search", c.search_name);
+  const std::vector<std::string> swarms = swarm_presets();
+  std::vector<std::string> searches = swarms;
+  searches.insert(searches.end(), {"cma-es", "none"});
+  if (!c.search_name.empty() && std::ranges::find(searches, c.search_name) == searches.end()) {
     options.refuse("--search " + c.search_name + " is not known" +
                    did_you_mean(c.search_name, searches));
   }
-  if (c.search_name != "cma-es" && options.has("evaluations")) {
+  if (std::ranges::find(swarms, c.search_name) != swarms.end() && options.has("evaluations")) {
     const SwarmOptions swarm = swarm_preset(c.search_name);
     c.search_iterations = static_cast<int>(
         std::max<std::int64_t>(1, c.search_budget / (swarm.particles * swarm.evaluations)));
   }
-  c.last_round = 2 * c.round;
 }
 
 // The parameters' values where `last` overrides the other files. Only these: a file of another
@@ -172,7 +184,11 @@ int recover_verb(const VerbOptions& options, const Arguments& arguments, Calibra
     options.refuse("--flow " + job.flow + " does not go with --recover: smooth or scenario");
   }
   const Scenario scenario = load_scenario(options.positional(), job.sets);
-  if (options.has("objective")) r.objectives = {c.objective};
+  if (options.has("objective")) {
+    r.objectives = {c.objective};
+  } else {
+    r.objectives.front() = default_objective({}, BodyKind::lily, c.parameters);
+  }
   if (options.has("flow") && c.flow == CalibrationFlow::smooth) r.balls = 24;
   const std::string title = scenario.title.empty() ? "scenario" : scenario.title;
   c.out = options.out("out/recover-" + title);
@@ -217,6 +233,7 @@ int calibrate_verb(const Arguments& arguments, const Host& host) {
   if (options.has("recover")) return recover_verb(options, arguments, job, progress);
   std::vector<std::string> files = options.positional();
   const Experiment experiment = load_experiment(files, job.sets);
+  if (job.objective.empty()) c.objective = default_objective(experiment, c.body, c.parameters);
   std::vector<double> truth;
   for (const auto& [name, values] : {std::pair{"start", &c.start}, {"truth", &truth}}) {
     if (!options.has(name)) continue;

@@ -16,8 +16,6 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-// Sizes: of factors on drag, flow and gusts; of dampings, 1/s.
-constexpr double kDrag = 0.3, kFlow = 0.15, kGusts = 0.2, kDamping = 0.3;
 constexpr std::size_t kMeanModes = Nuisances::kMeanModes, kGustModes = 16;
 constexpr std::size_t kOfCell = 3 * kMeanModes + kGustModes;
 constexpr int kDraws = 600;
@@ -122,6 +120,13 @@ class About {
 
 }  // namespace
 
+const std::array<Nuisances::Parameter, Nuisances::kParameters> Nuisances::kParameter{
+    {{"drag", 0.3},
+     {"flow", 0.15},
+     {"linear damping", 0.3},
+     {"angular damping", 0.3},
+     {"gusts", 0.2}}};
+
 Nuisances::Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads)
     : cells_(std::min(maps.best()->cells(), kMostCells)), extent_(maps.best()->extent()) {
   const std::vector<Vec2> places = centres(cells_, extent_);
@@ -182,10 +187,12 @@ void Nuisances::push(const Features& features, const Kinematics& k, std::size_t 
   const auto by = [&](const Wrench& w, double size) {
     push(size * w.fx / mass, size * w.fy / mass, size * w.torque / inertia);
   };
-  by(features.drag(i), kDrag), by(features.by_gain(i), kFlow);
-  push(-kDamping * k.vx[i], -kDamping * k.vy[i], 0), push(0, 0, -kDamping * k.omega[i]);
-  by(features.by_gusts(i), kGusts);
-  push_flow(features, k.x[i], k.y[i], i, at, pushes);
+  const auto& [drag, flow, linear, angular, gusts] = kParameter;
+  by(features.drag(i), drag.size), by(features.by_gain(i), flow.size);
+  push(-linear.size * k.vx[i], -linear.size * k.vy[i], 0);
+  push(0, 0, -angular.size * k.omega[i]);
+  by(features.by_gusts(i), gusts.size);
+  if (cells_ > 0) push_flow(features, k.x[i], k.y[i], i, at, pushes);
 }
 
 // Bilinear between the centres of four cells, as the flow itself.

@@ -2,6 +2,7 @@
 // accelerations of modules. Scores of effects are cleared of them.
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace lilytank {
 /// made.
 class Nuisances {
  public:
+  /// The parameters alone.
+  Nuisances() = default;
   /// From draws of the maps' errors (flow_uncertainty.hpp). `threads`: 0: one a core.
   Nuisances(const Model& model, const FlowMaps& maps, std::uint64_t seed, int threads = 0);
 
@@ -32,6 +35,12 @@ class Nuisances {
   static constexpr std::size_t kMeanModes = 256;
   /// The first ones, which are parameters of the model and not errors of the flow.
   static constexpr Eigen::Index kParameters = 5;
+  /// In words, and the size of each: a relative change, or 1/s.
+  struct Parameter {
+    const char* name;
+    double size;
+  };
+  static const std::array<Parameter, kParameters> kParameter;
 
   /// The acceleration of module `i` by each at its size, from entry `first` of `pushes` on.
   void push(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,

@@ -53,7 +53,6 @@ class Scorer {
   explicit Scorer(const ScorePlan& plan, bool all_partners = false)
       : plan_(plan),
         modules_(static_cast<std::size_t>(plan.modules)),
-        parts_(residual_statistics(plan)),
         scored_(plan.first_of_effect(plan.effects.size())),
         total_(scored_ + plan.shapes.size() * kKnots),
         beside_(components_of(plan.beside)),
@@ -67,11 +66,14 @@ class Scorer {
         reach_(plan.latched() ? std::max(kTouch, plan.model.control.capture_distance) : kTouch),
         together_(features_in_all_) {}
 
+  /// All that values() needs besides the sums of scores.
+  void measure_residuals() { parts_ = residual_statistics(plan_), whole_ = true; }
+
   void run(const std::vector<Recording>& recordings) {
     predict(plan_.model, recordings, plan_.predictor,
             [this](const PredictedFrame& frame) { add(frame); });
     sensitivities_.finish();
-    if (plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
+    if (whole_ && plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
   }
 
   std::vector<Sensitivities::Amplitude> amplitudes() const {
@@ -272,6 +274,7 @@ class Scorer {
 
   const ScorePlan& plan_;
   std::size_t modules_;
+  bool whole_ = false;  // for values()
   std::vector<std::unique_ptr<ResidualStatistic>> parts_;
   std::size_t scored_, total_;  // features that are amplitudes
   // Components of nuisance effects, and prior information of these and of nuisances.
@@ -354,6 +357,7 @@ double deviance_of(ScorePlan plan, const std::vector<Recording>& recordings) {
 std::vector<double> score(const ScorePlan& plan, const std::vector<Recording>& recordings,
                           ScoreDetails* details) {
   Scorer scorer(plan);
+  scorer.measure_residuals();
   scorer.run(recordings);
   return scorer.values(details);
 }

@@ -27,8 +27,7 @@ class Kicks final : public SummaryPart {
   void report(SummaryValues& out) const override {
     for (std::size_t k = 0; k < kLags.size(); ++k) {
       const std::string lag = std::to_string(kLags[k]) + " frames";
-      out.push_back({turning_ ? "turning" : "kicks",
-                     (turning_ ? "turning noise " : "process noise ") + lag,
+      out.push_back({"kicks", (turning_ ? "turning noise " : "process noise ") + lag,
                      log_of(sums_[k].mean())});
     }
   }

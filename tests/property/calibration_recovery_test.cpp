@@ -39,9 +39,31 @@ TEST(CalibrationRecovery, intervalsHoldPlantedParametersAndAreNarrow) {
   }
 }
 
+// Far from the scenario's values, without a search: four standard errors, from two minutes of eight
+// modules.
+TEST(CalibrationRecovery, PredictionsFindTheWayFromAfar) {
+  RecoveryOptions r;
+  r.experiments = 1, r.recordings = 2, r.seconds = 60, r.rate = 15;
+  r.objectives = {CalibrationObjective::prediction};
+  r.calibration.seed = 22, r.calibration.round = 40, r.calibration.last_round = 40;
+  r.calibration.replicates = 40;
+  const auto rows = recover(tank(), r);
+  ASSERT_EQ(rows.size(), 5u);
+  for (const RecoveryRow& row : rows) {
+    const FitParameter scale{"", "", row.bound_low, row.bound_high, row.logarithmic, false};
+    const double off = scale.to_scale(row.estimate) - scale.to_scale(row.truth);
+    const double error = (scale.to_scale(row.high) - scale.to_scale(row.low)) / (2 * 1.96);
+    EXPECT_LT(std::fabs(off), 4 * error) << row.parameter;
+    if (row.logarithmic) {
+      EXPECT_LT(error, 0.25) << row.parameter;
+    }
+  }
+}
+
 TEST(CalibrationRecovery, isTheSameForAnyNumberOfThreads) {
   RecoveryOptions r = small();
-  r.experiments = 1, r.seconds = 20, r.objectives = {CalibrationObjective::summary};
+  r.experiments = 1, r.seconds = 20;
+  r.objectives = {CalibrationObjective::summary, CalibrationObjective::prediction};
   r.calibration.threads = 1;
   const auto one = recover(tank(), r);
   r.calibration.threads = 3;

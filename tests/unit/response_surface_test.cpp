@@ -161,6 +161,28 @@ TEST(ResponseSurface, shrunkSlopesDoNotHoldAnswersToTheCentre) {
   EXPECT_GT(slope_of_answers(Slopes::shrunk), 0.75);
 }
 
+// Statistics of which one is curved and the others are not: the curve stays, the noise of the
+// others' curvatures goes.
+TEST(ResponseSurface, StraightenedSurfacesKeepCurvesThatAreClear) {
+  const Design d = design(60, 0.01);
+  const ResponseSurface found(d), straight(d, Misfit::covariance, Slopes::straightened);
+  Vector left(2), right(2), middle = Vector::Zero(2);
+  left << -2, 0, right << 2, 0;
+  const auto bend = [&](const ResponseSurface& model) -> Vector {
+    return 0.5 * (model.mean(left) + model.mean(right)) - model.mean(middle);
+  };
+  const Vector truly = 0.5 * (truth(left) + truth(right)) - truth(middle);
+  double noise_found = 0, noise_straight = 0;
+  for (Eigen::Index k = 0; k < truly.size(); ++k) {
+    if (truly(k) > 0.5) {
+      EXPECT_NEAR(bend(straight)(k), truly(k), 0.15 * truly(k)) << k;
+    }
+    if (std::fabs(truly(k)) > 1e-9) continue;
+    noise_found += std::fabs(bend(found)(k)), noise_straight += std::fabs(bend(straight)(k));
+  }
+  EXPECT_LT(noise_straight, 0.5 * noise_found);
+}
+
 // A number that does not depend on a parameter does not move it, whatever chance has its slope be;
 // the other numbers do as they did.
 TEST(ResponseSurface, independentNumbersDoNotMoveAParameter) {
