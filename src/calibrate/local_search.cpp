@@ -25,10 +25,11 @@ constexpr double kSettledErrors = 1;  // ... or its standard errors: bounds may 
 constexpr double kFarOff = 2;         // deviations beyond which the next design is stretched
 constexpr double kWidest = 2;         // most of both, in deviations of the first design
 constexpr double kWidestLast = 3;     // the same of whole experiments
-// The same of predicted ones: statistics are linear in dampings, but not in large factors.
+// The same for CalibrationObjective::prediction, by the scale of a parameter: statistics are nearly
+// linear in dampings, but not in large factors.
 constexpr double kWidestLinear = 6, kWidestFactor = 1.5;
-constexpr double kShrink = 0.3;   // widths of a predicted design that the next one has at least
-constexpr double kTooWide = 2.5;  // times the width that its errors ask for
+constexpr double kShrink = 0.3;   // least width of the next such design, in widths of this one
+constexpr double kTooWide = 2.5;  // widths, over the errors', beyond which such a design shrinks
 constexpr double kLeastAnswerSlope = 0.25;  // of an answer in the truth
 constexpr double kResolved = 1.5;           // times a design that is wide enough would be wider
 constexpr double kNear = 1.6;      // farthest points that count, over the root of their dimension

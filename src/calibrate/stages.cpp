@@ -9,6 +9,7 @@
 #include "lilytank/random.hpp"
 #include "lilytank/search_run.hpp"
 #include "lilytank/state.hpp"
+#include "scores/flow_uncertainty.hpp"
 
 namespace lilytank {
 namespace {
@@ -224,7 +225,9 @@ std::vector<std::vector<double>> Stages::simulate(const std::string& stage,
   };
   const auto experiment = [&](int i) {
     const auto run = static_cast<std::uint64_t>(i);
-    const auto field = maps.draw(derived_seed(seed, kFlowMix), i);
+    const std::uint64_t mix = derived_seed(seed, kFlowMix);
+    const auto field =
+        predicted_ && setup_.draws_flow() ? perturbed_flow(maps, mix, mix, i) : maps.draw(mix, i);
     const auto made = whole_.record(from_scale(points.row(i)), derived_seed(seed, 16 + run), field);
     return made ? numbers(*made) : std::vector<double>{};
   };
