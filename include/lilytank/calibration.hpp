@@ -1,10 +1,11 @@
 // The parameters of a model from recordings, with intervals [paper, section 4].
 //
 // The parameters are those at which simulated recordings (emulator.hpp) have the statistics of the
-// experiment's recordings. The objective selects the statistics: the paper's MSD (Eq. 9), the MSD
-// weighted by its own covariance, or a summary of all motion (motion_summary.hpp).
-// A search finds the region, response surfaces (response_surface.hpp) the estimate, and experiments
-// simulated at the estimate and estimated in their turn the intervals. docs/calibration.md.
+// experiment's recordings. The objective selects the statistics: errors of predictions one frame
+// ahead (predictor.hpp), the paper's MSD (Eq. 9), the MSD weighted by its own covariance, or a
+// summary of all motion (motion_summary.hpp). A search finds the region (predictions need none),
+// response surfaces (response_surface.hpp) the estimate, and experiments simulated at the estimate
+// and estimated in their turn the intervals. docs/calibration.md.
 #pragma once
 #include <cmath>
 #include <cstdint>
