@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "calibrate/design.hpp"
 #include "finder/joint.hpp"
@@ -42,14 +41,6 @@ Vector range_of(const FitBounds& bounds) {
 }
 
 }  // namespace
-
-int identities_in(const std::vector<Recording>& recordings) {
-  std::set<std::int64_t> ids;
-  for (const Recording& one : recordings) {
-    for (const Track& track : one.tracks) ids.insert(track.id);
-  }
-  return static_cast<int>(ids.size());
-}
 
 PreparedTank::PreparedTank(DiagnosisSetup& diagnosis, double after)
     : setup(diagnosis),

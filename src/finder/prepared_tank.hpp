@@ -16,9 +16,6 @@ struct BaselineEstimate {
   bool settled = false;  ///< the estimate lay among the simulated points
 };
 
-/// Different ids of tracks, over all recordings.
-int identities_in(const std::vector<Recording>& recordings);
-
 /// Not copied: the ensemble refers to the maps.
 class PreparedTank {
  public:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "scores/nuisances.hpp"
 #include "scores/scores.hpp"
@@ -18,17 +17,13 @@ constexpr double kLongestStep = 1.0 / 30;  // s, of the predictions
 
 ScorePlan prediction_plan(const Model& model, const std::vector<Recording>& recordings,
                           int bodies) {
-  std::set<std::int64_t> ids;
-  for (const Recording& one : recordings) {
-    for (const Track& track : one.tracks) ids.insert(track.id);
-  }
   ScorePlan plan;
   plan.model = model;
   plan.predictor = predictor_options(model, recordings);
   plan.rate = recordings.front().rate;
   plan.predictor.substeps =
       std::max(1, static_cast<int>(std::lround(1 / (plan.rate * kLongestStep))));
-  plan.modules = std::max(bodies, static_cast<int>(ids.size()));
+  plan.modules = std::max(bodies, identities_in(recordings));
   plan.nuisances = std::make_shared<const Nuisances>();
   return plan;
 }
@@ -47,9 +42,8 @@ std::vector<double> prediction_numbers(const ScorePlan& plan,
   sums.information.diagonal().array() += kBarelyKnown;
   const Eigen::VectorXd changes = solve_symmetric(sums.information, sums.scores);
   std::vector<double> out;
-  for (Eigen::Index k = 0; k < changes.size(); ++k) {
-    out.push_back(changes(k) * Nuisances::kParameter[static_cast<std::size_t>(k)].size);
-  }
+  Eigen::Index k = 0;
+  for (const Nuisances::Parameter& p : Nuisances::kParameter) out.push_back(changes(k++) * p.size);
   return out;
 }
 

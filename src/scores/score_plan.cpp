@@ -1,11 +1,21 @@
 #include "scores/score_plan.hpp"
 
+#include <set>
+
 #include "scores/bond_numbers.hpp"
 #include "scores/nuisances.hpp"
 #include "scores/residual_statistics.hpp"
 #include "text/words.hpp"
 
 namespace lilytank {
+
+int identities_in(const std::vector<Recording>& recordings) {
+  std::set<std::int64_t> ids;
+  for (const Recording& one : recordings) {
+    for (const Track& track : one.tracks) ids.insert(track.id);
+  }
+  return static_cast<int>(ids.size());
+}
 
 Eigen::MatrixXd ScorePlan::nuisances_known() const {
   return nuisances ? nuisances->known() : Eigen::MatrixXd();

@@ -13,6 +13,9 @@ namespace lilytank {
 
 class Nuisances;
 
+/// Number of different ids of tracks, over all recordings.
+int identities_in(const std::vector<Recording>& recordings);
+
 /// One number of the vector that is compared.
 struct ScoreEntry {
   std::string group;  ///< score, module, noise, spectrum, contact, camera, bond, shape

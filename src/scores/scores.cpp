@@ -66,14 +66,14 @@ class Scorer {
         reach_(plan.latched() ? std::max(kTouch, plan.model.control.capture_distance) : kTouch),
         together_(features_in_all_) {}
 
-  /// All that values() needs besides the sums of scores.
-  void measure_residuals() { parts_ = residual_statistics(plan_), whole_ = true; }
+  // Statistics that values() needs besides the sums of scores.
+  void measure_residuals() { parts_ = residual_statistics(plan_); }
 
   void run(const std::vector<Recording>& recordings) {
     predict(plan_.model, recordings, plan_.predictor,
             [this](const PredictedFrame& frame) { add(frame); });
     sensitivities_.finish();
-    if (whole_ && plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
+    if (!parts_.empty() && plan_.latched()) bonds_ = bond_numbers(plan_, recordings);
   }
 
   std::vector<Sensitivities::Amplitude> amplitudes() const {
@@ -274,7 +274,6 @@ class Scorer {
 
   const ScorePlan& plan_;
   std::size_t modules_;
-  bool whole_ = false;  // for values()
   std::vector<std::unique_ptr<ResidualStatistic>> parts_;
   std::size_t scored_, total_;  // features that are amplitudes
   // Components of nuisance effects, and prior information of these and of nuisances.
