@@ -134,6 +134,7 @@ TEST_F(calibrateVerb, refusesWithOneLine) {
   } cases[] = {
       {"", "of what? write lilytank calibrate EXPERIMENT.toml"},
       {kTank + " --objective sumary", "did you mean 'summary'?"},
+      {kTank + " --objective prediction --vary module.draught=0.02..0.04", ": use summary"},
       {kTank + " --flow smoth", "did you mean 'smooth'?"},
       {kTank + " --search paper-lily", "did you mean 'paper-lilies'?"},
       {kTank + " --vary forces.face_drag.K_f=0.1..1", "did you mean 'forces.face_drag.K_F'?"},
