@@ -18,9 +18,9 @@ CalibrationResult begun(const CalibrationSetup& setup) {
   out.flow = setup.flow ? setup.flow->name : "scenario";
   out.search_name = setup.options.search_name, out.body = setup.body;
   out.recordings = static_cast<int>(setup.training.size());
+  out.bodies = most_bodies(setup.shapes);
   out.dt = setup.model.dt, out.tank_radius = setup.model.tank.radius;
   for (const RecordingShape& shape : setup.shapes) {
-    out.bodies = std::max(out.bodies, shape.bodies);
     out.seconds += shape.frames / shape.rate;
   }
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
@@ -55,7 +55,7 @@ CalibrationPlan plan_of(const CalibrationSetup& setup, const Stages& stages) {
   CalibrationPlan out;
   out.coverage = coverage_of(setup.flow ? &*setup.flow : nullptr, setup.balls, setup.training);
   out.recordings = static_cast<int>(setup.training.size());
-  for (const RecordingShape& shape : setup.shapes) out.bodies = std::max(out.bodies, shape.bodies);
+  out.bodies = most_bodies(setup.shapes);
   out.experiments = stages.usual_experiments();
   out.experiment_time = time_of([&] {
     return setup.emulator(setup.shapes, CalibrationSetup::Of::experiments).record(setup.start, 1);

@@ -51,7 +51,8 @@ Replicates by_others(const Stages& stages, const LocalAnswer& answer, Design mad
   const Eigen::Index n = made.points.rows();
   const Design whole = joined(answer.design, made), all = with_columns(whole, fitted);
   const CrossFit fit = cross_fit(all, answer.observed(fitted), Misfit::covariance, slopes);
-  const CrossFit whole_fit = cross_fit(whole, answer.observed, Misfit::covariance, slopes);
+  const CrossFit whole_fit =
+      setup.predicted() ? cross_fit(whole, answer.observed, Misfit::covariance, slopes) : fit;
   const BiasCorrectedFit corrected = setup.predicted() ? bias_corrected(all, fit, setup.prior())
                                                        : bias_corrected(all, fit, kLeastSlope);
   return {std::move(made),           corrected.errors.bottomRows(n),

@@ -72,17 +72,18 @@ class Way {
         maps_(maps),
         observed_(observed()),
         bounds_(stages.bounds()),
-        centre_(stages.to_scale(from)) {
+        centre_(stages.to_scale(from)),
+        predicted_(stages.setup().predicted()) {
     const CalibrationSetup& setup = stages.setup();
     kind_ = setup.options.objective == CalibrationObjective::msd ? Misfit::absolute
                                                                  : Misfit::covariance;
-    slopes_ = setup.slopes();
     most_ = kFirstSpread * (bounds_.high - bounds_.low);
     for (std::size_t i = setup.reported_count(); i < setup.parameters.size(); ++i) {
       most_(static_cast<Eigen::Index>(i)) = kNoiseSpread;
     }
     spread_ = own_ = most_.asDiagonal();
     widest_ = kWidestLast * most_;
+    if (predicted_) begin_wide();
   }
 
   void go(const Phase& phase) {
@@ -101,17 +102,6 @@ class Way {
     }
   }
 
-  /// Experiments are compared by how a model predicts them, from the first, wide design on. Their
-  /// numbers say where to go even from afar, so that no search is needed.
-  void begin_predicted() {
-    least_ = kShrink * own_, fixed_ = predicted_ = true;
-    const std::vector<FitParameter>& parameters = stages_.setup().parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      widest_(static_cast<Eigen::Index>(k)) *=
-          (parameters[k].logarithmic ? kWidestFactor : kWidestLinear) / kWidestLast;
-    }
-  }
-
   /// Whole experiments scatter less than pieces. From here on designs do not shrink further: noisy
   /// slopes give too small a covariance, and a narrower design even noisier slopes. They widen with
   /// the errors.
@@ -127,6 +117,16 @@ class Way {
   }
 
  private:
+  // Predictions show where to go even from afar: whole experiments from the first design on.
+  void begin_wide() {
+    least_ = kShrink * own_, fixed_ = true;
+    const std::vector<FitParameter>& parameters = stages_.setup().parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      widest_(i) = (parameters[k].logarithmic ? kWidestFactor : kWidestLinear) * most_(i);
+    }
+  }
+
   Vector observed() const {
     const std::vector<double> numbers = stages_.numbers(stages_.setup().training);
     return Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
@@ -142,14 +142,15 @@ class Way {
     const std::vector<Eigen::Index> fitted = stages_.fitted();
     const Design design = with_columns(whole, fitted);
     const Vector observed = observed_(fitted);
-    ResponseSurface model(design, kind_, slopes_);
+    const Slopes slopes = stages_.setup().slopes();
+    ResponseSurface model(design, kind_, slopes);
     FitBounds near = bounds_;
     near.reach = kRoundReach;
     LocalFit fit = model.fit(observed, near);
     Matrix next = own_;
     bool within_errors = false;
     if (fixed_ && kind_ == Misfit::covariance) {
-      const CrossFit by_others = cross_fit(design, observed, kind_, slopes_);
+      const CrossFit by_others = cross_fit(design, observed, kind_, slopes);
       const BiasCorrectedFit corrected =
           predicted_ ? bias_corrected(design, by_others, stages_.setup().prior())
                      : bias_corrected(design, by_others, kLeastAnswerSlope);
@@ -209,8 +210,8 @@ class Way {
 
   // In proportion to the errors, never narrower than the first design of whole experiments.
   Matrix next_spread(const Matrix& errors) const {
-    const Matrix asked = spread_of(errors, kLastSpread, widest_);
-    return lower_root(least_ * least_.transpose() + asked * asked.transpose());
+    const Matrix wide = spread_of(errors, kLastSpread, widest_);
+    return lower_root(least_ * least_.transpose() + wide * wide.transpose());
   }
 
   Stages& stages_;
@@ -221,8 +222,8 @@ class Way {
   Matrix own_, spread_;            ///< of the points by themselves, and stretched along the way
   Matrix least_;                   ///< of the points of whole experiments
   Misfit kind_ = Misfit::covariance;
-  Slopes slopes_ = Slopes::found;
-  bool fixed_ = false, predicted_ = false, stretched_ = false;
+  const bool predicted_;
+  bool fixed_ = false, stretched_ = false;
   std::uint64_t seed_ = kRoundSeed;
   std::optional<LocalAnswer> answer_;
   std::vector<LocalRound> taken_;
@@ -234,9 +235,7 @@ LocalAnswer find_locally(Stages& stages, const std::vector<double>& from, const 
                          CalibrationResult& out) {
   const CalibrationSetup& setup = stages.setup();
   Way way(stages, maps, from);
-  if (setup.predicted()) {
-    way.begin_predicted();
-  } else {
+  if (!setup.predicted()) {
     // Pieces are cheap and scatter widely: they find the centre of the first design of whole
     // experiments.
     way.go({"rough model ", Stages::Of::pieces, setup.options.last_round, setup.options.last_round,

@@ -149,6 +149,12 @@ std::vector<RecordingShape> shapes_of(const std::vector<Recording>& recordings) 
 
 }  // namespace
 
+int most_bodies(const std::vector<RecordingShape>& shapes) {
+  int most = 0;
+  for (const RecordingShape& shape : shapes) most = std::max(most, shape.bodies);
+  return most;
+}
+
 void add_recordings(const std::vector<Recording>& recordings, Fnv& hash) {
   for (const Recording& one : recordings) {
     hash.add(one.name + " " + shortest(one.rate) + " " + std::to_string(one.frames));
@@ -206,6 +212,13 @@ Emulator CalibrationSetup::emulator(const std::vector<RecordingShape>& shapes_of
   EmulatorOptions how;
   how.moment_matched = of == Of::pieces;
   return Emulator(model, paths(), shapes_of, how);
+}
+
+Model CalibrationSetup::model_at(const std::vector<double>& values) const {
+  const auto reported = static_cast<std::ptrdiff_t>(reported_count());
+  std::vector<std::string> of = paths();
+  of.resize(reported_count());
+  return with_parameters(model, of, std::vector<double>(values.begin(), values.begin() + reported));
 }
 
 std::vector<double> CalibrationSetup::numbers(const std::vector<Recording>& recordings) const {

@@ -49,6 +49,9 @@ struct CalibrationSetup {
   enum class Of { experiments, pieces };
   Emulator emulator(const std::vector<RecordingShape>& shapes_of, Of of = Of::pieces) const;
 
+  /// The model at values of the parameters, of which those of nuisances are not the model's.
+  Model model_at(const std::vector<double>& values) const;
+
   /// What the objective compares, of recordings of the experiment's whole length; its summary if
   /// that is predictions, which a filter makes.
   std::vector<double> numbers(const std::vector<Recording>& recordings) const;
@@ -62,6 +65,9 @@ struct CalibrationSetup {
 
 /// Estimates the flow; reads no file beside the experiment. Throws InputError.
 CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& options);
+
+/// The largest number of bodies of a recording.
+int most_bodies(const std::vector<RecordingShape>& shapes);
 
 /// Adds the recordings to the hash of an identity.
 void add_recordings(const std::vector<Recording>& recordings, Fnv& hash);

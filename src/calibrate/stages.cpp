@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
-#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/search_run.hpp"
 #include "lilytank/state.hpp"
@@ -181,14 +180,8 @@ std::vector<double> Stages::search(CalibrationResult& out) {
 }
 
 void Stages::predict_with(const std::vector<double>& values) {
-  const auto reported = static_cast<std::ptrdiff_t>(setup_.reported_count());
-  std::vector<std::string> paths = setup_.paths();
-  paths.resize(setup_.reported_count());
-  int bodies = 0;
-  for (const RecordingShape& shape : setup_.shapes) bodies = std::max(bodies, shape.bodies);
-  predicted_ = prediction_plan(
-      with_parameters(setup_.model, paths, {values.begin(), values.begin() + reported}),
-      setup_.training, bodies);
+  predicted_ =
+      prediction_plan(setup_.model_at(values), setup_.training, most_bodies(setup_.shapes));
 }
 
 std::vector<double> Stages::numbers(const std::vector<Recording>& recordings) const {

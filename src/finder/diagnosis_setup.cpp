@@ -30,12 +30,6 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
 
 }  // namespace
 
-int most_bodies(const std::vector<RecordingShape>& shapes) {
-  int most = 0;
-  for (const RecordingShape& shape : shapes) most = std::max(most, shape.bodies);
-  return most;
-}
-
 DiagnosisBudget::DiagnosisBudget(double minutes) {
   const double s = std::clamp(minutes, kLeastTankMinutes, 40.0) / 10;
   const auto scaled = [&](int n, int least) {

@@ -14,9 +14,6 @@ struct DiagnosisBudget {
   explicit DiagnosisBudget(double minutes);
 };
 
-/// The largest number of bodies of a recording.
-int most_bodies(const std::vector<RecordingShape>& shapes);
-
 /// Calibration of the baseline and its stages with a diagnosis' options. Not copied: the stages
 /// refer to the calibration.
 struct DiagnosisSetup {

@@ -5,7 +5,6 @@
 
 #include "calibrate/design.hpp"
 #include "finder/joint.hpp"
-#include "lilytank/model_parameter.hpp"
 #include "lilytank/random.hpp"
 #include "scores/nuisances.hpp"
 
@@ -108,13 +107,7 @@ Matrix PreparedTank::null_spread() const {
 }
 
 Model PreparedTank::baseline_at(const Vector& scaled) const {
-  const CalibrationSetup& calibration = setup.calibration;
-  const std::vector<std::string> all = calibration.paths();
-  const std::vector<double> values = setup.stages.from_scale(scaled);
-  const auto reported = static_cast<std::ptrdiff_t>(calibration.reported_count());
-  return with_parameters(calibration.model,
-                         std::vector<std::string>(all.begin(), all.begin() + reported),
-                         std::vector<double>(values.begin(), values.begin() + reported));
+  return setup.calibration.model_at(setup.stages.from_scale(scaled));
 }
 
 ScorePlan PreparedTank::plan() const {

@@ -120,7 +120,7 @@ class About {
 
 }  // namespace
 
-const std::array<Nuisances::Parameter, Nuisances::kParameters> Nuisances::kParameter{
+const std::array<Nuisances::Parameter, Nuisances::kParameters> Nuisances::kModelParameters{
     {{"drag", 0.3},
      {"flow", 0.15},
      {"linear damping", 0.3},
@@ -187,7 +187,7 @@ void Nuisances::push(const Features& features, const Kinematics& k, std::size_t 
   const auto by = [&](const Wrench& w, double size) {
     push(size * w.fx / mass, size * w.fy / mass, size * w.torque / inertia);
   };
-  const auto& [drag, flow, linear, angular, gusts] = kParameter;
+  const auto& [drag, flow, linear, angular, gusts] = kModelParameters;
   by(features.drag(i), drag.size), by(features.by_gain(i), flow.size);
   push(-linear.size * k.vx[i], -linear.size * k.vy[i], 0);
   push(0, 0, -angular.size * k.omega[i]);

@@ -40,7 +40,7 @@ class Nuisances {
     const char* name;
     double size;
   };
-  static const std::array<Parameter, kParameters> kParameter;
+  static const std::array<Parameter, kParameters> kModelParameters;
 
   /// The acceleration of module `i` by each at its size, from entry `first` of `pushes` on.
   void push(const Features& features, const Kinematics& k, std::size_t i, std::size_t first,

@@ -30,7 +30,7 @@ ScorePlan prediction_plan(const Model& model, const std::vector<Recording>& reco
 
 std::vector<std::string> prediction_names() {
   std::vector<std::string> out;
-  for (const Nuisances::Parameter& p : Nuisances::kParameter) {
+  for (const Nuisances::Parameter& p : Nuisances::kModelParameters) {
     out.push_back(std::string("change of ") + p.name);
   }
   return out;
@@ -43,7 +43,8 @@ std::vector<double> prediction_numbers(const ScorePlan& plan,
   const Eigen::VectorXd changes = solve_symmetric(sums.information, sums.scores);
   std::vector<double> out;
   Eigen::Index k = 0;
-  for (const Nuisances::Parameter& p : Nuisances::kParameter) out.push_back(changes(k++) * p.size);
+  for (const Nuisances::Parameter& p : Nuisances::kModelParameters)
+    out.push_back(changes(k++) * p.size);
   return out;
 }
 

@@ -23,8 +23,8 @@ std::vector<Recording> filmed(const Model& model, std::uint64_t seed) {
   return made ? *made : std::vector<Recording>{};
 }
 
-// Change of `number` between a tank whose parameter at `path` is `factor` times as large and the
-// tank that predicts, over the scatter of four minutes.
+// Change of `number` where the parameter at `path` is `factor` times that of the model that
+// predicts, over the scatter of four minutes.
 double response(const std::string& path, double factor, std::size_t number) {
   const Model model = tank();
   const Model other =
