@@ -97,11 +97,11 @@ home jobs run data_file
 home recording camera experiment recording recording_io
 home smoothing smoothing
 home tracks analysis distributions metrics motion_summary
-home flow coverage flow_estimate flow_maps flow_report
+home flow coverage flow_estimate flow_report
 home synthesis kinetics lattice synthesis target
 home study measure search_run study study_summary study_table
 home optimize optimize
-home emulator emulator fit_parameter
+home emulator emulator fit_parameter flow_maps
 home calibrate calibration response_surface recovery
 home filter predictor
 home finder diagnosis diagnosis_subject next_experiment
