@@ -29,7 +29,7 @@ class FlowMaps {
   /// An estimated flow with draws of its error and at least two draws from the posterior. The mean
   /// error is subtracted. `components`: FlowEstimate::components.
   FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
-           std::vector<FlowDifference> open, std::vector<FlowDifference> components = {});
+           const std::vector<FlowDifference>& open, std::vector<FlowDifference> components = {});
 
   /// The extracted field less its mean error.
   const std::shared_ptr<const FlowField>& best() const { return field_; }
@@ -43,7 +43,9 @@ class FlowMaps {
 
  private:
   std::shared_ptr<const FlowField> field_;
-  std::vector<FlowDifference> open_;  ///< about their mean
+  /// What is open, a draw after the other about their mean, in single precision: sums of all are
+  /// the larger part of a draw.
+  std::vector<float> open_;
   std::vector<FlowDifference> components_;
 };
 

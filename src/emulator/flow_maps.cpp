@@ -73,8 +73,8 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
 }
 
 FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>& errors,
-                   std::vector<FlowDifference> open, std::vector<FlowDifference> components)
-    : open_(std::move(open)), components_(std::move(components)) {
+                   const std::vector<FlowDifference>& open, std::vector<FlowDifference> components)
+    : components_(std::move(components)) {
   const auto mean = [&](const std::vector<FlowDifference>& of) {
     FlowDifference out(extracted.samples().size());
     for (const FlowDifference& one : of) {
@@ -84,9 +84,15 @@ FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>
     }
     return out;
   };
-  const FlowDifference middle = mean(open_), bias = mean(errors);
-  for (FlowDifference& one : open_) {
-    for (std::size_t i = 0; i < one.size(); ++i) add(one[i], middle[i], -1);
+  const FlowDifference middle = mean(open), bias = mean(errors);
+  for (const FlowDifference& one : open) {
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      FlowSample off = one[i];
+      add(off, middle[i], -1);
+      for (const double value : {off.mu_x, off.mu_y, off.sigma_x, off.sigma_y}) {
+        open_.push_back(static_cast<float>(value));
+      }
+    }
   }
   std::vector<FlowSample> samples = extracted.samples();
   for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], bias[i], -1);
@@ -96,11 +102,18 @@ FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>
 std::shared_ptr<const FlowField> FlowMaps::draw(std::uint64_t seed, std::int64_t run) const {
   if (!uncertain()) return field_;
   std::vector<FlowSample> samples = field_->samples();
-  const double scale = 1 / std::sqrt(static_cast<double>(open_.size() - 1));
-  for (std::size_t k = 0; k < open_.size(); ++k) {
-    const double z =
-        normal_pair({seed, Stream::calibrate, run, static_cast<std::uint32_t>(k), 1})[0];
-    for (std::size_t i = 0; i < samples.size(); ++i) add(samples[i], open_[k][i], z * scale);
+  const std::size_t values = 4 * samples.size(), draws = open_.size() / values;
+  std::vector<float> sum(values);
+  for (std::size_t k = 0; k < draws; ++k) {
+    const auto z = static_cast<float>(
+        normal_pair({seed, Stream::calibrate, run, static_cast<std::uint32_t>(k), 1})[0]);
+    const float* draw = &open_[k * values];
+    for (std::size_t i = 0; i < values; ++i) sum[i] += z * draw[i];
+  }
+  const double scale = 1 / std::sqrt(static_cast<double>(draws - 1));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const float* of = &sum[4 * i];
+    add(samples[i], {of[0], of[1], of[2], of[3]}, scale);
   }
   return like(*field_, std::move(samples));
 }

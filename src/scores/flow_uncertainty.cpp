@@ -26,10 +26,24 @@ class Smooth {
       waves_[static_cast<std::size_t>(w)] = {k * way.c, k * way.s, 2 * kPi * draw(2)};
     }
   }
-  double at(double x, double y) const {
-    double sum = 0;
-    for (const Wave& w : waves_) sum += rotation(w.kx * x + w.ky * y + w.phase).c;
-    return sum * std::sqrt(2.0 / kWaves);
+  /// Its values at the centres of a grid's cells, row by row.
+  std::vector<double> on(const FlowField& field) const {
+    const auto side = static_cast<std::size_t>(field.cells());
+    const double pitch = 2 * field.extent() / field.cells();
+    std::vector<double> sum(side * side);
+    std::vector<Rot> along_x(side), along_y(side);
+    for (const Wave& w : waves_) {
+      for (std::size_t i = 0; i < side; ++i) {
+        const double at = (static_cast<double>(i) + 0.5) * pitch - field.extent();
+        along_x[i] = rotation(w.kx * at + w.phase), along_y[i] = rotation(w.ky * at);
+      }
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        const Rot &a = along_x[i % side], &b = along_y[i / side];
+        sum[i] += a.c * b.c - a.s * b.s;
+      }
+    }
+    for (double& value : sum) value *= std::sqrt(2.0 / kWaves);
+    return sum;
   }
 
  private:
@@ -58,16 +72,14 @@ std::shared_ptr<const FlowField> perturbed_flow(const FlowMaps& maps, std::uint6
   double square = 0;
   for (const FlowSample& s : field.samples()) square += s.mu_x * s.mu_x + s.mu_y * s.mu_y;
   const double size = kMeanError * std::sqrt(0.5 * square / static_cast<double>(samples.size()));
-  const Smooth x(seed, run, 0, field.extent()), y(seed, run, 1, field.extent()),
-      gusts(seed, run, 2, field.extent());
+  const auto smooth = [&](std::uint32_t axis) {
+    return Smooth(seed, run, axis, field.extent()).on(field);
+  };
+  const std::vector<double> x = smooth(0), y = smooth(1), gusts = smooth(2);
   const double common = kGustError * normal_pair({seed, Stream::calibrate, run, 3, 19})[0];
-  const double pitch = 2 * field.extent() / field.cells();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto cells = static_cast<std::size_t>(field.cells());
-    const double px = (static_cast<double>(i % cells) + 0.5) * pitch - field.extent();
-    const double py = (static_cast<double>(i / cells) + 0.5) * pitch - field.extent();
-    samples[i].mu_x += size * x.at(px, py), samples[i].mu_y += size * y.at(px, py);
-    const double factor = std::max(0.2, 1 + common + kGustError * gusts.at(px, py));
+    samples[i].mu_x += size * x[i], samples[i].mu_y += size * y[i];
+    const double factor = std::max(0.2, 1 + common + kGustError * gusts[i]);
     samples[i].sigma_x *= factor, samples[i].sigma_y *= factor;
   }
   return std::make_shared<const FlowField>(field.cells(), field.extent(), std::move(samples),
