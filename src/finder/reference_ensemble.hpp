@@ -34,8 +34,8 @@ struct LearnedFingerprint {
 using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
 
 struct EnsembleOptions {
-  int nulls = 300;       ///< experiments simulated without any effect
-  int experiments = 14;  ///< with an effect, for each of its amplitudes
+  int nulls = 300;    ///< experiments simulated without any effect
+  Learning learning;  ///< with one
   std::uint64_t seed = 1;
   std::uint64_t curve_seed = 1;  ///< of the fingerprints of curves
 };
@@ -72,7 +72,6 @@ class ReferenceEnsemble {
   double displacement_misfit(const Eigen::VectorXd& summary) const;
   /// Of every null, a row each.
   const Eigen::MatrixXd& null_residuals() const { return null_residuals_; }
-  int experiments() const { return options_.experiments; }
   Eigen::Index named_numbers() const { return named_; }  ///< those before the shapes
   /// Of the scores of effects, the first of the named numbers, in the calibrated recordings.
   const Eigen::MatrixXd& informations() const { return informations_; }
