@@ -65,7 +65,7 @@ void ReferenceEnsemble::learn_effects() {
     all.push_back(learning(plan_.effects[e], derived_seed(options_.seed, number++)));
     wanted.push_back(scored("effect " + std::to_string(e), all.back()));
   }
-  const auto rows = stages_.rows("effects", wanted);
+  const auto rows = stages_.rows("experiments with each effect", wanted);
   for (std::size_t e = 0; e < all.size(); ++e) {
     fingerprints_.push_back(fingerprint(plan_.effects[e], responses(all[e], rows[e])));
   }
@@ -77,7 +77,8 @@ ReferenceEnsemble::Responses ReferenceEnsemble::answers(const Effect& effect,
                                                         const Matrix& amplitudes,
                                                         std::uint64_t seed) {
   const Simulation one = simulation_with(effect, about, spread, amplitudes, seed);
-  return responses(one, stages_.rows(stage, {scored(stage, one)}).front());
+  const auto rows = stages_.rows("experiments with " + effect.name, {scored(stage, one)});
+  return responses(one, rows.front());
 }
 
 ReferenceEnsemble::Responses ReferenceEnsemble::responses(
@@ -143,7 +144,8 @@ const Fingerprint& ReferenceEnsemble::shape_fingerprint(int s) {
   const Effect effect = effect_of(plan_.shapes[static_cast<std::size_t>(s)]);
   const std::string stage = "shape " + std::to_string(s);
   const Simulation one = learning(effect, seed);
-  const auto rows = stages_.rows(stage, {scored(stage, one)});
+  const std::string& variable = plan_.shapes[static_cast<std::size_t>(s)].variable;
+  const auto rows = stages_.rows("experiments with a law of " + variable, {scored(stage, one)});
   return shape_fingerprints_[s] = fingerprint(effect, responses(one, rows.front()));
 }
 

@@ -53,18 +53,22 @@ std::vector<Effect> about_place(const Effect& effect) {
 class Numbers {
  public:
   Numbers(const ReferenceEnsemble& ensemble, const std::vector<JointEffect>& effects)
-      : ensemble_(ensemble), places_(ensemble.plan()) {
-    places_.effects.clear(), places_.shapes.clear();
+      : ensemble_(ensemble), plan_(ensemble.plan()), places_(ensemble.plan()) {
+    plan_.shapes.clear(), places_.effects.clear(), places_.shapes.clear();
     for (const JointEffect& e : effects) {
       if (e.effect.estimated != Estimated::place) continue;
       for (Effect& one : about_place(e.effect)) places_.effects.push_back(std::move(one));
     }
-    for (Eigen::Index k = 0; k < ensemble.named_numbers(); ++k) scores_.push_back(k);
+    std::vector<Eigen::Index> scored;
+    for (Eigen::Index k = 0; k < ensemble.named_numbers(); ++k) scored.push_back(k);
     for (const JointEffect& e : effects) {
-      for (int k = 0; e.shape >= 0 && k < kKnots; ++k) {
-        scores_.push_back(ensemble.named_numbers() + e.shape * kKnots + k);
+      if (e.shape < 0) continue;
+      plan_.shapes.push_back(ensemble.plan().shapes[static_cast<std::size_t>(e.shape)]);
+      for (int k = 0; k < kKnots; ++k) {
+        scored.push_back(ensemble.named_numbers() + e.shape * kKnots + k);
       }
     }
+    deviations_ = ensemble.deviations()(scored);
     Matrix alike = correlations_of(ensemble.informations());
     alike.diagonal().array() += kUniqueVariance;
     alike_ = lower_root(alike);
@@ -80,11 +84,13 @@ class Numbers {
     return out;
   }
   Vector operator()(const std::vector<Recording>& recordings) const {
-    const Vectors v = ensemble_.vectors(recordings);
-    const Vector places = about_places(recordings);
-    Vector out(v.summary.size() + static_cast<Eigen::Index>(scores_.size()) + places.size());
-    out << v.summary, v.scores(scores_).cwiseQuotient(ensemble_.deviations()(scores_)), places;
-    auto own = out.segment(v.summary.size(), alike_.rows());
+    const Vector summary = ensemble_.summary(recordings), places = about_places(recordings);
+    const std::vector<double> scores = score(plan_, recordings);
+    Vector out(summary.size() + deviations_.size() + places.size());
+    out << summary,
+        Eigen::Map<const Vector>(scores.data(), deviations_.size()).cwiseQuotient(deviations_),
+        places;
+    auto own = out.segment(summary.size(), alike_.rows());
     own = solve_lower(alike_, own);
     return out;
   }
@@ -105,9 +111,9 @@ class Numbers {
   }
 
   const ReferenceEnsemble& ensemble_;
-  ScorePlan places_;
+  ScorePlan plan_, places_;  ///< with the fitted curves alone; with effects about their places
   Matrix alike_;
-  std::vector<Eigen::Index> scores_;
+  Vector deviations_;  ///< of the plan's scores
 };
 
 class Joint {
@@ -121,21 +127,24 @@ class Joint {
         fit_(fit),
         emulator_(fit.model, paths(fit), stages.setup().shapes, {.moment_matched = false}) {}
 
-  Design simulate(const std::string& stage, const Matrix& points, std::uint64_t seed) {
+  /// `tag`: of the recordings.
+  Design simulate(const std::string& tag, const std::string& round, const Matrix& points,
+                  std::uint64_t seed) {
     // The cache key covers the start of the fit, too.
     Fnv place;
     for (const FitParameter& p : fit_.parameters) place.add(p.path);
     place.add(std::span(points.data(), static_cast<std::size_t>(points.size())));
-    const std::string name = stage + " " + hex(place.value());
-    const auto rows = stages_.rows(name, static_cast<int>(points.rows()), [&](int i) {
+    const std::string key = "joint " + tag + " " + round + " " + hex(place.value());
+    const auto row = [&](int i) {
       const auto field = perturbed_flow(maps_, derived_seed(seed, kMix), seed, i);
       const auto made = emulator_.record(
           values(points.row(i)), derived_seed(seed, 16 + static_cast<std::uint64_t>(i)), field);
       if (!made) return std::vector<double>{};
       const Vector all = numbers_(*made);
       return std::vector<double>(all.begin(), all.end());
-    });
-    return design_of(points, rows);
+    };
+    const int count = static_cast<int>(points.rows());
+    return design_of(points, stages_.rows("joint fit, " + round, {{key, count, row}}).front());
   }
   std::vector<double> values(const Vector& point) const {
     std::vector<double> out;
@@ -289,7 +298,7 @@ class Rounds {
     const Vector at = last.answer.estimate.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     const std::uint64_t seed = derived_seed(rounds_.seed, kCheckSeed);
     const Matrix points = at.transpose().replicate(kChecks, 1);
-    const Design made = joint_->simulate("joint " + rounds_.tag + " check", points, seed);
+    const Design made = joint_->simulate(rounds_.tag, "at the estimate", points, seed);
     return anchored(last, design, at, made.numbers, known_before(), data_).answer;
   }
 
@@ -299,7 +308,7 @@ class Rounds {
     // Earlier rounds at the same place reduce the number of new simulations.
     const bool known_ground = 2 * about(all_, centre_, width_).points.rows() >= rounds_.count;
     const int count = known_ground ? static_cast<int>(kLater * rounds_.count) : rounds_.count;
-    append(joint_->simulate("joint " + rounds_.tag + " " + std::to_string(k),
+    append(joint_->simulate(rounds_.tag, "round " + std::to_string(k),
                             scattered(centre_, width_, count, bounds_, seed), seed),
            all_);
     all_.independent = independent_;

@@ -79,8 +79,8 @@ BaselineEstimate PreparedTank::moved_to(const BaselineEstimate& before, int roun
   const Matrix points =
       scattered(before.point, wide.asDiagonal(), setup.budget.centre, bounds, seed);
   const ResponseSurface model(
-      design_of(points,
-                setup.stages.simulate("centre " + std::to_string(round), points, seed, maps)),
+      design_of(points, setup.stages.simulate("baseline, round " + std::to_string(round), points,
+                                              seed, maps)),
       Misfit::covariance, Slopes::shrunk);
   const std::vector<double> numbers = calibration.numbers(calibration.training);
   FitBounds near = bounds;

@@ -63,8 +63,8 @@ ReferenceEnsemble::ReferenceEnsemble(Stages& stages, const FlowMaps& maps, Score
       spread_(spread) {
   const CalibrationSetup& setup = stages.setup();
   const Simulation without = nulls(options.nulls, kNullSeed);
-  const Design all =
-      design_of(without.points, stages.rows("nulls", {scored("nulls", without)}).front());
+  const Design all = design_of(without.points,
+                               stages.rows("null experiments", {scored("nulls", without)}).front());
   const auto p = centre.size();
   summaries_ = {all.points.leftCols(p), all.numbers.leftCols(summary_numbers())};
   const Design numbers{summaries_.points,
@@ -106,8 +106,11 @@ Eigen::Index ReferenceEnsemble::summary_numbers() const {
 
 Vectors ReferenceEnsemble::vectors(const std::vector<Recording>& recordings,
                                    ScoreDetails* details) const {
-  return {to_vector(stages_.setup().numbers(recordings)),
-          to_vector(score(plan_, recordings, details))};
+  return {summary(recordings), to_vector(score(plan_, recordings, details))};
+}
+
+Vector ReferenceEnsemble::summary(const std::vector<Recording>& recordings) const {
+  return to_vector(stages_.setup().numbers(recordings));
 }
 
 ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
@@ -207,8 +210,8 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::nulls(int count, std::uint64_t 
 Matrix ReferenceEnsemble::further_nulls(const std::string& stage, int count,
                                         const Measure& numbers) const {
   const Simulation one = nulls(count, kFurtherSeed);
-  return design_of(one.points, stages_.rows(stage, {measured(stage, one, numbers)}).front())
-      .numbers;
+  const auto rows = stages_.rows("null experiments, " + stage, {measured(stage, one, numbers)});
+  return design_of(one.points, rows.front()).numbers;
 }
 
 double ReferenceEnsemble::displacement_misfit(const Vector& summary) const {

@@ -56,6 +56,7 @@ class ReferenceEnsemble {
 
   const ScorePlan& plan() const { return plan_; }
   Vectors vectors(const std::vector<Recording>& recordings, ScoreDetails* details = nullptr) const;
+  Eigen::VectorXd summary(const std::vector<Recording>& recordings) const;
   /// Parameters (fitted scale) that explain a summary best.
   LocalFit nearest(const Eigen::VectorXd& summary) const;
   /// Parameters fitted to a summary as far as a baseline explains it: the rest must not move them

@@ -68,7 +68,7 @@ TEST(diagnoseVerb, shortRecordingsAreInsufficient) {
   const std::string json = lilytank.here.read("x/diagnosis.json");
   EXPECT_NE(json.find("\"verdict\": \"insufficient\""), std::string::npos) << json;
   EXPECT_NE(json.find("\"shortfalls\""), std::string::npos) << json;
-  EXPECT_FALSE(lilytank.here.has("x/work/centre 1.rows"));
+  EXPECT_FALSE(lilytank.here.has("x/work/baseline, round 1.rows"));
   // What to record in addition is an experiment that can be simulated.
   const Answer run =
       lilytank("run " + kTank + " x/next_experiment.toml --set run.duration=1 --out r");
@@ -157,7 +157,7 @@ TEST(proveVerb, gridCountsInsufficientExperiments) {
   EXPECT_NE(csv.find(",2,2,0,0,,,,,time of the Lilies,"), std::string::npos) << csv;
   EXPECT_TRUE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/key.txt"));
   EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-10"));
-  EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/work/centre 1.rows"));
+  EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/work/baseline, round 1.rows"));
   EXPECT_EQ(lilytank.here.read("g/grid.txt"), a.out);
   EXPECT_EQ(lilytank(grid).out, a.out);
   EXPECT_EQ(lilytank.here.read("g/grid.csv"), csv);
