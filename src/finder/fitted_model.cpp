@@ -102,9 +102,24 @@ Vector likeliest_amplitudes(const Effect& effect, const EffectFit& f, const Scor
   return clearer ? direct->amplitudes->estimate : f.amplitudes;
 }
 
+// A fitted model without what was found, its other parameters kept.
+Model without_effects(const Model& fitted, const Model& baseline,
+                      const std::vector<JointEffect>& found) {
+  std::vector<std::string> paths;
+  std::vector<double> absent;
+  for (const JointEffect& one : found) {
+    for (std::size_t c = 0; c < one.effect.paths.size(); ++c) {
+      if (of_camera(one.effect.paths[c])) continue;
+      paths.push_back(one.effect.paths[c]), absent.push_back(one.effect.absent(baseline, c));
+    }
+  }
+  return with_parameters(fitted, paths, absent);
+}
+
 // `baseline`: its calibration to these recordings.
-void show(PreparedTank& tank, const JointFit& fit, const std::vector<double>& before,
-          const Vector& baseline, const std::vector<Recording>& recordings, Diagnosis& out) {
+void show(PreparedTank& tank, const JointFit& fit, const std::vector<JointEffect>& found,
+          const std::vector<double>& before, const Vector& baseline,
+          const std::vector<Recording>& recordings, Diagnosis& out) {
   const CalibrationSetup& setup = tank.setup.calibration;
   const Stages& stages = tank.setup.stages;
   const ScorePlan& plan = tank.ensemble.plan();
@@ -127,16 +142,17 @@ void show(PreparedTank& tank, const JointFit& fit, const std::vector<double>& be
     kept.push_back(paths[i]), values.push_back(fit.value[i]);
   }
   const Model after = with_parameters(fit.model, kept, values);
-  // The predictor decides no bonds: what is said of these does not change it.
-  if (std::ranges::all_of(out.findings, [](const auto& f) { return f.variable == "bond"; })) {
+  const auto gain_over = [&](const Model& without) {
+    return step_gain(without, after, plan.predictor, recordings);
+  };
+  // Eddies, noise, bonds and the camera do not change what is expected one step ahead: the gain
+  // would be that of the parameters fitted along.
+  if (gain_over(without_effects(after, setup.model, found)).gain == 0) {
     for (DiagnosisFinding& f : out.findings) f.gain = f.gain_low = f.gain_high = kUndefined;
     return;
   }
   // Compared with the better of two baselines: under a strong omitted effect a calibration can be
   // worse than the start.
-  const auto gain_over = [&](const Model& without) {
-    return step_gain(without, after, plan.predictor, recordings);
-  };
   const StepGain by_plan = gain_over(plan.model);
   const StepGain by_own = gain_over(tank.baseline_at(baseline));
   const StepGain& gain = by_own.gain < by_plan.gain ? by_own : by_plan;
@@ -215,7 +231,8 @@ void fit_findings(PreparedTank& tank, const Judged& judged, const std::vector<Re
   keep_only(fit.kept, out.findings), keep_only(fit.kept, found);
   report_camera(setup, fit.value, out);
   report_parameters(setup, fit, found, out);
-  show(tank, fit, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out, out);
+  show(tank, fit, found, before, baseline.cwiseMax(bounds.low).cwiseMin(bounds.high), held_out,
+       out);
 }
 
 }  // namespace lilytank
