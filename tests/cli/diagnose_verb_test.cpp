@@ -159,7 +159,8 @@ TEST(proveVerb, gridCountsInsufficientExperiments) {
   EXPECT_NE(csv.find(",2,2,0,0,,,,,time of the Lilies,"), std::string::npos) << csv;
   EXPECT_TRUE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/key.txt"));
   EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-10"));
-  EXPECT_FALSE(lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/work/baseline, round 1.rows"));
+  EXPECT_FALSE(
+      lilytank.here.has("g/known-flow_lilies-20s_modules-5_budget-1/work/baseline, round 1.rows"));
   EXPECT_EQ(lilytank.here.read("g/grid.txt"), a.out);
   EXPECT_EQ(lilytank(grid).out, a.out);
   EXPECT_EQ(lilytank.here.read("g/grid.csv"), csv);
