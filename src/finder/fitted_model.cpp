@@ -19,6 +19,7 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr double kMovedError = 0.3;  // share by which such a displacement may be wrong
+constexpr double kRounding = 0.1;    // nat, of predictions in single precision
 
 // The elements of a list at ascending indices.
 template <class T>
@@ -147,7 +148,7 @@ void show(PreparedTank& tank, const JointFit& fit, const std::vector<JointEffect
   };
   // Eddies, noise, bonds and the camera do not change what is expected one step ahead: the gain
   // would be that of the parameters fitted along.
-  if (gain_over(without_effects(after, setup.model, found)).gain == 0) {
+  if (std::fabs(gain_over(without_effects(after, setup.model, found)).gain) < kRounding) {
     for (DiagnosisFinding& f : out.findings) f.gain = f.gain_low = f.gain_high = kUndefined;
     return;
   }

@@ -144,6 +144,21 @@ TEST(Show, ARightEffectIsToldFromErrorsOfParameters) {
   EXPECT_FALSE(likelier_but_for_errors(plan, with_effect(off, stream, {-0.06, 0}), recordings));
 }
 
+// Eddies scatter modules and leave the expected step as it is, so predictions cannot test them.
+TEST(Show, EddiesHaveNoGainOneStepAhead) {
+  const Model model = drifting(12);
+  const auto recordings = filmed(model, 10, 5);
+  const ScorePlan plan = plan_for(model, recordings);
+  const auto gain = [&](const std::string& path, double value) {
+    const Model other =
+        with_parameters(model, std::vector<std::string>{path}, std::vector<double>{value});
+    return step_gain(model, other, plan.predictor, recordings).gain;
+  };
+  EXPECT_NEAR(gain("forces.correlated_gusts.share", 0.6), 0, 0.01);
+  EXPECT_GT(std::fabs(gain("flow.K_v", 1.05 * model.flow.K_v)), 1);
+  EXPECT_GT(std::fabs(gain("forces.flow_pulsation.share", 0.1)), 1);
+}
+
 // The range of a force between modules to a factor of two, and its sign; none where there is none.
 TEST(Scores, TellTheRangeOfAForceBetweenModules) {
   const Model model = drifting(15);
