@@ -85,6 +85,7 @@ FlowMaps::FlowMaps(const FlowField& extracted, const std::vector<FlowDifference>
     return out;
   };
   const FlowDifference middle = mean(open), bias = mean(errors);
+  open_.reserve(4 * open.size() * extracted.samples().size());
   for (const FlowDifference& one : open) {
     for (std::size_t i = 0; i < one.size(); ++i) {
       FlowSample off = one[i];
