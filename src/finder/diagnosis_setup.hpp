@@ -4,15 +4,13 @@
 #include <vector>
 
 #include "calibrate/stages.hpp"
-#include "finder/fingerprint.hpp"
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank {
 
-/// Simulations of each kind for a diagnosis of so many minutes on two cores.
+/// Simulations of each kind; ten minutes on two cores by default.
 struct DiagnosisBudget {
-  int flow_draws, centre, nulls, round, comparisons;
-  Learning learning;
+  int flow_draws, centre, nulls, experiments, round, comparisons;
   explicit DiagnosisBudget(double minutes);
 };
 
