@@ -31,24 +31,25 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
 }  // namespace
 
 DiagnosisBudget::DiagnosisBudget(double minutes) {
-  const double s = std::clamp(minutes, kLeastTankMinutes, 40.0) / 10;
+  const double s = std::min(minutes, 40.0) / 10;
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
   flow_draws = scaled(12, 12), centre = 70;
-  nulls = scaled(240, 160), experiments = scaled(5, 5), round = scaled(80, 80);
+  nulls = scaled(240, 160), round = scaled(80, 80);
+  learning = {scaled(5, 5), scaled(3, 3)};
   comparisons = scaled(16, 12);
 }
 
 DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
                                const DiagnosisOptions& diagnosis_options)
     : options(diagnosis_options),
-      budget(options.minutes),
+      budget(options.tank_minutes()),
       calibration(set_up(experiment, calibration_of(experiment, options, budget))),
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "36 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "36 " + hex(calibration.identity) + " " + shortest(options.tank_minutes());
 }
 
 }  // namespace lilytank

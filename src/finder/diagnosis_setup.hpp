@@ -4,13 +4,15 @@
 #include <vector>
 
 #include "calibrate/stages.hpp"
+#include "finder/fingerprint.hpp"
 #include "lilytank/diagnosis.hpp"
 
 namespace lilytank {
 
-/// Simulations of each kind; ten minutes on two cores by default.
+/// Simulations of each kind for a diagnosis of so many minutes on two cores.
 struct DiagnosisBudget {
-  int flow_draws, centre, nulls, experiments, round, comparisons;
+  int flow_draws, centre, nulls, round, comparisons;
+  Learning learning;
   explicit DiagnosisBudget(double minutes);
 };
 

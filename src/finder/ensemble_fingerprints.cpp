@@ -100,8 +100,8 @@ ReferenceEnsemble::Responses ReferenceEnsemble::responses(
 
 ReferenceEnsemble::Simulation ReferenceEnsemble::learning(const Effect& effect,
                                                           std::uint64_t seed) const {
-  const int count = options_.experiments * static_cast<int>(effect.paths.size());
-  return simulation_with(effect, centre_, spread_, learning_amplitudes(effect, count, seed), seed);
+  const Matrix amplitudes = learning_amplitudes(effect, options_.learning.in_all(effect), seed);
+  return simulation_with(effect, centre_, spread_, amplitudes, seed);
 }
 
 Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses& made) const {
@@ -121,7 +121,7 @@ Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses
   out.first = seen.topRows(m).transpose(), out.second = seen.bottomRows(m).transpose();
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
   out.identifiable_share = identifiable_share_by(made.points, made.moved - made.amplitudes * moved);
-  out.experiments = options_.experiments, out.two_sided = effect.two_sided;
+  out.experiments = options_.learning.of(effect), out.two_sided = effect.two_sided;
   out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
   return out;
 }

@@ -29,6 +29,17 @@ struct Fingerprint : ResponseModel {
   double noise_at(const Eigen::VectorXd& amplitudes) const;
   Eigen::VectorXd moved(const Eigen::VectorXd& amplitudes) const;
 };
+/// Experiments that first fingerprints are learned from.
+struct Learning {
+  /// For each amplitude of an effect; of one with a force, the filter computes the scores' response
+  /// up to a factor (score_sensitivity.hpp).
+  int each = 5, with_force = 3;
+  int of(const Effect& effect) const { return effect.mean_force ? with_force : each; }
+  int in_all(const Effect& effect) const {
+    return of(effect) * static_cast<int>(effect.paths.size());
+  }
+};
+
 /// Largest, and mean square, of the amplitudes at which the first fingerprints are learned.
 inline constexpr double kLearnedSize = 1.2, kLearnedSquare = 0.7;
 /// How far from found amplitudes the experiments about them are.

@@ -29,7 +29,7 @@ FlowMaps flow_maps(DiagnosisSetup& setup, double after) {
   const DiagnosisBudget& budget = setup.budget;
   double effects = 0;
   for (const Effect& e : effect_catalogue(setup.calibration.model)) {
-    effects += budget.experiments * static_cast<double>(e.paths.size());
+    effects += budget.learning.in_all(e);
   }
   setup.stages.expect(2 * budget.centre + budget.nulls + effects + after);
   return maps;
@@ -47,7 +47,7 @@ PreparedTank::PreparedTank(DiagnosisSetup& diagnosis, double after)
       baseline(estimate_baseline()),
       spread(null_spread()),
       ensemble(setup.stages, maps, plan(), baseline.point, spread,
-               {setup.budget.nulls, setup.budget.experiments,
+               {setup.budget.nulls, setup.budget.learning,
                 derived_seed(setup.options.seed, kEnsembleSeed), setup.options.seed}),
       selection(ensemble.null_residuals(), correlations_of(ensemble.informations()),
                 ensemble.plan().effects, ensemble.fingerprints(), ensemble.plan().shapes.size(),

@@ -34,8 +34,8 @@ struct LearnedFingerprint {
 using LearnedFingerprints = std::map<std::string, std::vector<LearnedFingerprint>>;
 
 struct EnsembleOptions {
-  int nulls = 300;       ///< experiments simulated without any effect
-  int experiments = 14;  ///< with an effect, for each of its amplitudes
+  int nulls = 300;    ///< experiments simulated without any effect
+  Learning learning;  ///< with one
   std::uint64_t seed = 1;
   std::uint64_t curve_seed = 1;  ///< of the fingerprints of curves
 };
