@@ -49,7 +49,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "36 " + hex(calibration.identity) + " " + shortest(options.tank_minutes());
+  return "37 " + hex(calibration.identity) + " " + shortest(options.tank_minutes());
 }
 
 }  // namespace lilytank

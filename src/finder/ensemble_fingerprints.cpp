@@ -208,7 +208,8 @@ const LearnedFingerprint* ReferenceEnsemble::nearest_of(
     const Vector& at = one.fingerprint.about;
     const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();
     const double off = solve_lower(spread_, point - one.point).cwiseAbs().maxCoeff();
-    if (std::max(far, off) <= least) least = std::max(far, off), nearest = &one;
+    const double beyond = std::max(far / kBeside, off);
+    if (beyond <= least) least = beyond, nearest = &one;
   }
   return nearest;
 }

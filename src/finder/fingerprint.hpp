@@ -44,6 +44,9 @@ struct Learning {
 inline constexpr double kLearnedSize = 1.2, kLearnedSquare = 0.7;
 /// How far from found amplitudes the experiments about them are.
 Eigen::VectorXd apart(const Eigen::VectorXd& amplitudes);
+/// Largest distance from the amplitudes of experiments at which these serve, in that spread:
+/// experiments about 0.8 of a strong torque left a residual that a law of radius fitted better.
+inline constexpr double kBeside = 0.5;
 
 /// Random amplitudes between 0.4 and kLearnedSize of an effect's sizes, a row each, of both signs
 /// if it is two-sided; several components at once, none always present.

@@ -81,8 +81,8 @@ class ReferenceEnsemble {
   const Fingerprint& shape_fingerprint(int shape);
   /// The fingerprint where it is needed: near amplitudes that are far from those it was learned at,
   /// at the parameters at which calibration then finds `calibrated` in spite of the effect. One
-  /// that was learned there before, by no fewer experiments (an even number), serves again; a new
-  /// one is added. `name`: of the effect or shape, its own.
+  /// that was learned within kBeside of there before, by no fewer experiments (an even number),
+  /// serves again; a new one is added. `name`: of the effect or shape, its own.
   Fingerprint fingerprint_about(const Eigen::VectorXd& amplitudes, const Fingerprint& from,
                                 const Effect& effect, const Eigen::VectorXd& calibrated,
                                 const std::string& name, LearnedFingerprints& learned,

@@ -166,9 +166,6 @@ class Refinement {
   // By experiments with all of them, about these amplitudes.
   Fingerprint simulated(const std::vector<EffectFit>& found, const std::string& name);
 
-  // Of the spread of experiments, that the likeliest may be off.
-  static constexpr double kBeside = 0.5;
-
   ReferenceEnsemble& ensemble_;
   const ScorePlan& plan_;
   ScoreSensitivity& sensitivity_;

@@ -74,11 +74,28 @@ DiagnosisOptions least_budget() {
   return options;
 }
 
+// Experiments with an effect serve near their amplitudes; farther away there are new ones.
+void expect_that_experiments_serve_nearby(PreparedTank& tank) {
+  ReferenceEnsemble& ensemble = tank.ensemble;
+  const Effect& effect = ensemble.plan().effects.front();
+  LearnedFingerprints learned;
+  const auto about = [&](double spreads) {
+    const Eigen::VectorXd at = Eigen::VectorXd::Ones(std::ssize(effect.paths));
+    ensemble.fingerprint_about(at + spreads * apart(at), ensemble.fingerprints().front(), effect,
+                               tank.baseline.point, "probe", learned);
+    return learned["probe"].size();
+  };
+  EXPECT_EQ(about(0), 1u);
+  EXPECT_EQ(about(0.8 * kBeside), 1u);
+  EXPECT_EQ(about(1.2 * kBeside), 2u);
+}
+
 // Strong effects in short recordings: a complete model, a force and a camera get the right
 // verdicts.
 TEST(SmallTank, StrongEffectsInShortRecordings) {
   DiagnosisSetup setup(small_experiment(kFewFrames), least_budget());
   PreparedTank tank(setup);
+  expect_that_experiments_serve_nearby(tank);
   const auto of = [&](const Model& model, std::uint64_t seed, double tilt) {
     Diagnosis out;
     judge(tank, filmed(model, seed, tilt, kFewFrames), out);
