@@ -57,7 +57,7 @@ picture $out/flow/flow_smooth.png tour/flow 700
 picture $out/calibration/msd.png tour/msd 900
 picture $out/calibration/estimates.png figures/estimates 900
 
-"$program" diagnose $tour --out $out/diagnosis > /dev/null
+"$program" diagnose $tour --budget 3 --out $out/diagnosis > /dev/null
 picture $out/diagnosis/laws.png tour/laws 700
 picture $out/diagnosis/fit.png tour/fit 800
 "$program" view $out/diagnosis $tour --force > /dev/null

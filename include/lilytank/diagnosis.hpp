@@ -1,7 +1,6 @@
 // What physics a model leaves out: where simulation and recordings differ, which effect it is, the
 // effect's size, and how much of the difference it removes. docs/diagnosis.md.
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -20,16 +19,13 @@ namespace lilytank {
 
 class DirectoryLock;
 
-/// Default budgets on two cores. That of a tank is its least: fewer null experiments would not
-/// give thresholds that 2 % of them exceed.
-inline constexpr double kLeastTankMinutes = 3, kBodyMinutes = 10;
+/// A smaller budget has as many simulations as this one, of recordings in a tank: fewer null
+/// experiments would not give thresholds that 2 % of them exceed.
+inline constexpr double kLeastTankMinutes = 3;
 
 struct DiagnosisOptions : JobControl {
-  int hold_out = 1;  ///< recordings held out where no file sets held_out: the last ones
-  /// Time budget on two cores, which scales the simulations; 0: the default.
-  double minutes = 0;
-  double tank_minutes() const { return std::max(minutes, kLeastTankMinutes); }
-  double body_minutes() const { return minutes > 0 ? minutes : kBodyMinutes; }
+  int hold_out = 1;     ///< recordings held out where no file sets held_out: the last ones
+  double minutes = 10;  ///< time budget on two cores: scales the simulations
   /// Go on with recordings that do not meet the requirements (coverage.hpp); error rates are then
   /// unknown.
   bool uncertified = false;

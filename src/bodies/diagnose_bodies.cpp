@@ -47,7 +47,7 @@ std::uint64_t identity_of(const BodyExperiment& e, const DiagnosisOptions& optio
   hash.add(std::vector<double>{double(e.dimensions), e.noise, double(e.coefficients),
                                double(e.masses), e.turning, double(e.latitude),
                                double(e.current[0]), double(e.current[1]), double(e.wind[0]),
-                               double(e.wind[1]), e.density, options.body_minutes()});
+                               double(e.wind[1]), e.density, options.minutes});
   for (const BaselineLaw& law : e.baseline) {
     hash.add(law.law + " " + shortest(law.value) + (law.fit ? " fit" : ""));
   }
@@ -199,7 +199,7 @@ class Trials {
   }
 
   void nulls() {
-    const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.body_minutes())));
+    const int number = std::max(9, static_cast<int>(std::lround(4.9 * options_.minutes)));
     KeptRows kept;
     kept.identity = identity_of(experiment_, options_);
     kept.threads = options_.threads, kept.stop = options_.stop;

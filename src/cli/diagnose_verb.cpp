@@ -27,8 +27,7 @@ void add_diagnose_options(VerbOptions& options, DiagnoseJob& job) {
   options.add({"out", "directory of the results (default: out/diagnose-<name>)", "DIR"});
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
   options.add(
-      {"budget", "minutes that it may take on two cores (a tank: 3, its least; point bodies: 10)",
-       "MINUTES"},
+      {"budget", "minutes that it may take on two cores (10); at least 3 for a tank", "MINUTES"},
       &d.minutes, 1, 1e4);
   options.add({"hold-out", "recordings kept for showing, if none is marked held_out (1)", "N"},
               &d.hold_out, 0, 1000);
@@ -64,9 +63,9 @@ void add_sources(const Experiment& experiment, std::vector<std::string>& inputs)
   }
 }
 
-int dry_run(const std::string& what, double minutes, const DiagnosisOptions& job) {
+int dry_run(const std::string& what, const DiagnosisOptions& job) {
   check_directory_of("diagnosis", job.out, job.force);
-  std::cout << "would diagnose " << what << ": about " << significant(minutes, 3)
+  std::cout << "would diagnose " << what << ": about " << significant(job.minutes, 3)
             << " min on two cores; in " << job.out << "\n";
   return Exit::done;
 }
@@ -78,9 +77,11 @@ int dry_run(const Experiment& experiment, const DiagnosisOptions& job) {
     recordings += 1, held_out += r.held_out ? 1 : 0;
   }
   if (held_out == 0) held_out = std::min<std::int64_t>(job.hold_out, recordings);
+  DiagnosisOptions effective = job;
+  effective.minutes = std::max(effective.minutes, kLeastTankMinutes);
   return dry_run(experiment.name + ": " + counted(recordings, "recording") + " of Lilies, " +
                      std::to_string(held_out) + " held out",
-                 job.tank_minutes(), job);
+                 effective);
 }
 
 }  // namespace
@@ -110,8 +111,7 @@ int diagnose_verb(const Arguments& arguments, const Host& host) {
     inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
     if (options.has("dry-run")) {
       const auto runs = std::ssize(experiment.runs);
-      return dry_run(experiment.name + ": " + counted(runs, "run") + " of point bodies",
-                     d.body_minutes(), d);
+      return dry_run(experiment.name + ": " + counted(runs, "run") + " of point bodies", d);
     }
     found = diagnose_bodies(experiment, d);
   } else {

@@ -90,7 +90,7 @@ void add_prove_options(VerbOptions& options, ProofOptions& job, std::vector<std:
               cells);
   options.add({"modelled", "experiments in which the effect is also fitted and shown (10)", "N"},
               &job.modelled, 0, 1000000);
-  options.add({"budget", "minutes for the tank's nulls and fingerprints (3, the least)", "MINUTES"},
+  options.add({"budget", "minutes for the tank's nulls and fingerprints (10)", "MINUTES"},
               &d.minutes, 1, 1e4);
   options.add({"uncertified", "diagnose insufficient recordings, too"}, &d.uncertified);
   options.add({"seed", "of everything that is drawn (1)", "N"}, &d.seed, 0, INT64_MAX);
@@ -110,7 +110,7 @@ int dry_run(const ProofOptions& job) {
             << " of 3 recordings of " << significant(job.minutes, 3) << " min"
             << (job.modules == ProofOptions{}.modules ? ""
                                                       : " with " + counted(job.modules, "module"))
-            << "; the tank's null experiments take about " << significant(d.tank_minutes(), 3)
+            << "; the tank's null experiments take about " << significant(d.minutes, 3)
             << " min on two cores; in " << d.out << "\n";
   return Exit::done;
 }

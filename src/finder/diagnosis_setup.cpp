@@ -31,7 +31,7 @@ CalibrationOptions calibration_of(const Experiment& experiment, const DiagnosisO
 }  // namespace
 
 DiagnosisBudget::DiagnosisBudget(double minutes) {
-  const double s = std::min(minutes, 40.0) / 10;
+  const double s = std::clamp(minutes, kLeastTankMinutes, 40.0) / 10;
   const auto scaled = [&](int n, int least) {
     return std::max(least, static_cast<int>(std::lround(n * s)));
   };
@@ -44,12 +44,12 @@ DiagnosisBudget::DiagnosisBudget(double minutes) {
 DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
                                const DiagnosisOptions& diagnosis_options)
     : options(diagnosis_options),
-      budget(options.tank_minutes()),
+      budget(options.minutes),
       calibration(set_up(experiment, calibration_of(experiment, options, budget))),
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "37 " + hex(calibration.identity) + " " + shortest(options.tank_minutes());
+  return "37 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

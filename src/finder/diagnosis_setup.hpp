@@ -9,7 +9,7 @@
 
 namespace lilytank {
 
-/// Simulations of each kind for a diagnosis of so many minutes on two cores.
+/// Simulations of each kind; ten minutes on two cores by default.
 struct DiagnosisBudget {
   int flow_draws, centre, nulls, round, comparisons;
   Learning learning;

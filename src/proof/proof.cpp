@@ -235,7 +235,7 @@ class Examination {
   double after(double model_cost) const {
     const double worlds = of_a_world() * static_cast<double>(answered());
     if (options_.only == "null") return worlds;
-    const int experiments = DiagnosisBudget(options_.diagnosis.tank_minutes()).learning.each;
+    const int experiments = DiagnosisBudget(options_.diagnosis.minutes).learning.each;
     return worlds + static_cast<double>(shapes_.size()) * kKnots * experiments +
            options_.modelled * model_cost;
   }
