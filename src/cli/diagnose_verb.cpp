@@ -63,9 +63,9 @@ void add_sources(const Experiment& experiment, std::vector<std::string>& inputs)
   }
 }
 
-int dry_run(const std::string& what, const DiagnosisOptions& job) {
+int dry_run(const std::string& what, double minutes, const DiagnosisOptions& job) {
   check_directory_of("diagnosis", job.out, job.force);
-  std::cout << "would diagnose " << what << ": about " << significant(job.minutes, 3)
+  std::cout << "would diagnose " << what << ": about " << significant(minutes, 3)
             << " min on two cores; in " << job.out << "\n";
   return Exit::done;
 }
@@ -77,11 +77,9 @@ int dry_run(const Experiment& experiment, const DiagnosisOptions& job) {
     recordings += 1, held_out += r.held_out ? 1 : 0;
   }
   if (held_out == 0) held_out = std::min<std::int64_t>(job.hold_out, recordings);
-  DiagnosisOptions effective = job;
-  effective.minutes = std::max(effective.minutes, kLeastTankMinutes);
   return dry_run(experiment.name + ": " + counted(recordings, "recording") + " of Lilies, " +
                      std::to_string(held_out) + " held out",
-                 effective);
+                 std::max(job.minutes, kLeastTankMinutes), job);
 }
 
 }  // namespace
@@ -111,7 +109,8 @@ int diagnose_verb(const Arguments& arguments, const Host& host) {
     inputs.insert(inputs.end(), experiment.files.begin(), experiment.files.end());
     if (options.has("dry-run")) {
       const auto runs = std::ssize(experiment.runs);
-      return dry_run(experiment.name + ": " + counted(runs, "run") + " of point bodies", d);
+      return dry_run(experiment.name + ": " + counted(runs, "run") + " of point bodies", d.minutes,
+                     d);
     }
     found = diagnose_bodies(experiment, d);
   } else {

@@ -1,4 +1,5 @@
 // lilytank prove: is a diagnosis to be trusted?
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -110,8 +111,9 @@ int dry_run(const ProofOptions& job) {
             << " of 3 recordings of " << significant(job.minutes, 3) << " min"
             << (job.modules == ProofOptions{}.modules ? ""
                                                       : " with " + counted(job.modules, "module"))
-            << "; the tank's null experiments take about " << significant(d.minutes, 3)
-            << " min on two cores; in " << d.out << "\n";
+            << "; the tank's null experiments take about "
+            << significant(std::max(d.minutes, kLeastTankMinutes), 3) << " min on two cores; in "
+            << d.out << "\n";
   return Exit::done;
 }
 

@@ -125,6 +125,8 @@ TEST(diagnoseVerb, dryRunSaysWhatWouldBeDoneAndWritesNothing) {
   EXPECT_EQ(lilytank("prove --worlds 3 --minutes 2 --dry-run --out p").out,
             "would simulate and diagnose 3 experiments of 3 recordings of 2 min; the tank's null "
             "experiments take about 10 min on two cores; in p\n");
+  EXPECT_NE(lilytank("prove --worlds 3 --minutes 2 --budget 1 --dry-run").out.find("about 3 min"),
+            std::string::npos);
   EXPECT_EQ(
       lilytank("prove --grid --worlds 3 --cells lilies=20s --cells balls=4min "
                "--cells modules=5,30 --cells budget=1 --seed 23 --dry-run --out g")
