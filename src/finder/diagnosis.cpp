@@ -175,8 +175,8 @@ std::shared_ptr<const DirectoryLock> claim(const DiagnosisOptions& options,
   return lock;
 }
 
-// The directory of an earlier diagnosis, which nothing replaces.
-std::shared_ptr<const DirectoryLock> claim_tank(const DiagnosisSetup& tank) {
+// The directory of an earlier diagnosis is not replaced.
+void check_tank(const DiagnosisSetup& tank) {
   try {
     check_directory(tank.options.out, false, {"diagnosis", tank.identity(), diagnosis_files()});
   } catch (const InputError&) {
@@ -184,7 +184,6 @@ std::shared_ptr<const DirectoryLock> claim_tank(const DiagnosisSetup& tank) {
                      tank.calibration.name +
                      " with the same --seed, --budget and --set: give --tank-results");
   }
-  return claim(tank.options, tank.identity());
 }
 
 // Whether faults of the recordings are the verdict; its directory is claimed then.
@@ -287,8 +286,9 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosedTank& earlier,
   DiagnosisSetup tank(earlier.experiment, in_tank);
   const DiagnosisSetup own(lilies_of(experiment), options);
   refuse_unlike(tank.calibration, own.calibration);
+  check_tank(tank);
   const auto lock = claim(options, own.identity() + " in " + tank.identity());
-  const auto tank_lock = claim_tank(tank);
+  const auto tank_lock = claim(tank.options, tank.identity());
   diagnose_in(tank, own.calibration, options, out);
   return out;
 }

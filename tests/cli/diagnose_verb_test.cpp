@@ -78,6 +78,20 @@ TEST(diagnoseVerb, shortRecordingsAreInsufficient) {
   EXPECT_EQ(lilytank("diagnose " + kTank + " --out x").out, a.out);
 }
 
+// The refused directory stays free for the corrected command.
+TEST(diagnoseVerb, refusesResultsOfAnotherTankWithoutATrace) {
+  const Program lilytank;
+  EXPECT_EQ(lilytank("diagnose " + kTank + " --out x").code, 0);
+  const std::string again = "diagnose " + kTank + " --tank " + kTank + " --tank-results x --out y";
+  const Answer other = lilytank(again + " --seed 4");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("'x' is not of a diagnosis of tank with the same --seed"),
+            std::string::npos)
+      << other.err;
+  EXPECT_FALSE(lilytank.here.has("y"));
+  EXPECT_EQ(lilytank(again).code, 0);
+}
+
 // Finished benchmarks, summarised alone and pooled.
 TEST(proveVerb, tellsFinishedProofsAsAReport) {
   const Program lilytank;
