@@ -14,8 +14,9 @@ namespace {
 
 // s: a bond that parts within these times of its begin
 constexpr std::array<double, 5> kTimes{1, 3, 8, 20, 60};
-constexpr int kSizes = 4;     // of assemblies: 2, 3, 4, 5 and more
-constexpr double kAgain = 2;  // s: a pair that parted latches again within this time
+constexpr int kSizes = 4;           // of assemblies: 2, 3, 4, 5 and more
+constexpr double kAgain = 2;        // s: a pair that parted latches again within this time
+constexpr double kFarBefore = 2.5;  // reaches: farther off, a module was not seen for a while
 
 // A rate per s, by its logarithm: half an event is there before any data.
 double log_rate(double events, double seconds) {
@@ -29,12 +30,19 @@ double share(double part, double all) {
 // Bonds that a camera sees.
 class Geometry {
  public:
-  void add(const Recording& r, double side) {
-    const std::vector<SeenBond> bonds = seen_bonds(r, side);
+  explicit Geometry(const Model& model)
+      : side_(model.module.side),
+        reach_(model.control.capture_distance),
+        angle_(model.control.capture_angle) {}
+
+  void add(const Recording& r) {
+    const std::vector<SeenBond> bonds = seen_bonds(r, side_);
+    met_ += meetings(r, side_, reach_, angle_);
     for (const Track& t : r.tracks) module_time_ += static_cast<double>(t.x.size()) / r.rate;
     std::map<std::pair<std::int64_t, std::int64_t>, int> parted;
     for (const SeenBond& bond : bonds) {
       const double lasted = (bond.end - bond.begin) / r.rate;
+      if (bond.before < kFarBefore * reach_) before_ += bond.before, known_before_ += 1;
       begun_ += bond.begin > 0 ? 1 : 0, time_ += lasted, parted_ += bond.parted ? 1 : 0;
       const auto before = parted.find({bond.a, bond.b});
       if (before != parted.end()) {
@@ -52,12 +60,15 @@ class Geometry {
   void append_to(std::vector<double>& out) const {
     out.push_back(log_rate(begun_, module_time_)), out.push_back(log_rate(parted_, time_));
     out.push_back(share(again_, parted_)), out.push_back(time_ / (module_time_ + 1));
+    out.push_back(log_rate(met_, module_time_)), out.push_back(share(begun_, met_));
+    out.push_back((before_ + reach_) / (known_before_ + 1));
     for (std::size_t k = 0; k < kTimes.size(); ++k) out.push_back(share(ended_[k], at_risk_[k]));
     for (const double time : in_size_) out.push_back(time / (module_time_ + 1));
   }
 
   static void name(std::vector<ScoreEntry>& out) {
-    for (const char* what : {"new bonds", "partings", "latched again", "bonds per module"}) {
+    for (const char* what : {"new bonds", "partings", "latched again", "bonds per module",
+                             "meetings", "bonds per meeting", "distance before a bond"}) {
       out.push_back({"bond", what});
     }
     for (const double time : kTimes) {
@@ -90,7 +101,9 @@ class Geometry {
     }
   }
 
+  double side_, reach_, angle_;
   double module_time_ = 0, begun_ = 0, parted_ = 0, time_ = 0, again_ = 0;
+  double met_ = 0, before_ = 0, known_before_ = 0;
   std::array<double, kTimes.size()> at_risk_{}, ended_{};
   std::array<double, kSizes> in_size_{};
 };
@@ -125,6 +138,9 @@ class Log {
         case EventKind::unlink:
           unlinked_ += 1, take(bonded, bonded_), take(latched, waited_);
           break;
+        case EventKind::update:
+          updates_ += 1;
+          break;
         default:
           break;
       }
@@ -139,17 +155,19 @@ class Log {
     out.push_back(log_rate(decided, waited_ + waited_to_link_ + waiting_));
     out.push_back(log_rate(unlatched_, waited_)), out.push_back(log_rate(linked_, waited_to_link_));
     out.push_back(share(linked_, decided)), out.push_back(log_rate(unlinked_, bonded_));
+    out.push_back(log_rate(updates_, bonded_));
   }
 
   static void name(std::vector<ScoreEntry>& out) {
-    for (const char* what : {"logged latches", "decisions on a latch", "time to unlatch",
-                             "time to link", "latches that are linked", "unlinked bonds"}) {
+    for (const char* what :
+         {"logged latches", "decisions on a latch", "time to unlatch", "time to link",
+          "latches that are linked", "unlinked bonds", "updates of labels"}) {
       out.push_back({"bond", what});
     }
   }
 
  private:
-  double module_time_ = 0, latches_ = 0, unlatched_ = 0, linked_ = 0, unlinked_ = 0;
+  double module_time_ = 0, latches_ = 0, unlatched_ = 0, linked_ = 0, unlinked_ = 0, updates_ = 0;
   double waited_ = 0, waited_to_link_ = 0, waiting_ = 0, bonded_ = 0;
 };
 
@@ -163,11 +181,11 @@ std::vector<ScoreEntry> bond_entries(const ScorePlan& plan) {
 }
 
 std::vector<double> bond_numbers(const ScorePlan& plan, const std::vector<Recording>& recordings) {
-  Geometry geometry;
+  Geometry geometry(plan.model);
   Log log;
   for (const Recording& r : recordings) {
     if (!r.latches) continue;
-    geometry.add(r, plan.model.module.side);
+    geometry.add(r);
     log.add(r);
   }
   std::vector<double> out;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "lilytank/math.hpp"
+#include "statistics/undefined.hpp"
 
 namespace lilytank {
 namespace {
@@ -16,6 +17,8 @@ constexpr double kBeginsWithin = 1.0 / 15, kEndsBeyond = 3.5 / 30;  // sides
 constexpr double kBeginsTurned = 0.12, kEndsTurned = 0.2;           // rad
 constexpr double kLasts = 0.3;   // s: encounters of free modules are seldom so still for so long
 constexpr double kUnseen = 0.5;  // s without a sighting after which nothing is known of a bond
+constexpr int kJustBefore = 2;   // frames, one of them unseen
+constexpr double kLeaves = 1.5;  // reaches beyond which a meeting is over
 
 struct Sighting {
   bool seen = false;
@@ -39,10 +42,63 @@ Misalignment misalignment(const Sighting& a, const Sighting& b, double side) {
           std::fabs(turn - kPi / 2 * std::round(turn / (kPi / 2)))};
 }
 
+// The modules of a recording, by number, frame after frame.
+class Frames {
+ public:
+  explicit Frames(const Recording& recording) : recording_(recording) {
+    std::map<std::int64_t, int> numbers;
+    for (const Track& t : recording.tracks) numbers.emplace(t.id, 0);
+    for (auto& [id, number] : numbers) number = modules_++, ids_.push_back(id);
+    for (const Track& t : recording.tracks) number_.push_back(numbers.at(t.id));
+    now_.resize(static_cast<std::size_t>(modules_));
+  }
+
+  int modules() const { return modules_; }
+  std::int64_t id(int number) const { return ids_[static_cast<std::size_t>(number)]; }
+
+  /// Calls `look(a, b, frame, at, other)` for every pair in every frame.
+  template <class Look>
+  void for_pairs(const Look& look) {
+    for (int frame = 0; frame < recording_.frames; ++frame) {
+      see(frame);
+      for (int a = 0; a < modules_; ++a) {
+        for (int b = a + 1; b < modules_; ++b) {
+          look(a, b, frame, now_[static_cast<std::size_t>(a)], now_[static_cast<std::size_t>(b)]);
+        }
+      }
+    }
+  }
+
+ private:
+  void see(int frame) {
+    std::fill(now_.begin(), now_.end(), Sighting{});
+    for (std::size_t k = 0; k < recording_.tracks.size(); ++k) {
+      const Track& t = recording_.tracks[k];
+      if (frame < t.first || frame > t.last()) continue;
+      const auto i = static_cast<std::size_t>(frame - t.first);
+      if (std::isnan(t.x[i])) continue;
+      now_[static_cast<std::size_t>(number_[k])] = {true, t.x[i], t.y[i], t.theta[i]};
+    }
+  }
+
+  const Recording& recording_;
+  int modules_ = 0;
+  std::vector<std::int64_t> ids_;  // by number
+  std::vector<int> number_;        // of each track
+  std::vector<Sighting> now_;
+};
+
+bool far_apart(const Sighting& a, const Sighting& b, double side) {
+  return std::fabs(a.x - b.x) + std::fabs(a.y - b.y) > 2 * side;
+}
+
 // A pair's bond so far.
 struct Candidate {
   bool open = false;
   int begin = 0, known = -1, last = 0;  // known: -1 until it has lasted
+  double before = kUndefined;           // sides, their offset in the frame before `begin`
+  double offset = kUndefined;           // likewise, in frame `looked`
+  int looked = 0;
 };
 
 class Watch {
@@ -51,22 +107,17 @@ class Watch {
       : recording_(recording),
         side_(side),
         lasts_(std::max(2, static_cast<int>(std::lround(kLasts * recording.rate)))),
-        unseen_(static_cast<int>(std::lround(kUnseen * recording.rate))) {
-    std::map<std::int64_t, int> numbers;
-    for (const Track& t : recording.tracks) numbers.emplace(t.id, 0);
-    for (auto& [id, number] : numbers) number = modules_++, ids_.push_back(id);
-    for (const Track& t : recording.tracks) number_.push_back(numbers.at(t.id));
+        unseen_(static_cast<int>(std::lround(kUnseen * recording.rate))),
+        frames_(recording),
+        modules_(frames_.modules()) {
     const auto n = static_cast<std::size_t>(modules_);
-    now_.resize(n), pairs_.resize(n * n);
+    pairs_.resize(n * n);
   }
 
   std::vector<SeenBond> run() {
-    for (int frame = 0; frame < recording_.frames; ++frame) {
-      look(frame);
-      for (int a = 0; a < modules_; ++a) {
-        for (int b = a + 1; b < modules_; ++b) follow(a, b, frame);
-      }
-    }
+    frames_.for_pairs([this](int a, int b, int frame, const Sighting& at, const Sighting& other) {
+      follow(a, b, frame, at, other);
+    });
     for (int a = 0; a < modules_; ++a) {
       for (int b = a + 1; b < modules_; ++b) close(a, b, recording_.frames, false);
     }
@@ -79,35 +130,23 @@ class Watch {
  private:
   Candidate& pair(int a, int b) { return pairs_[static_cast<std::size_t>(a * modules_ + b)]; }
 
-  std::int64_t id(int number) const { return ids_[static_cast<std::size_t>(number)]; }
-
-  void look(int frame) {
-    std::fill(now_.begin(), now_.end(), Sighting{});
-    for (std::size_t k = 0; k < recording_.tracks.size(); ++k) {
-      const Track& t = recording_.tracks[k];
-      if (frame < t.first || frame > t.last()) continue;
-      const auto i = static_cast<std::size_t>(frame - t.first);
-      if (std::isnan(t.x[i])) continue;
-      now_[static_cast<std::size_t>(number_[k])] = {true, t.x[i], t.y[i], t.theta[i]};
-    }
-  }
-
-  void follow(int a, int b, int frame) {
-    const Sighting& at = now_[static_cast<std::size_t>(a)];
-    const Sighting& other = now_[static_cast<std::size_t>(b)];
+  void follow(int a, int b, int frame, const Sighting& at, const Sighting& other) {
     Candidate& bond = pair(a, b);
     if (!at.seen || !other.seen) {
       if (bond.open && frame - bond.last > unseen_) close(a, b, frame, false);
       return;
     }
     const bool known = bond.open && bond.known >= 0;
-    const double reach = 2 * side_;
-    if (!bond.open && std::fabs(at.x - other.x) + std::fabs(at.y - other.y) > reach) return;
+    if (!bond.open && far_apart(at, other, side_)) return;
     const Misalignment off = misalignment(at, other, side_);
     const bool holds =
         known ? off.within(kEndsBeyond, kEndsTurned) : off.within(kBeginsWithin, kBeginsTurned);
+    const double before = frame - bond.looked <= kJustBefore ? bond.offset : kUndefined;
+    bond.offset = off.offset, bond.looked = frame;
     if (!holds) return close(a, b, frame, true);
-    if (!bond.open) bond = {true, frame, -1, frame};
+    if (!bond.open) {
+      bond.open = true, bond.begin = frame, bond.known = -1, bond.before = before;
+    }
     bond.last = frame;
     if (bond.known < 0 && frame - bond.begin >= lasts_) bond.known = frame;
   }
@@ -115,18 +154,17 @@ class Watch {
   void close(int a, int b, int frame, bool parted) {
     Candidate& bond = pair(a, b);
     if (bond.open && bond.known >= 0) {
-      bonds_.push_back(
-          {id(a), id(b), bond.begin, bond.known, parted ? frame : bond.last + 1, parted});
+      bonds_.push_back({frames_.id(a), frames_.id(b), bond.begin, bond.known,
+                        parted ? frame : bond.last + 1, parted, side_ * bond.before});
     }
     bond.open = false;
   }
 
   const Recording& recording_;
   double side_;
-  int lasts_, unseen_, modules_ = 0;
-  std::vector<std::int64_t> ids_;  // by number
-  std::vector<int> number_;        // of each track
-  std::vector<Sighting> now_;
+  int lasts_, unseen_;
+  Frames frames_;
+  int modules_;
   std::vector<Candidate> pairs_;
   std::vector<SeenBond> bonds_;
 };
@@ -136,6 +174,25 @@ class Watch {
 std::vector<SeenBond> seen_bonds(const Recording& recording, double side) {
   if (!recording.has_heading()) return {};
   return Watch(recording, side).run();
+}
+
+int meetings(const Recording& recording, double side, double reach, double angle) {
+  if (!recording.has_heading()) return 0;
+  Frames frames(recording);
+  const auto n = static_cast<std::size_t>(frames.modules());
+  std::vector<char> near(n * n, 0);
+  int count = 0;
+  frames.for_pairs([&](int a, int b, int frame, const Sighting& at, const Sighting& other) {
+    if (!at.seen || !other.seen || far_apart(at, other, side)) return;
+    char& met = near[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)];
+    const Misalignment off = misalignment(at, other, side);
+    if (met == 0 && off.within(reach / side, angle)) {
+      met = 1, count += frame > 0 ? 1 : 0;
+    } else if (met != 0 && !off.within(kLeaves * reach / side, kLeaves * angle)) {
+      met = 0;
+    }
+  });
+  return count;
 }
 
 }  // namespace lilytank

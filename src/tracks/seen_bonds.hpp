@@ -16,11 +16,18 @@ struct SeenBond {
   /// too long, or the recording is over.
   int end = 0;
   bool parted = false;  ///< they were seen apart at `end`
+  /// Distance of the faces' centres just before `begin`, m: about the reach of the latches. NaN
+  /// where it was not seen.
+  double before = 0;
 };
 
 /// The bonds of a recording with headings, by `begin`, then modules. `side`: of a module, m.
 /// Whether a bond stands at a frame depends on that frame and earlier ones only. Two modules that
 /// touch face to face without a latch for 0.3 s count, too.
 std::vector<SeenBond> seen_bonds(const Recording& recording, double side);
+
+/// How often two faces came within reach of each other: the distance of their centres, m, and their
+/// angle from anti-parallel, rad. It begins anew once they were half as far again apart.
+int meetings(const Recording& recording, double side, double reach, double angle);
 
 }  // namespace lilytank

@@ -61,6 +61,19 @@ TEST(SeenBonds, BeginAndEndWhereModulesMeetAndPart) {
   EXPECT_EQ(bonds[0].known, 39);
   EXPECT_EQ(bonds[0].end, 90);
   EXPECT_TRUE(bonds[0].parted);
+  EXPECT_NEAR(bonds[0].before, 0.01, 1e-3);
+}
+
+TEST(SeenBonds, AreLessThanMeetings) {
+  Recording r = two_meeting();
+  EXPECT_EQ(meetings(r, kLilySide, 0.005, 0.2), 1);
+  for (double& theta : r.tracks[1].theta) theta += 0.1;
+  EXPECT_EQ(meetings(r, kLilySide, 0.005, 0.2), 1);
+  EXPECT_EQ(meetings(r, kLilySide, 0.005, 0.05), 0);
+  for (int f = 40; f < 50; ++f) r.tracks[1].x[static_cast<std::size_t>(f)] += 0.006;
+  EXPECT_EQ(meetings(r, kLilySide, 0.005, 0.2), 1) << "not half a reach out of reach";
+  for (int f = 40; f < 50; ++f) r.tracks[1].x[static_cast<std::size_t>(f)] += 0.003;
+  EXPECT_EQ(meetings(r, kLilySide, 0.005, 0.2), 2);
 }
 
 TEST(SeenBonds, OutlastShortGapsButNotLongOnes) {
