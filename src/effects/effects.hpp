@@ -62,6 +62,8 @@ struct Effect {
   }
   /// It is the camera's doing, not the tank's.
   bool camera() const;
+  /// It is a fault of the modules' latches or radio, which shows in bonds alone.
+  bool control() const { return variable == "bond"; }
   /// Value of an amplitude at which the effect is absent.
   double absent(const Model& model, std::size_t component) const;
 };

@@ -45,9 +45,12 @@ bool is_plain(const ScorePlan& plan, const ModelSelection& selection, const Sele
   if (f.effect < 0 || f.amplitudes.cwiseAbs().maxCoeff() > kUsable) return false;
   const std::vector<EffectFit> leading = selection.leading(residual, kRivals + 3);
   return std::none_of(leading.begin(), leading.end(), [&](const EffectFit& other) {
-    const bool same =
-        other.effect >= 0 && effect_in(plan, other).family == effect_in(plan, f).family;
-    return !same && other.gain > kNearGain * leading.front().gain;
+    const bool named = other.effect >= 0;
+    if (named && effect_in(plan, other).family == effect_in(plan, f).family) return false;
+    // By simulations alone a fault of the control is known less well than a force.
+    const bool control =
+        effect_in(plan, f).control() || (named && effect_in(plan, other).control());
+    return other.gain > (control ? kRival : kNearGain) * leading.front().gain;
   });
 }
 
@@ -94,7 +97,7 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
   SelectedModel m = settled(selected());
   if (rescan(m)) m = settled(selected());
   if (refine_ranges(m)) m = settled(selected());
-  if (close_call() || made_sure(m)) m = settled(selected());
+  if (close_call() || close_faults() || made_sure(m)) m = settled(selected());
   m = with_interactions(std::move(m));
   std::optional<PlaceFinding> only;
   if (by_place) {

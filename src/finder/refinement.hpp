@@ -155,6 +155,9 @@ class Refinement {
   // Where the likeliest name and the likeliest curve are about as likely, more experiments with
   // each decide: ten leave a deviance uncertain by about ten.
   bool close_call();
+  // Faults of the control that are about as likely are decided likewise, each about its own
+  // estimate: their statistics saturate, so that the nearest experiments would win.
+  bool close_faults();
   // Where something remains beside the likeliest, more experiments with it follow: ten show its
   // scatter along ten directions only. True if they were made.
   bool made_sure(const SelectedModel& m);

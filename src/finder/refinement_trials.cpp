@@ -17,6 +17,7 @@ constexpr double kElsewhere = 0.02;  // m, by which a stream or patch is another
 constexpr double kOtherRange = 1.4;  // likewise of a force between modules, a factor
 constexpr double kFurther = 1.5;     // from one range to the next that is tried
 constexpr int kMostTries = 7;
+constexpr int kMostFollowed = 4;  // times that experiments with a fault follow its estimate
 constexpr double kClose = 60;     // of a penalised deviance
 constexpr int kMany = 30;         // experiments that decide a close call
 constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range the better one
@@ -128,6 +129,32 @@ bool Refinement::close_call() {
   for (const Id& id : both) {
     refine_fingerprint(fit_with(id, state_.refined.at(id).alone.amplitudes), kMany);
   }
+  return true;
+}
+
+bool Refinement::close_faults() {
+  std::vector<Id> faults;
+  for (const auto& [id, one] : state_.refined) {
+    if (id.first >= 0 && effect(id).control()) faults.push_back(id);
+  }
+  if (faults.size() < 2) return false;
+  const auto estimate = [&](const Id& id) {
+    return fit_with(id, state_.refined.at(id).alone.amplitudes);
+  };
+  const auto deviance = [&](const Id& id) {
+    return state_.refined.at(id).alone.penalized_deviance;
+  };
+  for (const Id& id : faults) {
+    for (int k = 0; k < kMostFollowed && off_centre(estimate(id), kBeside); ++k) {
+      refine_fingerprint(estimate(id));
+    }
+  }
+  const Id likeliest = *std::ranges::min_element(faults, {}, deviance);
+  std::erase_if(faults, [&, least = deviance(likeliest)](const Id& id) {
+    return deviance(id) - least > kClose;
+  });
+  if (faults.size() < 2) return false;
+  for (const Id& id : faults) refine_fingerprint(estimate(id), kMany);
   return true;
 }
 
