@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
+#include "lilytank/math.hpp"
 #include "text/number.hpp"
 #include "tracks/seen_bonds.hpp"
 #include "tracks/sets.hpp"
@@ -17,6 +19,9 @@ constexpr std::array<double, 5> kTimes{1, 3, 8, 20, 60};
 constexpr int kSizes = 4;           // of assemblies: 2, 3, 4, 5 and more
 constexpr double kAgain = 2;        // s: a pair that parted latches again within this time
 constexpr double kFarBefore = 2.5;  // reaches: farther off, a module was not seen for a while
+
+constexpr int kSettling = 2;            // frames at a bond's begin and end
+constexpr double kLeastScatter = 0.01;  // of squared distances, in radii
 
 // A rate per s, by its logarithm: half an event is there before any data.
 double log_rate(double events, double seconds) {
@@ -31,7 +36,8 @@ double share(double part, double all) {
 class Geometry {
  public:
   explicit Geometry(const Model& model)
-      : side_(model.module.side),
+      : radius_(model.tank.radius),
+        side_(model.module.side),
         reach_(model.control.capture_distance),
         angle_(model.control.capture_angle) {}
 
@@ -55,6 +61,7 @@ class Geometry {
       }
     }
     count_sizes(r, bonds);
+    measure(r, bonds);
   }
 
   void append_to(std::vector<double>& out) const {
@@ -62,13 +69,18 @@ class Geometry {
     out.push_back(share(again_, parted_)), out.push_back(time_ / (module_time_ + 1));
     out.push_back(log_rate(met_, module_time_)), out.push_back(share(begun_, met_));
     out.push_back((before_ + reach_) / (known_before_ + 1));
+    const double n = lengths_ + 1, far = far_ / n;
+    out.push_back(longer_ / n);
+    out.push_back((longer_far_ / n - longer_ / n * far) /
+                  (far_far_ / n - far * far + kLeastScatter));
     for (std::size_t k = 0; k < kTimes.size(); ++k) out.push_back(share(ended_[k], at_risk_[k]));
     for (const double time : in_size_) out.push_back(time / (module_time_ + 1));
   }
 
   static void name(std::vector<ScoreEntry>& out) {
     for (const char* what : {"new bonds", "partings", "latched again", "bonds per module",
-                             "meetings", "bonds per meeting", "distance before a bond"}) {
+                             "meetings", "bonds per meeting", "distance before a bond",
+                             "length of bonds", "length of bonds across the image"}) {
       out.push_back({"bond", what});
     }
     for (const double time : kTimes) {
@@ -80,6 +92,30 @@ class Geometry {
   }
 
  private:
+  // What a camera shows of squares that are face to face, in one frame a second: a lens makes them
+  // shorter or longer far from its axis. Not where they may still be settling or parting.
+  void measure(const Recording& r, const std::vector<SeenBond>& bonds) {
+    const auto seen = [&r](std::int64_t id, int frame) -> std::optional<Vec2> {
+      for (const Track& t : r.tracks) {
+        if (t.id != id || frame < t.first || frame > t.last()) continue;
+        const auto i = static_cast<std::size_t>(frame - t.first);
+        if (!std::isnan(t.x[i])) return Vec2(t.x[i], t.y[i]);
+      }
+      return std::nullopt;
+    };
+    const int step = std::max(1, static_cast<int>(std::lround(r.rate)));
+    for (const SeenBond& bond : bonds) {
+      for (int frame = bond.begin + kSettling; frame < bond.end - kSettling; frame += step) {
+        const auto a = seen(bond.a, frame), b = seen(bond.b, frame);
+        if (!a || !b) continue;
+        const double longer = (*b - *a).norm() - side_;
+        const double far = (0.5 * (*a + *b)).squaredNorm() / (radius_ * radius_);
+        lengths_ += 1, longer_ += longer, far_ += far;
+        far_far_ += far * far, longer_far_ += longer * far;
+      }
+    }
+  }
+
   // In one frame a second.
   void count_sizes(const Recording& r, const std::vector<SeenBond>& bonds) {
     std::map<std::int64_t, int> numbers;
@@ -101,9 +137,12 @@ class Geometry {
     }
   }
 
-  double side_, reach_, angle_;
+  double radius_, side_, reach_, angle_;
   double module_time_ = 0, begun_ = 0, parted_ = 0, time_ = 0, again_ = 0;
   double met_ = 0, before_ = 0, known_before_ = 0;
+  // Lengths of bonds beyond a side, squared distances from the centre in radii of the tank, and
+  // their sums.
+  double lengths_ = 0, longer_ = 0, far_ = 0, far_far_ = 0, longer_far_ = 0;
   std::array<double, kTimes.size()> at_risk_{}, ended_{};
   std::array<double, kSizes> in_size_{};
 };
