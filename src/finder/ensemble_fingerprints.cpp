@@ -160,7 +160,7 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
       from.identifiable_share.cwiseProduct(calibrated - from.moved(amplitudes) - centre_);
   const Vector point = (centre_ + away).cwiseMax(bounds.low).cwiseMin(bounds.high);
   std::vector<LearnedFingerprint>& own = learned[name];
-  if (const LearnedFingerprint* known = nearest_of(own, amplitudes, point, experiments)) {
+  if (const LearnedFingerprint* known = nearest_of(effect, own, amplitudes, point, experiments)) {
     return known->fingerprint;
   }
   // The key covers what is simulated, not the order of the calls.
@@ -170,9 +170,8 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
   const std::uint64_t seed = derived_seed(derived_seed(options_.seed, kSharpSeed), place.value());
   std::string stage = "sharp " + name + " " + hex(place.value());
   if (experiments != kAbout) stage += " of " + std::to_string(experiments);
-  const Responses made =
-      answers(effect, stage, point, kNarrow * spread_,
-              amplitudes_about(amplitudes, experiments, effect.two_sided, seed), seed);
+  const Responses made = answers(effect, stage, point, kNarrow * spread_,
+                                 amplitudes_about(effect, amplitudes, experiments, seed), seed);
   // An affine response: the known secant slope, corrected in proportion to its noise.
   const Matrix off = made.amplitudes.rowwise() - amplitudes.transpose();
   const Matrix secant =
@@ -199,14 +198,14 @@ Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const
 
 // The nearest fingerprint that covers these amplitudes and parameters; null if there is none.
 const LearnedFingerprint* ReferenceEnsemble::nearest_of(
-    const std::vector<LearnedFingerprint>& learned, const Vector& amplitudes, const Vector& point,
-    int experiments) const {
+    const Effect& effect, const std::vector<LearnedFingerprint>& learned, const Vector& amplitudes,
+    const Vector& point, int experiments) const {
   const LearnedFingerprint* nearest = nullptr;
   double least = 1;
   for (const LearnedFingerprint& one : learned) {
     if (one.experiments < experiments) continue;
     const Vector& at = one.fingerprint.about;
-    const double far = (amplitudes - at).cwiseQuotient(apart(at)).cwiseAbs().maxCoeff();
+    const double far = (amplitudes - at).cwiseQuotient(apart(effect, at)).cwiseAbs().maxCoeff();
     const double off = solve_lower(spread_, point - one.point).cwiseAbs().maxCoeff();
     const double beyond = std::max(far / kBeside, off);
     if (beyond <= least) least = beyond, nearest = &one;

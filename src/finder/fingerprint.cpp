@@ -11,12 +11,21 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 constexpr double kApartShare = 0.25, kApartLeast = 0.5;  // of amplitudes, and in sizes
+constexpr double kOfRest = 0.3, kLeastRest = 0.2;  // of what is left up to the bound, and in sizes
 constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints are learned
 
 }  // namespace
 
-Vector apart(const Vector& amplitudes) {
-  return kApartShare * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+// Faults that are nearly certain change what is seen in proportion to 1 / (1 - probability).
+Vector apart(const Effect& effect, const Vector& amplitudes) {
+  Vector out = kApartShare * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
+  if (!effect.control() || effect.two_sided) return out;
+  for (Eigen::Index c = 0; c < out.size(); ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    const double most = emulator_parameter(effect.paths[k]).high / effect.sizes[k];
+    out(c) = std::min(out(c), kOfRest * std::max(most - amplitudes(c), kLeastRest));
+  }
+  return out;
 }
 
 double Fingerprint::noise_at(const Vector& amplitudes) const {
@@ -43,7 +52,8 @@ Matrix learning_amplitudes(const Effect& effect, int count, std::uint64_t seed) 
   return out;
 }
 
-Matrix amplitudes_about(const Vector& amplitudes, int count, bool two_sided, std::uint64_t seed) {
+Matrix amplitudes_about(const Effect& effect, const Vector& amplitudes, int count,
+                        std::uint64_t seed) {
   Matrix out(count, amplitudes.size());
   for (int i = 0; i < count; ++i) {
     for (Eigen::Index c = 0; c < out.cols(); ++c) {
@@ -51,8 +61,8 @@ Matrix amplitudes_about(const Vector& amplitudes, int count, bool two_sided, std
       out(i, c) = i % 2 == 0 ? 2 * u - 1 : -out(i - 1, c);
     }
   }
-  out = (out * apart(amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
-  return out.cwiseMax(two_sided ? -1e9 : 0);
+  out = (out * apart(effect, amplitudes).asDiagonal()).rowwise() + amplitudes.transpose();
+  return out.cwiseMax(effect.two_sided ? -1e9 : 0);
 }
 
 Fingerprint together(const std::vector<Fingerprint>& fingerprints,

@@ -46,8 +46,8 @@ struct Learning {
 
 /// Largest, and mean square, of the amplitudes at which the first fingerprints are learned.
 inline constexpr double kLearnedSize = 1.2, kLearnedSquare = 0.7;
-/// How far from found amplitudes the experiments about them are.
-Eigen::VectorXd apart(const Eigen::VectorXd& amplitudes);
+/// How far from found amplitudes of an effect the experiments about them are.
+Eigen::VectorXd apart(const Effect& effect, const Eigen::VectorXd& amplitudes);
 /// Largest distance from the amplitudes of experiments at which these serve, in that spread:
 /// experiments about 0.8 of a strong torque left a residual that a law of radius fitted better.
 inline constexpr double kBeside = 0.5;
@@ -56,7 +56,7 @@ inline constexpr double kBeside = 0.5;
 /// if it is two-sided; several components at once, none always present.
 Eigen::MatrixXd learning_amplitudes(const Effect& effect, int count, std::uint64_t seed);
 /// Amplitudes about estimated ones, a row each, in antithetic pairs.
-Eigen::MatrixXd amplitudes_about(const Eigen::VectorXd& amplitudes, int count, bool two_sided,
+Eigen::MatrixXd amplitudes_about(const Effect& effect, const Eigen::VectorXd& amplitudes, int count,
                                  std::uint64_t seed);
 
 /// Of several effects at once about amplitudes (each one's, in turn), if they add up.

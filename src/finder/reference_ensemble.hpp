@@ -131,7 +131,8 @@ class ReferenceEnsemble {
                     std::uint64_t seed);
   Responses responses(const Simulation& of, const std::vector<std::vector<double>>& rows) const;
   Fingerprint fingerprint(const Effect& effect, const Responses& made) const;
-  const LearnedFingerprint* nearest_of(const std::vector<LearnedFingerprint>& learned,
+  const LearnedFingerprint* nearest_of(const Effect& effect,
+                                       const std::vector<LearnedFingerprint>& learned,
                                        const Eigen::VectorXd& amplitudes,
                                        const Eigen::VectorXd& point, int experiments) const;
   Prior prior() const;

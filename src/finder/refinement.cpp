@@ -272,7 +272,8 @@ bool Refinement::off_centre(const EffectFit& f, double far) const {
   const RefinedCandidate* known = refined(f);
   if (known == nullptr) return false;
   const Vector& about = known->fingerprint.about;
-  return (f.amplitudes - about).cwiseQuotient(apart(about)).cwiseAbs().maxCoeff() > far;
+  return (f.amplitudes - about).cwiseQuotient(apart(found_effect(f), about)).cwiseAbs().maxCoeff() >
+         far;
 }
 
 std::optional<EffectFit> Refinement::next_after(const SelectedModel& m) {

@@ -81,8 +81,8 @@ void expect_that_experiments_serve_nearby(PreparedTank& tank) {
   LearnedFingerprints learned;
   const auto about = [&](double spreads) {
     const Eigen::VectorXd at = Eigen::VectorXd::Ones(std::ssize(effect.paths));
-    ensemble.fingerprint_about(at + spreads * apart(at), ensemble.fingerprints().front(), effect,
-                               tank.baseline.point, "probe", learned);
+    ensemble.fingerprint_about(at + spreads * apart(effect, at), ensemble.fingerprints().front(),
+                               effect, tank.baseline.point, "probe", learned);
     return learned["probe"].size();
   };
   EXPECT_EQ(about(0), 1u);

@@ -147,6 +147,42 @@ TEST(Scores, SeeAPlantedPushOnAssemblies) {
   EXPECT_NEAR(pushed - nothing, 4.0 / 1.5, 1.2);
 }
 
+double bond_number(const std::string& name, const std::vector<Recording>& recordings) {
+  ScorePlan plan;
+  plan.model = latching(2), plan.model.module.side = kLilySide,
+  plan.logged = recordings.front().logged;
+  const std::vector<ScoreEntry> entries = bond_entries(plan);
+  const std::vector<double> numbers = bond_numbers(plan, recordings);
+  EXPECT_EQ(entries.size(), numbers.size());
+  const auto at = std::ranges::find(entries, name, &ScoreEntry::name);
+  if (at != entries.end()) return numbers[static_cast<std::size_t>(at - entries.begin())];
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+// A lens that makes what is far from its axis longer changes the length of bonds there.
+TEST(BondNumbers, ShowALens) {
+  std::vector<Recording> recordings;
+  for (const double far : {0.0, 0.05, 0.1}) {
+    Recording& r = recordings.emplace_back(two_meeting());
+    for (Track& t : r.tracks) {
+      for (double& x : t.x) x += far;
+      std::ranges::fill(t.y, 0);
+    }
+  }
+  const char* across = "length of bonds across the image";
+  EXPECT_NEAR(bond_number("length of bonds", recordings), 0, 1e-9);
+  EXPECT_NEAR(bond_number(across, recordings), 0, 1e-9);
+  EXPECT_NEAR(bond_number("bonds per meeting", recordings), 3.5 / 4, 1e-9);
+  for (Recording& r : recordings) {
+    for (Track& t : r.tracks) {
+      for (double& x : t.x) x *= 1 + x * x;
+    }
+  }
+  EXPECT_GT(bond_number("length of bonds", recordings), 1e-4);
+  EXPECT_GT(bond_number(across, recordings), 1e-3);
+}
+
 // Counted by hand from a log of 100 s of two modules.
 TEST(BondNumbers, CountALog) {
   Recording r = two_meeting();
@@ -158,23 +194,13 @@ TEST(BondNumbers, CountALog) {
               {10, EventKind::latch, 0, 1},
               {14, EventKind::link, 0, 1},
               {54, EventKind::unlink, 0, 1}};
-  ScorePlan plan;
-  plan.model = latching(2), plan.logged = true;
-  const std::vector<ScoreEntry> entries = bond_entries(plan);
-  const std::vector<double> numbers = bond_numbers(plan, {r});
-  ASSERT_EQ(entries.size(), numbers.size());
-  const auto number = [&](const std::string& name) {
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (entries[i].name == name) return numbers[i];
-    }
-    ADD_FAILURE() << name;
-    return 0.0;
-  };
+  const auto number = [&](const std::string& name) { return bond_number(name, {r}); };
   EXPECT_DOUBLE_EQ(number("logged latches"), std::log(2.5 / 201));
   EXPECT_DOUBLE_EQ(number("decisions on a latch"), std::log(2.5 / (2 + 4 + 1)));
   EXPECT_DOUBLE_EQ(number("time to unlatch"), std::log(1.5 / 3));
   EXPECT_DOUBLE_EQ(number("time to link"), std::log(1.5 / 5));
   EXPECT_DOUBLE_EQ(number("unlinked bonds"), std::log(1.5 / 41));
+  EXPECT_DOUBLE_EQ(number("updates of labels"), std::log(0.5 / 41));
 }
 
 TEST(BondEffects, AreThoseOfTheModelsControl) {
