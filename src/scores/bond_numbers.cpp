@@ -16,10 +16,9 @@ namespace {
 
 // s: a bond that parts within these times of its begin
 constexpr std::array<double, 5> kTimes{1, 3, 8, 20, 60};
-constexpr int kSizes = 4;           // of assemblies: 2, 3, 4, 5 and more
-constexpr double kAgain = 2;        // s: a pair that parted latches again within this time
-constexpr double kFarBefore = 2.5;  // reaches: farther off, a module was not seen for a while
-
+constexpr int kSizes = 4;               // of assemblies: 2, 3, 4, 5 and more
+constexpr double kAgain = 2;            // s: a pair that parted latches again within this time
+constexpr double kFarBefore = 2.5;      // reaches: farther off, a module was not seen for a while
 constexpr int kSettling = 2;            // frames at a bond's begin and end
 constexpr double kLeastScatter = 0.01;  // of squared distances, in radii
 

@@ -183,8 +183,12 @@ int meetings(const Recording& recording, double side, double reach, double angle
   std::vector<char> near(n * n, 0);
   int count = 0;
   frames.for_pairs([&](int a, int b, int frame, const Sighting& at, const Sighting& other) {
-    if (!at.seen || !other.seen || far_apart(at, other, side)) return;
+    if (!at.seen || !other.seen) return;
     char& met = near[static_cast<std::size_t>(a) * n + static_cast<std::size_t>(b)];
+    if (far_apart(at, other, side)) {
+      met = 0;
+      return;
+    }
     const Misalignment off = misalignment(at, other, side);
     if (met == 0 && off.within(reach / side, angle)) {
       met = 1, count += frame > 0 ? 1 : 0;
