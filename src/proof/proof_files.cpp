@@ -124,10 +124,8 @@ std::vector<ProofFinding> findings_in(const CsvReader& rows) {
   return out;
 }
 
-// Of a key: what all its worlds share.
-bool is_heading(const std::string& line) {
-  return line.starts_with("tank ") || line.starts_with("engine ");
-}
+// Of a key: what all its worlds have in common. A line of a world begins with its number.
+bool is_heading(const std::string& line) { return line.find_first_of("0123456789") != 0; }
 
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -143,8 +141,7 @@ void read_worlds(const std::string& file, Proof& proof) {
     const std::size_t number = proof.worlds.size();
     rows.whole(kWorld, static_cast<std::int64_t>(number), static_cast<std::int64_t>(number));
     w.kind = word_in(rows, kKind, {"null", "named", "two", "unnamed"});
-    // A line of the key begins with a world's number, by which kinds that were not requested are
-    // left out.
+    // The numbers of the key leave out the kinds that were not requested.
     const std::string line = number < key.size() ? key[number] : "";
     const std::size_t kind = line.find_first_not_of("0123456789");
     if (kind == 0 || kind == std::string::npos || !line.substr(kind).starts_with(" " + w.kind)) {

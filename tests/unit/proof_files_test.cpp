@@ -143,9 +143,11 @@ TEST_F(ProofFiles, DisplacementsAreJudgedByTheirOwnTanksNulls) {
       << proof_text(three);
 }
 
-TEST_F(ProofFiles, OfAnotherEngineAndADrawnTankHaveLinesMoreInTheKey) {
+TEST_F(ProofFiles, OfAnotherEngineOfLatchesAndOfADrawnTankHaveMoreLinesInTheKey) {
   Proof p = three_worlds();
-  p.key = "engine Box2D\n" + key_text(drawn_tank(7)) + p.key, p.hash = sha256(p.key);
+  p.key = "engine Box2D\nlatches on with the rules chain5, events logged\n" +
+          key_text(drawn_tank(7)) + p.key;
+  p.hash = sha256(p.key);
   p.tank = "a drawn tank of seed 7";
   write("drawn", p);
   const Proof q = read_proof(here.path("drawn"));
