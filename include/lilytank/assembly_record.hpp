@@ -18,6 +18,9 @@ struct Species {
   std::string drawing;  ///< rows joined by '/', '#' a module, for reports
 };
 
+/// Number of species at which a search for all that a ruleset can make stops.
+constexpr int kMostSpecies = 4096;
+
 /// All species that a ruleset can make, by applying its rules to single modules until nothing new
 /// comes; `closed` is false where a limit stopped it, and legality is then not judged.
 struct SpeciesTable {
@@ -30,7 +33,7 @@ struct SpeciesTable {
 /// `limit` species at most, of `largest` modules at most: for worlds of no more modules than that
 /// the table is complete if it is closed. Rules with p = 0 do not fire. Joins of assemblies that
 /// would overlap are left out; contacts other than the one that joins stay without a bond.
-SpeciesTable reachable_species(const Ruleset& rules, int limit = 4096, int largest = 64);
+SpeciesTable reachable_species(const Ruleset& rules, int limit = kMostSpecies, int largest = 64);
 
 /// Follows a world: what stands now, and when copies of the target were completed. An assembly is
 /// what bonds connect (a new latch, not yet answered by a rule, connects nothing); in a model

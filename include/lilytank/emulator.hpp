@@ -21,6 +21,12 @@
 
 namespace lilytank {
 
+/// Two bodies that a recording shows bonded.
+struct BondedBodies {
+  int a = 0, b = 0;    ///< of the bodies of a frame, a < b
+  double seconds = 0;  ///< how long the bond is seen, in the whole recording
+};
+
 /// All bodies at one frame of a recording.
 struct BodiesAt {
   /// Frame of the recording.
@@ -29,6 +35,8 @@ struct BodiesAt {
   std::vector<Pose> pose;
   /// [bodies] From local polynomials over the frames around.
   std::vector<Twist> twist;
+  /// Bonds that stand at this frame, from the distances of faces; empty where latches are off.
+  std::vector<BondedBodies> bonds;
 };
 
 /// What of a recording is imitated.
@@ -57,9 +65,9 @@ struct RecordingShape {
 };
 /// [frames] Number of bodies seen in each frame.
 std::vector<int> seen_by_frame(const Recording& recording);
-/// The shape of a recording. It looks for `starts` every `interval` seconds, from the first frame
-/// on.
-RecordingShape shape_of(const Recording& recording, double interval = 1);
+/// The shape of a recording of modules with this side, m (of balls any). It looks for `starts`
+/// every `interval` seconds, from the first frame on.
+RecordingShape shape_of(const Recording& recording, double side, double interval = 1);
 
 /// Standard deviation of a position, m (Camera::position_noise).
 inline const std::string kPositionNoise = "camera.position_noise";
@@ -99,6 +107,8 @@ struct EmulatorOptions {
   /// If set, it moves the bodies of shapes without starts.
   OtherEngine engine;
 };
+
+class BegunAssemblies;
 
 /// Simulates an experiment at any values of a list of parameters. Constant once made, so it may be
 /// used by many threads at once.
@@ -140,6 +150,7 @@ class Emulator {
   std::vector<std::string> paths_;
   std::vector<Parameter> parameters_;  // of these paths
   std::vector<RecordingShape> shapes_;
+  std::shared_ptr<const BegunAssemblies> assemblies_;  // empty: no recording shows bonds
   EmulatorOptions options_;
 };
 

@@ -26,6 +26,17 @@ State initial_state(const Model& model, std::uint64_t seed);
 /// poses, all lie at the origin. Overlaps are not checked: see deepest_overlap().
 State state_of_poses(const Model& model, const std::vector<Pose>& poses, std::uint64_t seed);
 
+/// A bond of two modules at the start: their numbers and connectors, 0..3.
+struct StartBond {
+  int a = 0, face_a = 0, b = 0, face_b = 0;
+};
+
+/// Bonds modules whose faces meet about: what bonds connect becomes one rigid assembly, on a common
+/// lattice about its centre of mass and with its momentum, as by latches in this order. The faces
+/// are bonded, without a ruleset latched; labels stay as they are. Returns false, with the bonds
+/// before it made, at one for which there is no room on the lattice.
+bool make_bonds(const Model& model, const std::vector<StartBond>& bonds, State& state);
+
 /// The deepest overlap of bodies of different assemblies, or of a body and the wall. Computed
 /// from corners and projections, independently of the contact solver.
 Overlap deepest_overlap(const Model& model, const State& state);

@@ -5,12 +5,6 @@
 #include "assemblies/pattern.hpp"
 
 namespace lilytank {
-namespace {
-
-constexpr int kMostSpecies = 4096;
-
-}  // namespace
-
 AssemblyRecord::AssemblyRecord(const Model& model) : model_(&model) {
   const auto modules = static_cast<std::size_t>(model.module.count);
   by_size_.assign(modules + 1, 0);

@@ -232,6 +232,7 @@ void warn_of_entangled(std::size_t n, CalibrationResult& out) {
 }
 
 void warn(const Stages& stages, const LocalAnswer& answer, CalibrationResult& out) {
+  out.warnings = stages.setup().warnings_of_begin();
   const std::size_t n = stages.setup().reported_count();
   for (std::size_t i = 0; i < n; ++i) {
     const CalibratedParameter& p = out.parameters[i];

@@ -106,7 +106,7 @@ void find_summary(CalibrationSetup& setup) {
 std::uint64_t identity_of(const Experiment& experiment, const CalibrationSetup& setup) {
   const CalibrationOptions& o = setup.options;
   Fnv hash;
-  hash.add("calibration 4 " + std::to_string(experiment.base.identity));
+  hash.add("calibration 5 " + std::to_string(experiment.base.identity));
   for (const auto* of : {&setup.training, &setup.held_out, &setup.balls}) add_recordings(*of, hash);
   for (std::size_t i = 0; i < setup.parameters.size(); ++i) {
     const FitParameter& p = setup.parameters[i];
@@ -141,13 +141,27 @@ void complete(const Experiment& experiment, CalibrationSetup& setup) {
   if (o.replicates == 0) o.replicates = predicted ? 100 : 200;
 }
 
-std::vector<RecordingShape> shapes_of(const std::vector<Recording>& recordings) {
+std::vector<RecordingShape> shapes_of(const std::vector<Recording>& recordings, double side) {
   std::vector<RecordingShape> shapes;
-  for (const Recording& one : recordings) shapes.push_back(shape_of(one));
+  for (const Recording& one : recordings) shapes.push_back(shape_of(one, side));
   return shapes;
 }
 
 }  // namespace
+
+std::vector<std::string> CalibrationSetup::warnings_of_begin() const {
+  std::vector<std::string> out;
+  for (const auto* all : {&shapes, &held_out_shapes}) {
+    for (const RecordingShape& shape : *all) {
+      if (!shape.latches || !shape.starts.empty()) continue;
+      out.push_back(shape.name +
+                    ": no frame of the first second shows all modules with their headings, so "
+                    "simulations of it begin with single modules at random places: begin the "
+                    "recording at a frame that does");
+    }
+  }
+  return out;
+}
 
 int most_bodies(const std::vector<RecordingShape>& shapes) {
   int most = 0;
@@ -265,7 +279,9 @@ CalibrationSetup set_up(const Experiment& experiment, const CalibrationOptions& 
   find_parameters(experiment, setup);
   complete(experiment, setup);
   find_noise(setup);
-  setup.shapes = shapes_of(setup.training), setup.held_out_shapes = shapes_of(setup.held_out);
+  const double side = setup.model.module.side;
+  setup.shapes = shapes_of(setup.training, side);
+  setup.held_out_shapes = shapes_of(setup.held_out, side);
   setup.model.control.latches =
       std::ranges::any_of(setup.shapes, [](const RecordingShape& s) { return s.latches; });
   setup.identity = identity_of(experiment, setup);

@@ -58,6 +58,8 @@ struct CalibrationSetup {
   /// Eq. 9's MSD at coarse lags, m^2: what the displacement objectives compare.
   std::vector<double> displacements(const std::vector<Recording>& recordings) const;
   std::vector<SummaryEntry> entries() const;
+  /// A warning for each recording of self-assembly that simulations cannot begin like.
+  std::vector<std::string> warnings_of_begin() const;
   /// The extracted flow without its mean error, as a grid that a run reads; empty where the
   /// scenario's flow is used.
   std::string corrected_csv(const FlowField& best) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/begun_assemblies.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/start.hpp"
@@ -40,7 +41,8 @@ const CameraParameter* camera_parameter(const std::string& path) {
 // The seed of a camera must differ from that of its world.
 constexpr std::uint64_t kCameraRun = 1u << 20;
 
-State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
+State state_at(const Model& model, const BodiesAt& start, const BegunAssemblies* assemblies,
+               std::uint64_t seed) {
   // Poses of a recording have noise: they may overlap by a millimetre, which the first step
   // resolves.
   State state = state_of_poses(model, start.pose, seed);
@@ -48,6 +50,7 @@ State state_at(const Model& model, const BodiesAt& start, std::uint64_t seed) {
     const Twist& twist = start.twist[i];
     state.vx[i] = twist.vx, state.vy[i] = twist.vy, state.omega[i] = twist.omega;
   }
+  if (model.control.latches && assemblies) assemblies->bond(model, start, seed, state);
   return state;
 }
 
@@ -60,10 +63,10 @@ void log_events(const World& world, std::int64_t first, std::vector<LoggedEvent>
 }
 
 // The world in which a recording begins. Bodies that start at random settle with their latches off:
-// a recording of self-assembly begins with single modules.
-std::optional<World> begun(const Model& model, const BodiesAt* start, double settle,
-                           std::uint64_t seed) {
-  if (start != nullptr) return World(model, state_at(model, *start, seed));
+// a simulated recording of self-assembly begins with single modules.
+std::optional<World> begun(const Model& model, const BodiesAt* start,
+                           const BegunAssemblies* assemblies, double settle, std::uint64_t seed) {
+  if (start != nullptr) return World(model, state_at(model, *start, assemblies, seed));
   Model loose = model;
   loose.control.latches = false;
   World world(loose, seed);
@@ -75,10 +78,10 @@ std::optional<World> begun(const Model& model, const BodiesAt* start, double set
 }
 
 // Poses about each frame; nothing if the world diverges. Events go to `log` if there is one.
-std::optional<Trajectory> moved(const Model& model, const BodiesAt* start, double settle,
-                                double seconds, double rate, std::uint64_t seed,
-                                std::vector<LoggedEvent>* log) {
-  std::optional<World> begin = begun(model, start, settle, seed);
+std::optional<Trajectory> moved(const Model& model, const BodiesAt* start,
+                                const BegunAssemblies* assemblies, double settle, double seconds,
+                                double rate, std::uint64_t seed, std::vector<LoggedEvent>* log) {
+  std::optional<World> begin = begun(model, start, assemblies, settle, seed);
   if (!begin) return std::nullopt;
   World& world = *begin;
   const std::int64_t first = world.steps();
@@ -123,6 +126,16 @@ Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<Reco
       model_.flow.at == FlowAt::points) {
     model_.flow.gusts = Gusts::moment_matched;
   }
+  Model full = model_;
+  for (const RecordingShape& shape : shapes_) {
+    full.module.count = std::max(full.module.count, shape.bodies);
+  }
+  const auto bonded = [](const BodiesAt& start) { return !start.bonds.empty(); };
+  if (std::ranges::any_of(shapes_, [&](const RecordingShape& shape) {
+        return shape.latches && std::ranges::any_of(shape.starts, bonded);
+      })) {
+    assemblies_ = std::make_shared<const BegunAssemblies>(full);
+  }
 }
 
 Emulator::Scene Emulator::scene(std::span<const double> values, const RecordingShape& shape,
@@ -156,9 +169,10 @@ std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingS
   const double settle = start != nullptr ? 0 : options_.settle;
   std::vector<LoggedEvent> log;
   std::optional<Trajectory> trajectory =
-      options_.engine && start == nullptr ? options_.engine(scene.model, settle, seconds, seed)
-                                          : moved(scene.model, start, settle, seconds, shape.rate,
-                                                  seed, shape.logged ? &log : nullptr);
+      options_.engine && start == nullptr
+          ? options_.engine(scene.model, settle, seconds, seed)
+          : moved(scene.model, start, assemblies_.get(), settle, seconds, shape.rate, seed,
+                  shape.logged ? &log : nullptr);
   if (!trajectory) return std::nullopt;
   Camera camera = scene.camera;
   camera.seed = derived_seed(seed, kCameraRun);

@@ -55,7 +55,7 @@ FlowDifference redraw_flow(const FlowEstimate& estimate, std::span<const Recordi
   std::vector<RecordingShape> shapes;
   for (const Recording& one : balls) {
     // Simulated balls start as the recording begins.
-    if (one.body == BodyKind::ball) shapes.push_back(shape_of(one, 1e6));
+    if (one.body == BodyKind::ball) shapes.push_back(shape_of(one, 0, 1e6));
   }
   EmulatorOptions emulation;
   emulation.settle = 5, emulation.position_noise = estimate.noise->tracking;

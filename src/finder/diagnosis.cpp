@@ -103,6 +103,7 @@ void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& o
         "there are more identities than bodies: differences between modules, "
         "heterogeneous_module among them, are not tested");
   }
+  for (const std::string& one : recordings.warnings_of_begin()) out.warnings.push_back(one);
   out.nothing_held_out = recordings.held_out.empty();
   if (out.nothing_held_out) {
     out.warnings.push_back(
@@ -111,6 +112,12 @@ void search(PreparedTank& tank, const CalibrationSetup& recordings, Diagnosis& o
   }
   const Judged judged = judge(tank, recordings.training, out);
   fit_findings(tank, judged, out.nothing_held_out ? recordings.training : recordings.held_out, out);
+  if (out.verdict == Verdict::missing && out.removed() < 0) {
+    out.warnings.push_back(
+        std::string("the model with the findings fits ") +
+        (out.nothing_held_out ? "these" : "the held-out") +
+        " recordings no better: repeat the diagnosis with other recordings before you use it");
+  }
   const OpenQuestion question = open_question(tank.ensemble.plan(), judged, out.verdict);
   out.next = proposals(tank, question, recordings.training);
   warn_of_unpredicted(question, out);

@@ -125,7 +125,9 @@ void show(PreparedTank& tank, const JointFit& fit, const std::vector<JointEffect
   const Stages& stages = tank.setup.stages;
   const ScorePlan& plan = tank.ensemble.plan();
   std::vector<RecordingShape> shapes;
-  for (const Recording& one : recordings) shapes.push_back(shape_of(one));
+  for (const Recording& one : recordings) {
+    shapes.push_back(shape_of(one, setup.model.module.side));
+  }
   std::vector<std::string> paths;
   for (const FitParameter& p : fit.parameters) paths.push_back(p.path);
   const Emulator with(fit.model, paths, shapes, {.moment_matched = false});

@@ -60,7 +60,7 @@ class Evidence {
     ScoreSums out = score_sums(plan, recordings, effects);
     std::vector<RecordingShape> shapes;
     for (const Recording& one : recordings) {
-      shapes.push_back(shape_of(one)), shapes.back().starts.clear();
+      shapes.push_back(shape_of(one, plan.model.module.side)), shapes.back().starts.clear();
     }
     const Emulator baseline(plan.model, {}, shapes, {.moment_matched = false});
     for (std::uint64_t k = 0; k < kReferences; ++k) {

@@ -82,7 +82,7 @@ ViewTank tank_of(const Recording& recording, const Scenario& scenario) {
 
 /// Simulates what a recording shows, from its poses where all bodies were seen at its begin.
 ViewTank simulated(const Recording& recording, const Scenario& scenario) {
-  RecordingShape shape = shape_of(recording);
+  RecordingShape shape = shape_of(recording, scenario.model.module.side);
   shape.missing = 0;
   const double start =
       shape.starts.empty() ? recording.start : recording.time(shape.starts.front().frame);

@@ -1,6 +1,7 @@
 // Where bodies lie at the start.
 #include <cmath>
 
+#include "control/tick.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/start.hpp"
 #include "physics/motion.hpp"
@@ -120,6 +121,23 @@ State state_of_poses(const Model& model, const std::vector<Pose>& poses, std::ui
   State state = blank_state(model, seed);
   put_at(poses, state);
   return state;
+}
+
+bool make_bonds(const Model& model, const std::vector<StartBond>& bonds, State& state) {
+  Assemblies assemblies;
+  assemblies.resize(model);
+  derive(model, state, assemblies);
+  for (const StartBond& bond : bonds) {
+    const Connector a{bond.a, bond.face_a}, b{bond.b, bond.face_b};
+    hold(state, a, b);
+    if (!merge(model, state, assemblies, bond.a, bond.face_a, bond.b, bond.face_b)) {
+      clear_face(state, a), clear_face(state, b);
+      return false;
+    }
+    if (model.rulesets.empty()) continue;
+    face_of(state, a).status = face_of(state, b).status = FaceStatus::bonded;
+  }
+  return true;
 }
 
 Overlap deepest_overlap(const Model& model, const State& state) {
