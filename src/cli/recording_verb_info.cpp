@@ -102,8 +102,8 @@ void print_tracks(const CheckedRecording& checked, const RecordingOptions& optio
 
 // How modules were latched, as their poses show it.
 struct SeenBonds {
-  std::size_t bonds = 0;
-  double share = 0;  // bonds per module, mean over time
+  std::size_t bonds = 0, at_begin = 0;  // in all, and in the first frame
+  double share = 0;                     // bonds per module, mean over time
 };
 std::optional<SeenBonds> bonds_of(const Recording& r, const RecordingOptions& options) {
   if (r.body != BodyKind::lily || !r.latches || !r.has_heading()) return std::nullopt;
@@ -111,6 +111,7 @@ std::optional<SeenBonds> bonds_of(const Recording& r, const RecordingOptions& op
   double frames = 0, modules = 0;
   for (const SeenBond& bond : seen_bonds(r, 2 * options.body_radius)) {
     out.bonds += 1, frames += bond.end - bond.begin;
+    out.at_begin += bond.begin == 0 ? 1 : 0;
   }
   for (const Track& t : r.tracks) modules += static_cast<double>(t.x.size());
   out.share = modules > 0 ? frames / modules : 0;
@@ -120,7 +121,8 @@ std::optional<SeenBonds> bonds_of(const Recording& r, const RecordingOptions& op
 void print_bonds(const NamedRecording& named, const Recording& r) {
   if (const auto seen = bonds_of(r, named.options)) {
     std::cout << "  bonds     " << seen->bonds << " seen, on average "
-              << significant(seen->share, 2) << " per module\n";
+              << significant(seen->share, 2) << " per module, " << seen->at_begin
+              << " in the first frame\n";
   }
   if (named.options.events.empty()) return;
   std::cout << "  events    " << read_event_log(named.options.events).size() << " in "
@@ -183,6 +185,7 @@ Json info_json(const NamedRecording& named, const CheckedRecording& checked) {
               {"median_step", n.typical_step}});
   if (const auto seen = bonds_of(r, named.options)) {
     out["bonds"] = seen->bonds, out["bonds_per_module"] = seen->share;
+    out["bonds_in_first_frame"] = seen->at_begin;
   }
   if (!named.options.events.empty()) {
     out["events"] = read_event_log(named.options.events).size();

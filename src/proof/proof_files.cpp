@@ -125,7 +125,9 @@ std::vector<ProofFinding> findings_in(const CsvReader& rows) {
 }
 
 // Of a key: what all its worlds have in common. A line of a world begins with its number.
-bool is_heading(const std::string& line) { return line.find_first_of("0123456789") != 0; }
+bool is_heading(const std::string& line) {
+  return line.find_first_of("0123456789") != 0;
+}
 
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));

@@ -28,7 +28,8 @@ TEST(eventLog, isCountedWithTheBondsThatPosesShow) {
   write_latched_experiment(lilytank, "time,kind,module_a,module_b\n0.1,latch,7,9\n0.4,link,9,7\n");
   const Answer a = lilytank("recording info e.toml");
   EXPECT_EQ(a.code, 0) << a.err;
-  EXPECT_NE(a.out.find("  bonds     1 seen, on average 0.5 per module\n"), std::string::npos)
+  EXPECT_NE(a.out.find("  bonds     1 seen, on average 0.5 per module, 1 in the first frame\n"),
+            std::string::npos)
       << a.out;
   EXPECT_NE(a.out.find("  events    2 in log.csv\n"), std::string::npos) << a.out;
   const Answer json = lilytank("recording info e.toml --json");
