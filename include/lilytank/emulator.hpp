@@ -25,6 +25,7 @@ namespace lilytank {
 struct BondedBodies {
   int a = 0, b = 0;    ///< of the bodies of a frame, a < b
   double seconds = 0;  ///< how long the bond is seen, in the whole recording
+  bool parts = false;  ///< the two are seen apart after that
 };
 
 /// All bodies at one frame of a recording.

@@ -10,6 +10,9 @@
 namespace lilytank {
 namespace {
 
+// Mean times between evaluations. In six runs of chain5 no bond was shorter, and 5 % of the latches
+// without a bond were longer, beside 10 times as many bonds.
+constexpr double kDecided = 4;
 // The seed of the labels must differ from that of the world.
 constexpr std::uint64_t kLabelRun = 1u << 21;
 
@@ -99,6 +102,9 @@ std::vector<Pattern> BegunAssemblies::labelled(const std::vector<Cell>& cells) c
 void BegunAssemblies::bond(const Model& model, const BodiesAt& start, std::uint64_t seed,
                            State& state) const {
   std::vector<BondedBodies> seen = start.bonds;
+  std::erase_if(seen, [&](const BondedBodies& bond) {
+    return bond.parts && bond.seconds * model.control.evaluation_rate < kDecided;
+  });
   std::stable_sort(seen.begin(), seen.end(), [](const BondedBodies& a, const BondedBodies& b) {
     return a.seconds < b.seconds;
   });

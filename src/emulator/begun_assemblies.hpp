@@ -11,6 +11,9 @@ namespace lilytank {
 
 /// Bonds the modules of a state that a recording shows bonded, and gives them ruleset states.
 ///
+/// Two modules that part within four mean times between evaluations held each other by a latch that
+/// no rule made a bond: they are left as they are, and latch anew in the simulation.
+///
 /// A camera shows the cells of an assembly, but neither its labels nor which of its contacts are
 /// bonds. Of all assemblies in these cells that the ruleset can make, each simulation draws one,
 /// all with the same probability. Where the ruleset makes none (two modules only touch), the bond

@@ -41,7 +41,8 @@ void add_bonds(const std::vector<SeenBond>& bonds, const std::vector<std::int64_
   for (const SeenBond& bond : bonds) {
     if (bond.begin > at.frame || bond.end <= at.frame) continue;
     const int a = body(bond.a), b = body(bond.b);
-    at.bonds.push_back({std::min(a, b), std::max(a, b), (bond.end - bond.begin) / rate});
+    at.bonds.push_back(
+        {std::min(a, b), std::max(a, b), (bond.end - bond.begin) / rate, bond.parted});
   }
 }
 

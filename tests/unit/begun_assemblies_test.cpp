@@ -127,6 +127,25 @@ std::vector<int> labels_of(const State& state) {
   return out;
 }
 
+// A chain of two and a module that the rules would add, but that soon parts.
+TEST(BegunAssemblies, LeaveOutLatchesThatNoRuleMadeABond) {
+  const Model model = test::quiet_model(3, {chain5()});
+  const double side = model.module.side;
+  BodiesAt start;
+  start.pose = {in_row(0, 3, side), in_row(1, 0, side), in_row(2, 1, side)};
+  start.twist.resize(3);
+  start.bonds = {{0, 1, 60, true}, {1, 2, 3, true}};
+  const BegunAssemblies assemblies(model);
+  State state = state_of_poses(model, start.pose, 1);
+  assemblies.bond(model, start, 1, state);
+  EXPECT_EQ(sizes(model, state), (std::vector<int>{0, 1, 1, 0}));
+  // The end of the recording is no parting.
+  start.bonds[1].parts = false;
+  state = state_of_poses(model, start.pose, 1);
+  assemblies.bond(model, start, 1, state);
+  EXPECT_EQ(sizes(model, state), (std::vector<int>{0, 0, 0, 1}));
+}
+
 // Chains after four minutes: the same assemblies, and of every module the true label is drawn.
 TEST(BegunAssemblies, AreThoseOfTheWorldThatWasSeen) {
   const Model model = chains(15);
