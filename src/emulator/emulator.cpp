@@ -41,8 +41,15 @@ const CameraParameter* camera_parameter(const std::string& path) {
 // The seed of a camera must differ from that of its world.
 constexpr std::uint64_t kCameraRun = 1u << 20;
 
-State state_at(const Model& model, const BodiesAt& start, const BegunAssemblies* assemblies,
-               std::uint64_t seed) {
+// How a simulated recording begins: as a frame of a recording, or at random.
+struct Begin {
+  const BodiesAt* start = nullptr;              // nullptr: at random
+  const BegunAssemblies* assemblies = nullptr;  // nullptr: no frame shows bonds
+  double settle = 0;                            // s before the first frame, of bodies at random
+};
+
+State state_at(const Model& model, const Begin& begin, std::uint64_t seed) {
+  const BodiesAt& start = *begin.start;
   // Poses of a recording have noise: they may overlap by a millimetre, which the first step
   // resolves.
   State state = state_of_poses(model, start.pose, seed);
@@ -50,7 +57,7 @@ State state_at(const Model& model, const BodiesAt& start, const BegunAssemblies*
     const Twist& twist = start.twist[i];
     state.vx[i] = twist.vx, state.vy[i] = twist.vy, state.omega[i] = twist.omega;
   }
-  if (model.control.latches && assemblies) assemblies->bond(model, start, seed, state);
+  if (model.control.latches && begin.assemblies) begin.assemblies->bond(model, start, seed, state);
   return state;
 }
 
@@ -64,13 +71,12 @@ void log_events(const World& world, std::int64_t first, std::vector<LoggedEvent>
 
 // The world in which a recording begins. Bodies that start at random settle with their latches off:
 // a simulated recording of self-assembly begins with single modules.
-std::optional<World> begun(const Model& model, const BodiesAt* start,
-                           const BegunAssemblies* assemblies, double settle, std::uint64_t seed) {
-  if (start != nullptr) return World(model, state_at(model, *start, assemblies, seed));
+std::optional<World> begun(const Model& model, const Begin& begin, std::uint64_t seed) {
+  if (begin.start != nullptr) return World(model, state_at(model, begin, seed));
   Model loose = model;
   loose.control.latches = false;
   World world(loose, seed);
-  const auto steps = static_cast<std::int64_t>(std::llround(settle / model.dt));
+  const auto steps = static_cast<std::int64_t>(std::llround(begin.settle / model.dt));
   for (std::int64_t step = 0; step < steps; ++step) {
     if (world.step() == RunStatus::diverged) return std::nullopt;
   }
@@ -78,12 +84,11 @@ std::optional<World> begun(const Model& model, const BodiesAt* start,
 }
 
 // Poses about each frame; nothing if the world diverges. Events go to `log` if there is one.
-std::optional<Trajectory> moved(const Model& model, const BodiesAt* start,
-                                const BegunAssemblies* assemblies, double settle, double seconds,
-                                double rate, std::uint64_t seed, std::vector<LoggedEvent>* log) {
-  std::optional<World> begin = begun(model, start, assemblies, settle, seed);
-  if (!begin) return std::nullopt;
-  World& world = *begin;
+std::optional<Trajectory> moved(const Model& model, const Begin& begin, double seconds, double rate,
+                                std::uint64_t seed, std::vector<LoggedEvent>* log) {
+  std::optional<World> started = begun(model, begin, seed);
+  if (!started) return std::nullopt;
+  World& world = *started;
   const std::int64_t first = world.steps();
   Trajectory trajectory;
   const auto steps = static_cast<std::int64_t>(std::ceil(seconds / model.dt - 1e-9));
@@ -171,7 +176,7 @@ std::optional<Recording> Emulator::simulate(const Scene& scene, const RecordingS
   std::optional<Trajectory> trajectory =
       options_.engine && start == nullptr
           ? options_.engine(scene.model, settle, seconds, seed)
-          : moved(scene.model, start, assemblies_.get(), settle, seconds, shape.rate, seed,
+          : moved(scene.model, {start, assemblies_.get(), settle}, seconds, shape.rate, seed,
                   shape.logged ? &log : nullptr);
   if (!trajectory) return std::nullopt;
   Camera camera = scene.camera;

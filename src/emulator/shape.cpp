@@ -32,7 +32,7 @@ bool add_body(const SmoothTrack& track, int frame, BodiesAt& at) {
   return true;
 }
 
-// Appends the bonds that stand at a frame; `ids`: of its bodies.
+// Appends the bonds of bodies seen at a frame that stand then; `ids`: of these bodies.
 void add_bonds(const std::vector<SeenBond>& bonds, const std::vector<std::int64_t>& ids,
                double rate, BodiesAt& at) {
   const auto body = [&](std::int64_t id) {
@@ -41,6 +41,7 @@ void add_bonds(const std::vector<SeenBond>& bonds, const std::vector<std::int64_
   for (const SeenBond& bond : bonds) {
     if (bond.begin > at.frame || bond.end <= at.frame) continue;
     const int a = body(bond.a), b = body(bond.b);
+    if (std::max(a, b) == static_cast<int>(ids.size())) continue;
     at.bonds.push_back(
         {std::min(a, b), std::max(a, b), (bond.end - bond.begin) / rate, bond.parted});
   }
