@@ -109,7 +109,7 @@ struct EmulatorOptions {
   OtherEngine engine;
 };
 
-class BegunAssemblies;
+class InitialAssemblies;
 
 /// Simulates an experiment at any values of a list of parameters. Constant once made, so it may be
 /// used by many threads at once.
@@ -151,7 +151,7 @@ class Emulator {
   std::vector<std::string> paths_;
   std::vector<Parameter> parameters_;  // of these paths
   std::vector<RecordingShape> shapes_;
-  std::shared_ptr<const BegunAssemblies> assemblies_;  // empty: no recording shows bonds
+  std::shared_ptr<const InitialAssemblies> assemblies_;  // empty: no recording shows bonds
   EmulatorOptions options_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/begun_assemblies.hpp"
+#include "emulator/initial_assemblies.hpp"
 #include "lilytank/camera.hpp"
 #include "lilytank/random.hpp"
 #include "lilytank/start.hpp"
@@ -43,9 +43,9 @@ constexpr std::uint64_t kCameraRun = 1u << 20;
 
 // How a simulated recording begins: as a frame of a recording, or at random.
 struct Begin {
-  const BodiesAt* start = nullptr;              // nullptr: at random
-  const BegunAssemblies* assemblies = nullptr;  // nullptr: no frame shows bonds
-  double settle = 0;                            // s before the first frame, of bodies at random
+  const BodiesAt* start = nullptr;                // nullptr: at random
+  const InitialAssemblies* assemblies = nullptr;  // nullptr: no frame shows bonds
+  double settle = 0;                              // s before the first frame, of bodies at random
 };
 
 State state_at(const Model& model, const Begin& begin, std::uint64_t seed) {
@@ -139,7 +139,7 @@ Emulator::Emulator(Model model, std::vector<std::string> paths, std::vector<Reco
   if (std::ranges::any_of(shapes_, [&](const RecordingShape& shape) {
         return shape.latches && std::ranges::any_of(shape.starts, bonded);
       })) {
-    assemblies_ = std::make_shared<const BegunAssemblies>(full);
+    assemblies_ = std::make_shared<const InitialAssemblies>(full);
   }
 }
 

@@ -18,10 +18,10 @@ namespace lilytank {
 /// bonds. Of all assemblies in these cells that the ruleset can make, each simulation draws one,
 /// all with the same probability. Where the ruleset makes none (two modules only touch), the bond
 /// that is seen for the shortest time is left out, and the parts are looked at again.
-class BegunAssemblies {
+class InitialAssemblies {
  public:
   /// Of the model's first ruleset; without one every contact of bonded modules is a bond.
-  explicit BegunAssemblies(const Model& model);
+  explicit InitialAssemblies(const Model& model);
   /// `state`: of `start`, nothing latched. `seed`: of the simulation.
   void bond(const Model& model, const BodiesAt& start, std::uint64_t seed, State& state) const;
 

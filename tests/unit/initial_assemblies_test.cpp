@@ -1,5 +1,5 @@
 // Recordings that begin with assemblies: simulations of them begin with the same ones.
-#include "emulator/begun_assemblies.hpp"
+#include "emulator/initial_assemblies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ std::vector<int> sizes(const Model& model, const State& state) {
 }
 
 // Modules that only touch are seen bonded for the shortest time: the fourth one, beside a chain.
-TEST(BegunAssemblies, LeaveOutTheShortestContactsThatTheRulesDoNotAllow) {
+TEST(InitialAssemblies, LeaveOutTheShortestContactsThatTheRulesDoNotAllow) {
   Model model = test::quiet_model(4, {chain5()});
   const double side = model.module.side;
   BodiesAt start;
@@ -90,7 +90,7 @@ TEST(BegunAssemblies, LeaveOutTheShortestContactsThatTheRulesDoNotAllow) {
   start.twist.resize(4);
   start.bonds = {{0, 3, 2}, {0, 1, 60}, {1, 2, 40}};
   State state = state_of_poses(model, start.pose, 1);
-  BegunAssemblies(model).bond(model, start, 1, state);
+  InitialAssemblies(model).bond(model, start, 1, state);
   EXPECT_EQ(sizes(model, state), (std::vector<int>{0, 1, 0, 1, 0}));
   EXPECT_EQ(state.firmware[3].label, 0);
   EXPECT_EQ(state.firmware[1].label, 3);
@@ -128,14 +128,14 @@ std::vector<int> labels_of(const State& state) {
 }
 
 // A chain of two and a module that the rules would add, but that soon parts.
-TEST(BegunAssemblies, LeaveOutLatchesThatNoRuleMadeABond) {
+TEST(InitialAssemblies, LeaveOutLatchesThatNoRuleMadeABond) {
   const Model model = test::quiet_model(3, {chain5()});
   const double side = model.module.side;
   BodiesAt start;
   start.pose = {in_row(0, 3, side), in_row(1, 0, side), in_row(2, 1, side)};
   start.twist.resize(3);
   start.bonds = {{0, 1, 60, true}, {1, 2, 3, true}};
-  const BegunAssemblies assemblies(model);
+  const InitialAssemblies assemblies(model);
   State state = state_of_poses(model, start.pose, 1);
   assemblies.bond(model, start, 1, state);
   EXPECT_EQ(sizes(model, state), (std::vector<int>{0, 1, 1, 0}));
@@ -147,14 +147,14 @@ TEST(BegunAssemblies, LeaveOutLatchesThatNoRuleMadeABond) {
 }
 
 // Chains after four minutes: the same assemblies, and of every module the true label is drawn.
-TEST(BegunAssemblies, AreThoseOfTheWorldThatWasSeen) {
+TEST(InitialAssemblies, AreThoseOfTheWorldThatWasSeen) {
   const Model model = chains(15);
   World world(model, 3);
   while (world.time() < 240) ASSERT_EQ(world.step(), RunStatus::ok);
   const BodiesAt seen = seen_in(world);
   ASSERT_GT(seen.bonds.size(), 5u);
   const std::vector<int> truth = labels_of(world.state());
-  const BegunAssemblies assemblies(model);
+  const InitialAssemblies assemblies(model);
   std::vector<int> right(truth.size(), 0);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     State state = state_of_poses(model, seen.pose, seed);
@@ -175,7 +175,7 @@ int bonds_at(const Recording& recording, double side, int frame) {
 }
 
 // From its fourth minute on, as a lab cuts a film of a long experiment.
-TEST(BegunAssemblies, StandInSimulationsOfARecordingThatBeginsWithThem) {
+TEST(InitialAssemblies, StandInSimulationsOfARecordingThatBeginsWithThem) {
   const Model model = chains(15);
   RecordingShape whole;
   whole.name = "whole", whole.bodies = 15, whole.latches = true, whole.frames = 30 * 250;

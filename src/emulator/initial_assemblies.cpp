@@ -1,4 +1,4 @@
-#include "emulator/begun_assemblies.hpp"
+#include "emulator/initial_assemblies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,16 +91,16 @@ void set_labels(const Laid& assembly, const Pattern& labelled, State& state) {
 
 }  // namespace
 
-BegunAssemblies::BegunAssemblies(const Model& model) {
+InitialAssemblies::InitialAssemblies(const Model& model) {
   if (!model.rulesets.empty()) labellings_.emplace(model.rulesets.front(), model.module.count);
 }
 
-std::vector<Pattern> BegunAssemblies::labelled(const std::vector<Cell>& cells) const {
+std::vector<Pattern> InitialAssemblies::labelled(const std::vector<Cell>& cells) const {
   return labellings_ ? labellings_->of(cells) : std::vector<Pattern>{all_bonded(cells)};
 }
 
-void BegunAssemblies::bond(const Model& model, const BodiesAt& start, std::uint64_t seed,
-                           State& state) const {
+void InitialAssemblies::bond(const Model& model, const BodiesAt& start, std::uint64_t seed,
+                             State& state) const {
   std::vector<BondedBodies> seen = start.bonds;
   std::erase_if(seen, [&](const BondedBodies& bond) {
     return bond.parts && bond.seconds * model.control.evaluation_rate < kDecided;
