@@ -1,5 +1,6 @@
 // Recordings in other formats, and simulated runs as a camera would have recorded them.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -30,6 +31,20 @@ Camera camera_of(const VerbOptions& options) {
   return camera;
 }
 
+/// What to know of a film that shows poses between the stored ones; empty if there is nothing.
+std::string between_poses(const StoredRun& run, const Camera& camera) {
+  const Trajectory& t = run.trajectory;
+  if (t.frames() < 2) return "";
+  const double ratio = stored_rate(t) / camera.rate;
+  if (ratio < 0.999)
+    return seldom_stored(t, "the camera sees straight lines", "40 to store every step");
+  if (!run.scenario.model.control.latches || std::fabs(ratio - std::round(ratio)) < 1e-3) return "";
+  return "poses were stored " + significant(stored_rate(t), 3) +
+         " times a second: frames between them show modules that latch approach too slowly (film "
+         "with --camera rate=" +
+         significant(stored_rate(t) / std::floor(ratio + 1e-3), 3) + ")\n";
+}
+
 /// What a camera records of a stored run.
 Recording filmed(const std::string& dir, const VerbOptions& options) {
   const StoredRun run = load_run(dir);
@@ -40,9 +55,7 @@ Recording filmed(const std::string& dir, const VerbOptions& options) {
     assign_recording_option(a, "recording", reading);
   }
   const Camera camera = camera_of(options);
-  if (t.frames() > 1 && stored_rate(t) < 0.999 * camera.rate) {
-    std::cerr << seldom_stored(t, "the camera sees straight lines", "40 to store every step");
-  }
+  std::cerr << between_poses(run, camera);
   Recording out = film(t, camera, reading.body);
   out.latches = run.scenario.model.control.latches;
   return out;

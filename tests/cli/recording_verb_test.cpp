@@ -144,6 +144,12 @@ TEST_F(RecordingVerb, aRunIsFilmed) {
   EXPECT_TRUE(film.has_heading());
   a = lilytank_("recording convert run --camera rate=50 --out fast.csv");
   EXPECT_NE(a.err.find("poses were stored 40 times a second"), std::string::npos) << a.err;
+  EXPECT_EQ(lilytank_("recording convert run --camera rate=30 --out between.csv").err, "");
+  lilytank_.here.write("latching.toml", std::string(kTiny) + "[control]\nlatches = true\n");
+  ASSERT_EQ(lilytank_("run latching.toml --out latching --set output.rate=40 --quiet").code, 0);
+  EXPECT_EQ(lilytank_("recording convert latching --camera rate=20 --out 20.csv").err, "");
+  a = lilytank_("recording convert latching --camera rate=30 --out 30.csv");
+  EXPECT_TRUE(a.err.ends_with("(film with --camera rate=40)\n")) << a.err;
   a = lilytank_("recording convert run --camera lag=1 --out x.csv");
   EXPECT_EQ(a.code, 2);
   EXPECT_EQ(a.err, "--camera lag=1: unknown key 'camera.lag'\n");
