@@ -16,6 +16,7 @@ namespace lilytank {
 namespace {
 
 constexpr std::size_t kRankOfBonds = 280;  // after contacts
+constexpr double kOfWay = 0.9;             // to the bound of a parameter of the control
 constexpr double kSlowest = 0.05;  // m/s, of water that curves over slip and spin are made for
 constexpr int kPlaces = 6;         // on a circle, at which an effect that has a place is tried
 constexpr double kPlacesAt = 0.45, kFarthestPlace = 0.8;  // of the tank's radius
@@ -134,6 +135,10 @@ double Effect::absent(const Model& model, std::size_t component) const {
   const std::string& path = paths[component];
   const bool of_force = path.starts_with("forces.") || of_camera(path);
   return of_force ? 0 : parameter_value(model, path);
+}
+
+Eigen::VectorXd Effect::within(const Eigen::VectorXd& amplitudes) const {
+  return amplitudes.cwiseMin(kOfWay * high).cwiseMax(kOfWay * low);
 }
 
 Effect together(const std::vector<Effect>& effects) {

@@ -1,6 +1,8 @@
 // The catalogue of effects: those of the force terms (lilytank/effect.hpp), of the camera and of
 // contacts.
 #pragma once
+#include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,9 +34,15 @@ struct Effect {
   Estimated estimated = Estimated::none;
   std::string equation;
   std::vector<std::string> paths;  ///< amplitudes, which a fit varies
-  std::vector<double> sizes;       ///< at which each is simulated: some ten deviations in minutes
+  /// At which each is simulated: some ten deviations in minutes. Negative: the effect lowers it.
+  std::vector<double> sizes;
   std::vector<std::string> units;  ///< of the amplitudes
   bool two_sided = false;          ///< amplitudes may be negative
+  /// Amplitudes, in sizes, at which a parameter of the control reaches its bounds.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  /// The nearest amplitudes that leave a tenth of the way to these.
+  Eigen::VectorXd within(const Eigen::VectorXd& amplitudes) const;
   /// Other parameters of the term.
   std::vector<HeldParameter> held;
   /// Those of `held` that are refined once the effect is selected: path, unit, bounds.

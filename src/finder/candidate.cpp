@@ -28,9 +28,10 @@ EffectCandidate candidate_of(const Whitening& whitening, const Fingerprint& fing
   };
   const double error = fingerprint.local() ? 0 : 1 / std::sqrt(kLearnedSquare * n);
   out.learned = kept(fingerprint.first, error);
-  out.all = {fingerprint.about, whitening.whitened(kept(fingerprint.base, 1 / std::sqrt(n))),
-             whitening.whitened(out.learned), whitening.whitened(kept(fingerprint.second, error)),
-             fingerprint.two_sided};
+  out.all = fingerprint;
+  out.all.base = whitening.whitened(kept(fingerprint.base, 1 / std::sqrt(n)));
+  out.all.first = whitening.whitened(out.learned);
+  out.all.second = whitening.whitened(kept(fingerprint.second, error));
   out.named = out.all.top(whitening.named);
   out.basis = out.all.first;
   return out;

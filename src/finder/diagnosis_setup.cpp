@@ -49,7 +49,7 @@ DiagnosisSetup::DiagnosisSetup(const Experiment& experiment,
       stages(calibration) {}
 
 std::string DiagnosisSetup::identity() const {
-  return "39 " + hex(calibration.identity) + " " + shortest(options.minutes);
+  return "40 " + hex(calibration.identity) + " " + shortest(options.minutes);
 }
 
 }  // namespace lilytank

@@ -122,6 +122,7 @@ Fingerprint ReferenceEnsemble::fingerprint(const Effect& effect, const Responses
   out.moved_first = moved.transpose(), out.moved_base = Vector::Zero(centre_.size());
   out.identifiable_share = identifiable_share_by(made.points, made.moved - made.amplitudes * moved);
   out.experiments = options_.learning.of(effect), out.two_sided = effect.two_sided;
+  out.low = effect.low, out.high = effect.high;
   out.growth = std::max(effect.growth, growth_of(made.amplitudes, made.residuals.leftCols(named_)));
   return out;
 }
@@ -149,10 +150,11 @@ const Fingerprint& ReferenceEnsemble::shape_fingerprint(int s) {
   return shape_fingerprints_[s] = fingerprint(effect, responses(one, rows.front()));
 }
 
-Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& amplitudes, const Fingerprint& from,
+Fingerprint ReferenceEnsemble::fingerprint_about(const Vector& estimate, const Fingerprint& from,
                                                  const Effect& effect, const Vector& calibrated,
                                                  const std::string& name,
                                                  LearnedFingerprints& learned, int experiments) {
+  const Vector amplitudes = effect.within(estimate);
   const Eigen::Index m = amplitudes.size();
   const FitBounds bounds = stages_.bounds();
   // Parameters that a calibration does not identify beside the effect keep their prior mean.

@@ -20,12 +20,8 @@ constexpr double kLeastSize = 0.4;  // of the amplitudes at which fingerprints a
 Vector apart(const Effect& effect, const Vector& amplitudes) {
   Vector out = kApartShare * (amplitudes.cwiseAbs().array() + kApartLeast).matrix();
   if (!effect.control() || effect.two_sided) return out;
-  for (Eigen::Index c = 0; c < out.size(); ++c) {
-    const auto k = static_cast<std::size_t>(c);
-    const double most = emulator_parameter(effect.paths[k]).high / effect.sizes[k];
-    out(c) = std::min(out(c), kOfRest * std::max(most - amplitudes(c), kLeastRest));
-  }
-  return out;
+  const Vector rest = (effect.high - amplitudes.array()).max(kLeastRest);
+  return out.cwiseMin(kOfRest * rest);
 }
 
 double Fingerprint::noise_at(const Vector& amplitudes) const {

@@ -57,7 +57,8 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
       const double absent = effect.absent(setup.model, c);
       const double value = std::clamp(absent + a * size, of.low, of.high);
       fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
-      out.add(value, size * std::max(0.15, 0.25 * std::fabs(a)), kNamed * size * usual);
+      const double scale = std::fabs(size);
+      out.add(value, scale * std::max(0.15, 0.25 * std::fabs(a)), kNamed * scale * usual);
       sizes.push_back(value);
     }
     fit.model = with_effect(fit.model, effect, sizes);

@@ -73,8 +73,8 @@ SingleFit ModelSelection::fit_alone(const Vector& residual, int effect, int shap
   const EffectCandidate& of = state_.candidates[place_of(state_.candidates, effect, shape)];
   const Matrix whitener = w.whitener_by(of.source.scatter);
   const Matrix change = whitener * lower_inverse(w.whitener);
-  const ResponseModel own{of.named.about, change * of.named.base, change * of.named.first,
-                          change * of.named.second, of.named.two_sided};
+  ResponseModel own = of.named;
+  own.base = change * own.base, own.first = change * own.first, own.second = change * own.second;
   ResponseFit fit = fit_response(own, whitener * (residual - w.centre).head(w.named));
   const double squared = fit.left.squaredNorm();
   const Eigen::Index amplitudes = fit.amplitudes.size();

@@ -31,11 +31,11 @@ Matrix ResponseModel::slope(const Vector& amplitudes) const {
 }
 
 Vector ResponseModel::least() const {
-  return (about - reach(*this)).cwiseMax(two_sided ? -1e9 : 0.0);
+  return (about - reach(*this)).cwiseMax(two_sided ? low : 0.0);
 }
 
 Vector ResponseModel::most() const {
-  return about + reach(*this);
+  return (about + reach(*this)).cwiseMin(high);
 }
 
 bool ResponseModel::at_bound(const Vector& amplitudes) const {
@@ -43,7 +43,10 @@ bool ResponseModel::at_bound(const Vector& amplitudes) const {
 }
 
 ResponseModel ResponseModel::top(Eigen::Index numbers) const {
-  return {about, base.head(numbers), first.topRows(numbers), second.topRows(numbers), two_sided};
+  ResponseModel out = *this;
+  out.base = base.head(numbers);
+  out.first = first.topRows(numbers), out.second = second.topRows(numbers);
+  return out;
 }
 
 ResponseFit fit_responses(const std::vector<const ResponseModel*>& answers, const Vector& data,

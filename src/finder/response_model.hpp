@@ -1,6 +1,7 @@
 // Response of the statistics to the amplitudes of an effect, and the fit of amplitudes to data.
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace lilytank {
@@ -11,6 +12,9 @@ struct ResponseModel {
   Eigen::VectorXd base;           ///< [number]
   Eigen::MatrixXd first, second;  ///< [number, amplitude]
   bool two_sided = false;         ///< amplitudes may be negative
+  /// Beyond these, amplitudes leave the bounds of a parameter.
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
   /// About amplitudes that were found.
   bool local() const { return about.cwiseAbs().maxCoeff() > 0; }
   Eigen::VectorXd at(const Eigen::VectorXd& amplitudes) const;

@@ -89,7 +89,8 @@ SealedEffect drawn_effect(const std::vector<Effect>& effects, const Model& tank,
   for (std::uint32_t c = 0; c < out.effect.paths.size(); ++c) {
     const double size = 0.4 + 1.6 * draw(seed, world, first + 4 + 2 * c);
     const bool negative = out.effect.two_sided && draw(seed, world, first + 5 + 2 * c) < 0.5;
-    out.amplitudes.push_back(negative ? -size : size);
+    out.amplitudes.push_back(
+        out.effect.within(Eigen::VectorXd::Constant(1, negative ? -size : size))(0));
   }
   displace(out.effect, tank, seed, world, first);
   return out;

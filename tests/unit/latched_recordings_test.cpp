@@ -218,6 +218,24 @@ TEST(BondEffects, AreThoseOfTheModelsControl) {
   EXPECT_EQ(with_effect(model, *rate, {0.2}).control.evaluation_rate, 0.2);
 }
 
+// Firmware that begins exchanges more often than the model's does not evaluate bonds more often.
+TEST(BondEffects, LowerTheInitiativeOfFirmware) {
+  Model model = test::drifting(2);
+  model.control.latches = true, model.rulesets.emplace_back();
+  for (const Effect& e : bond_effects(model)) {
+    const double value = e.absent(model, 0);
+    const auto at = [&](double amplitude) {
+      return value + e.within(Eigen::VectorXd::Constant(1, amplitude))(0) * e.sizes[0];
+    };
+    const ParameterInfo bounds = model_parameter(e.paths[0]);
+    EXPECT_GT(at(1e9), bounds.low) << e.name;
+    EXPECT_LT(at(1e9), bounds.high) << e.name;
+    if (e.name != "evaluation_rate") continue;
+    EXPECT_FALSE(e.two_sided);
+    EXPECT_NEAR(at(1e9), 0.1 * value, 1e-12);
+  }
+}
+
 // Two effects at once need two that can be there at once: faults of the control can, one alone
 // cannot.
 TEST(Sealed, AreTwoEffectsOnlyWhereThereAreTwo) {
