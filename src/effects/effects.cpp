@@ -8,6 +8,7 @@
 
 #include "effects/bond_effects.hpp"
 #include "forces/library.hpp"
+#include "lilytank/math.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "text/number.hpp"
 #include "text/words.hpp"
@@ -135,6 +136,16 @@ double Effect::absent(const Model& model, std::size_t component) const {
   const std::string& path = paths[component];
   const bool of_force = path.starts_with("forces.") || of_camera(path);
   return of_force ? 0 : parameter_value(model, path);
+}
+
+double Effect::value(const Model& model, std::size_t component, double amplitude) const {
+  const double by = amplitude * sizes[component], none = absent(model, component);
+  return logarithmic ? none * exp_portable(by) : none + by;
+}
+
+double Effect::amplitude(const Model& model, std::size_t component, double value) const {
+  const double none = absent(model, component);
+  return (logarithmic ? log_portable(value / none) : value - none) / sizes[component];
 }
 
 Eigen::VectorXd Effect::within(const Eigen::VectorXd& amplitudes) const {

@@ -38,6 +38,7 @@ struct Effect {
   std::vector<double> sizes;
   std::vector<std::string> units;  ///< of the amplitudes
   bool two_sided = false;          ///< amplitudes may be negative
+  bool logarithmic = false;        ///< amplitudes are those of the parameters' logarithms
   /// Amplitudes, in sizes, at which a parameter of the control reaches its bounds.
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -72,8 +73,13 @@ struct Effect {
   bool camera() const;
   /// It is a fault of the modules' latches or radio, which shows in bonds alone.
   bool control() const { return variable == "bond"; }
-  /// Value of an amplitude at which the effect is absent.
+  /// Value of a parameter at which the effect is absent.
   double absent(const Model& model, std::size_t component) const;
+  /// Value of a parameter at an amplitude in sizes: absent() + amplitude size, or, if logarithmic,
+  /// absent() exp(amplitude size).
+  double value(const Model& model, std::size_t component, double amplitude) const;
+  /// Inverse of value().
+  double amplitude(const Model& model, std::size_t component, double value) const;
 };
 
 /// Several effects at once as one, their amplitudes one after the other.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lilytank/math.hpp"
 #include "lilytank/model_parameter.hpp"
 #include "statistics/linear.hpp"
 
@@ -19,6 +20,7 @@ constexpr double kRefined = 0.25, kPlaced = 0.25;
 // Prior deviation of an effect's amplitudes about those of the selection, in their root mean
 // square. Knots that modules rarely visit have no other constraint.
 constexpr double kNamed = 1;
+constexpr double kLeast = 1e-3;  // of the model's rate, that a fit tries
 
 // m; of what is not at a place, the range of the parameter.
 double place_width(const Effect& effect, const FitParameter& p) {
@@ -53,12 +55,15 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
         std::sqrt(amplitudes.squaredNorm() / static_cast<double>(amplitudes.size()));
     for (std::size_t c = 0; c < effect.paths.size(); ++c) {
       const ModelParameter of = model_parameter(effect.paths[c]);
-      const double a = amplitudes(static_cast<Eigen::Index>(c)), size = effect.sizes[c];
-      const double absent = effect.absent(setup.model, c);
-      const double value = std::clamp(absent + a * size, of.low, of.high);
-      fit.parameters.push_back({effect.paths[c], effect.units[c], of.low, of.high, false, false});
-      const double scale = std::fabs(size);
-      out.add(value, scale * std::max(0.15, 0.25 * std::fabs(a)), kNamed * scale * usual);
+      const double a = amplitudes(static_cast<Eigen::Index>(c)), size = std::fabs(effect.sizes[c]);
+      // Of a rate, no smaller share is tried.
+      const double low =
+          effect.logarithmic ? std::max(of.low, kLeast * effect.absent(setup.model, c)) : of.low;
+      const double value = std::clamp(effect.value(setup.model, c, a), low, of.high);
+      const FitParameter p{effect.paths[c], effect.units[c],    low,
+                           of.high,         effect.logarithmic, false};
+      fit.parameters.push_back(p);
+      out.add(p.to_scale(value), size * std::max(0.15, 0.25 * std::fabs(a)), kNamed * size * usual);
       sizes.push_back(value);
     }
     fit.model = with_effect(fit.model, effect, sizes);
@@ -80,7 +85,9 @@ std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>
   const auto off = [&](std::size_t e) {
     Vector out = point.segment(places[e], size(e));
     for (Eigen::Index c = 0; c < out.size(); ++c) {
-      out(c) -= effects[e].effect.absent(stages.setup().model, static_cast<std::size_t>(c));
+      const Effect& effect = effects[e].effect;
+      const double none = effect.absent(stages.setup().model, static_cast<std::size_t>(c));
+      out(c) -= effect.logarithmic ? log_portable(none) : none;
     }
     return out;
   };
@@ -105,8 +112,8 @@ void read_point(const Stages& stages, const Vector& point, std::vector<JointEffe
     Effect& effect = effects[e].effect;
     Eigen::Index at = places[e];
     for (std::size_t c = 0; c < effect.paths.size(); ++c, ++at) {
-      effects[e].amplitudes(static_cast<Eigen::Index>(c)) =
-          (point(at) - effect.absent(stages.setup().model, c)) / effect.sizes[c];
+      effects[e].amplitudes(static_cast<Eigen::Index>(c)) = effect.amplitude(
+          stages.setup().model, c, effect.logarithmic ? exp_portable(point(at)) : point(at));
     }
     for (const FitParameter& p : effect.refine) {
       for (auto& [of, value] : effect.held) {

@@ -67,8 +67,7 @@ std::vector<ProposedExperiment> experiments(const RecordedSoFar& so_far) {
 Model with_hypothesis(const Model& model, const EffectHypothesis& one) {
   std::vector<double> amplitudes;
   for (std::size_t c = 0; c < one.effect.sizes.size(); ++c) {
-    amplitudes.push_back(one.effect.absent(model, c) +
-                         one.amplitudes(static_cast<Eigen::Index>(c)) * one.effect.sizes[c]);
+    amplitudes.push_back(one.effect.value(model, c, one.amplitudes(static_cast<Eigen::Index>(c))));
   }
   return with_effect(model, one.effect, amplitudes);
 }

@@ -122,10 +122,10 @@ ReferenceEnsemble::Simulation ReferenceEnsemble::simulation(
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
     const auto c = static_cast<std::size_t>(k);
     const ParameterInfo bounds = emulator_parameter(effect->paths[c]);
-    const double absent = effect->absent(stages_.setup().model, c);
-    values.col(k) = (absent + amplitudes.col(k).array() * effect->sizes[c])
-                        .cwiseMax(bounds.low)
-                        .cwiseMin(bounds.high);
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      const double value = effect->value(stages_.setup().model, c, amplitudes(i, k));
+      values(i, k) = std::clamp(value, bounds.low, bounds.high);
+    }
   }
   const auto record = [this, emulator, points, values, seed](int i) {
     std::vector<double> at = stages_.from_scale(points.row(i));

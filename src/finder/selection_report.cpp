@@ -92,9 +92,11 @@ FoundCurve SelectionReport::curve(std::size_t s, double z) const {
 void SelectionReport::add_detectable() {
   for (std::size_t e = 0; e < plan.effects.size(); ++e) {
     const Effect& effect = plan.effects[e];
-    const double size = std::fabs(effect.sizes[0]);
-    const double least = selection.smallest_detectable(static_cast<int>(e)) * size;
-    const double tried = kLearnedSize * size;
+    const auto change = [&](double amplitude) {
+      return std::fabs(effect.value(plan.model, 0, amplitude) - effect.absent(plan.model, 0));
+    };
+    const double least = change(selection.smallest_detectable(static_cast<int>(e)));
+    const double tried = change(kLearnedSize);
     const auto same = std::find_if(out.detectable.begin(), out.detectable.end(),
                                    [&](const Detectable& d) { return d.path == effect.paths[0]; });
     if (same == out.detectable.end()) {

@@ -113,7 +113,7 @@ bool may_be_two(const std::vector<Effect>& effects) {
 std::vector<double> strengths(const SealedEffect& e, const Model& model) {
   std::vector<double> out;
   for (std::size_t c = 0; c < e.amplitudes.size(); ++c) {
-    out.push_back(e.effect.absent(model, c) + e.amplitudes[c] * e.effect.sizes[c]);
+    out.push_back(e.effect.value(model, c, e.amplitudes[c]));
   }
   return out;
 }

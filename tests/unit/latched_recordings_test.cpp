@@ -218,22 +218,29 @@ TEST(BondEffects, AreThoseOfTheModelsControl) {
   EXPECT_EQ(with_effect(model, *rate, {0.2}).control.evaluation_rate, 0.2);
 }
 
-// Firmware that begins exchanges more often than the model's does not evaluate bonds more often.
-TEST(BondEffects, LowerTheInitiativeOfFirmware) {
+TEST(BondEffects, KeepProbabilitiesWithinTheirBounds) {
   Model model = test::drifting(2);
   model.control.latches = true, model.rulesets.emplace_back();
   for (const Effect& e : bond_effects(model)) {
-    const double value = e.absent(model, 0);
-    const auto at = [&](double amplitude) {
-      return value + e.within(Eigen::VectorXd::Constant(1, amplitude))(0) * e.sizes[0];
-    };
+    if (e.logarithmic) continue;
+    const Eigen::VectorXd far = Eigen::VectorXd::Constant(1, 1e9);
     const ParameterInfo bounds = model_parameter(e.paths[0]);
-    EXPECT_GT(at(1e9), bounds.low) << e.name;
-    EXPECT_LT(at(1e9), bounds.high) << e.name;
-    if (e.name != "evaluation_rate") continue;
-    EXPECT_FALSE(e.two_sided);
-    EXPECT_NEAR(at(1e9), 0.1 * value, 1e-12);
+    EXPECT_LT(e.value(model, 0, e.within(far)(0)), bounds.high) << e.name;
+    EXPECT_GE(e.value(model, 0, e.within(-far)(0)), bounds.low) << e.name;
   }
+}
+
+// Firmware that begins exchanges more often than the model's does not evaluate bonds more often.
+TEST(BondEffects, LowerTheInitiativeOfFirmwareByFactors) {
+  Model model = test::drifting(2);
+  model.control.latches = true, model.rulesets.emplace_back();
+  const Effect e = bond_effects(model).front();
+  ASSERT_EQ(e.paths[0], "control.initiative");
+  EXPECT_FALSE(e.two_sided);
+  const double initiative = model.control.initiative;
+  EXPECT_NEAR(e.value(model, 0, 1), initiative / 3, 0.002 * initiative);
+  EXPECT_NEAR(e.value(model, 0, 2), initiative / 9, 0.002 * initiative);
+  EXPECT_NEAR(e.amplitude(model, 0, e.value(model, 0, 1.3)), 1.3, 1e-12);
 }
 
 // Two effects at once need two that can be there at once: faults of the control can, one alone
