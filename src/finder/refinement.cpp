@@ -113,7 +113,9 @@ RefinedSelection Refinement::run(const std::optional<PlaceFinding>& by_place) {
       only.reset();
     }
   }
-  return {std::move(m), std::move(state_.selection), std::move(state_.details), std::move(only)};
+  std::vector<EffectFit> alike = alike_faults(m);
+  return {std::move(m), std::move(state_.selection), std::move(state_.details), std::move(only),
+          std::move(alike)};
 }
 
 EffectFit Refinement::fit_at_place(const EffectFit& clear) {

@@ -30,6 +30,9 @@ struct RefinedSelection {
   /// The only finding, where scores of the plan do not show it and its place does, before other
   /// effects that are as clear, by their likelihood.
   std::optional<PlaceFinding> by_place = {};
+  /// Where the first finding is a fault of the control: others that many experiments of their own
+  /// do not tell from it.
+  std::vector<EffectFit> alike = {};
 };
 
 /// What the search is for and with; all must outlive it.
@@ -158,6 +161,8 @@ class Refinement {
   // Faults of the control that are about as likely are decided likewise, each about its own
   // estimate: their statistics saturate, so that the nearest experiments would win.
   bool close_faults();
+  // Of these, those that are not less likely than the first finding beyond chance.
+  std::vector<EffectFit> alike_faults(const SelectedModel& m) const;
   // Where something remains beside the likeliest, more experiments with it follow: ten show its
   // scatter along ten directions only. True if they were made.
   bool made_sure(const SelectedModel& m);

@@ -20,6 +20,9 @@ constexpr int kMostTries = 7;
 constexpr int kMostFollowed = 4;  // times that experiments with a fault follow its estimate
 constexpr double kClose = 60;     // of a penalised deviance
 constexpr int kMany = 30;         // experiments that decide a close call
+// Of penalised deviances, below which two faults are alike. The means of 30 experiments leave a
+// difference uncertain: sqrt(8 numbers / 30) is 5.8 for 128 numbers.
+constexpr double kSameFault = 10;
 constexpr double kLeastFall = 4;  // of a penalised deviance, that makes a range the better one
 
 }  // namespace
@@ -156,6 +159,25 @@ bool Refinement::close_faults() {
   if (faults.size() < 2) return false;
   for (const Id& id : faults) refine_fingerprint(estimate(id), kMany);
   return true;
+}
+
+std::vector<EffectFit> Refinement::alike_faults(const SelectedModel& m) const {
+  const auto decided = [this](const Id& id) {
+    const auto known = state_.refined.find(id);
+    return id.first >= 0 && effect(id).control() && known != state_.refined.end() &&
+           known->second.fingerprint.experiments >= kMany;
+  };
+  if (m.found.empty() || !decided(id_of(m.found[0]))) return {};
+  const Id first = id_of(m.found[0]);
+  const double least = state_.refined.at(first).alone.penalized_deviance;
+  std::vector<EffectFit> out;
+  for (const auto& [id, one] : state_.refined) {
+    if (id == first || !decided(id)) continue;
+    if (one.alone.penalized_deviance - least < kSameFault) {
+      out.push_back(fit_with(id, one.alone.amplitudes));
+    }
+  }
+  return out;
 }
 
 bool Refinement::made_sure(const SelectedModel& m) {

@@ -175,6 +175,7 @@ void SelectionReport::add_alternatives(const EffectFit& fit, const std::vector<E
     others.insert(others.end(), selected.by_place->others.begin(), selected.by_place->others.end());
   } else {
     open[0].gain = std::ranges::find(ranked, fit.effect, &EffectFit::effect)->gain;
+    for (EffectFit one : selected.alike) one.gain = open[0].gain, others.push_back(one);
   }
   std::set<int> rivals;
   for (const EffectFit& other : others) {
