@@ -29,7 +29,7 @@ Effect of_control(const Model& model, const char* name, const std::string& param
 
 // A rate, by its logarithm.
 void in_proportion(Effect& rate) {
-  rate.logarithmic = true;
+  rate.logarithms = {true};
   rate.low = -std::numeric_limits<double>::infinity(), rate.high = -rate.low;
 }
 

@@ -140,12 +140,13 @@ double Effect::absent(const Model& model, std::size_t component) const {
 
 double Effect::value(const Model& model, std::size_t component, double amplitude) const {
   const double by = amplitude * sizes[component], none = absent(model, component);
-  return logarithmic ? none * exp_portable(by) : none + by;
+  return logarithmic(component) ? none * exp_portable(by) : none + by;
 }
 
 double Effect::amplitude(const Model& model, std::size_t component, double value) const {
   const double none = absent(model, component);
-  return (logarithmic ? log_portable(value / none) : value - none) / sizes[component];
+  const double by = logarithmic(component) ? log_portable(value / none) : value - none;
+  return by / sizes[component];
 }
 
 Eigen::VectorXd Effect::within(const Eigen::VectorXd& amplitudes) const {
@@ -159,6 +160,7 @@ Effect together(const std::vector<Effect>& effects) {
     out.paths.insert(out.paths.end(), e.paths.begin(), e.paths.end());
     out.sizes.insert(out.sizes.end(), e.sizes.begin(), e.sizes.end());
     out.units.insert(out.units.end(), e.units.begin(), e.units.end());
+    for (std::size_t c = 0; c < e.paths.size(); ++c) out.logarithms.push_back(e.logarithmic(c));
     out.held.insert(out.held.end(), e.held.begin(), e.held.end());
     out.two_sided = out.two_sided || e.two_sided;
   }

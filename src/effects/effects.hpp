@@ -38,7 +38,11 @@ struct Effect {
   std::vector<double> sizes;
   std::vector<std::string> units;  ///< of the amplitudes
   bool two_sided = false;          ///< amplitudes may be negative
-  bool logarithmic = false;        ///< amplitudes are those of the parameters' logarithms
+  /// [amplitude] Whether it is that of the parameter's logarithm. Empty: none is.
+  std::vector<bool> logarithms;
+  bool logarithmic(std::size_t component) const {
+    return !logarithms.empty() && logarithms[component];
+  }
   /// Amplitudes, in sizes, at which a parameter of the control reaches its bounds.
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -75,8 +79,8 @@ struct Effect {
   bool control() const { return variable == "bond"; }
   /// Value of a parameter at which the effect is absent.
   double absent(const Model& model, std::size_t component) const;
-  /// Value of a parameter at an amplitude in sizes: absent() + amplitude size, or, if logarithmic,
-  /// absent() exp(amplitude size).
+  /// Value of a parameter at an amplitude in sizes: absent() + amplitude size, or, if that is
+  /// logarithmic, absent() exp(amplitude size).
   double value(const Model& model, std::size_t component, double amplitude) const;
   /// Inverse of value().
   double amplitude(const Model& model, std::size_t component, double value) const;

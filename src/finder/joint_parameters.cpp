@@ -58,10 +58,10 @@ Beginning begin(const Stages& stages, const std::vector<JointEffect>& effects,
       const double a = amplitudes(static_cast<Eigen::Index>(c)), size = std::fabs(effect.sizes[c]);
       // Of a rate, no smaller share is tried.
       const double low =
-          effect.logarithmic ? std::max(of.low, kLeast * effect.absent(setup.model, c)) : of.low;
+          effect.logarithmic(c) ? std::max(of.low, kLeast * effect.absent(setup.model, c)) : of.low;
       const double value = std::clamp(effect.value(setup.model, c, a), low, of.high);
-      const FitParameter p{effect.paths[c], effect.units[c],    low,
-                           of.high,         effect.logarithmic, false};
+      const FitParameter p{effect.paths[c], effect.units[c],       low,
+                           of.high,         effect.logarithmic(c), false};
       fit.parameters.push_back(p);
       out.add(p.to_scale(value), size * std::max(0.15, 0.25 * std::fabs(a)), kNamed * size * usual);
       sizes.push_back(value);
@@ -86,8 +86,9 @@ std::size_t least_supported(const Stages& stages, const std::vector<JointEffect>
     Vector out = point.segment(places[e], size(e));
     for (Eigen::Index c = 0; c < out.size(); ++c) {
       const Effect& effect = effects[e].effect;
-      const double none = effect.absent(stages.setup().model, static_cast<std::size_t>(c));
-      out(c) -= effect.logarithmic ? log_portable(none) : none;
+      const auto k = static_cast<std::size_t>(c);
+      const double none = effect.absent(stages.setup().model, k);
+      out(c) -= effect.logarithmic(k) ? log_portable(none) : none;
     }
     return out;
   };
@@ -113,7 +114,7 @@ void read_point(const Stages& stages, const Vector& point, std::vector<JointEffe
     Eigen::Index at = places[e];
     for (std::size_t c = 0; c < effect.paths.size(); ++c, ++at) {
       effects[e].amplitudes(static_cast<Eigen::Index>(c)) = effect.amplitude(
-          stages.setup().model, c, effect.logarithmic ? exp_portable(point(at)) : point(at));
+          stages.setup().model, c, effect.logarithmic(c) ? exp_portable(point(at)) : point(at));
     }
     for (const FitParameter& p : effect.refine) {
       for (auto& [of, value] : effect.held) {

@@ -222,7 +222,7 @@ TEST(BondEffects, KeepProbabilitiesWithinTheirBounds) {
   Model model = test::drifting(2);
   model.control.latches = true, model.rulesets.emplace_back();
   for (const Effect& e : bond_effects(model)) {
-    if (e.logarithmic) continue;
+    if (e.logarithmic(0)) continue;
     const Eigen::VectorXd far = Eigen::VectorXd::Constant(1, 1e9);
     const ParameterInfo bounds = model_parameter(e.paths[0]);
     EXPECT_LT(e.value(model, 0, e.within(far)(0)), bounds.high) << e.name;
@@ -241,6 +241,10 @@ TEST(BondEffects, LowerTheInitiativeOfFirmwareByFactors) {
   EXPECT_NEAR(e.value(model, 0, 1), initiative / 3, 0.002 * initiative);
   EXPECT_NEAR(e.value(model, 0, 2), initiative / 9, 0.002 * initiative);
   EXPECT_NEAR(e.amplitude(model, 0, e.value(model, 0, 1.3)), 1.3, 1e-12);
+  const Effect loss = bond_effects(model)[1];
+  const Effect both = together({loss, e});
+  EXPECT_EQ(both.value(model, 0, 0.8), loss.value(model, 0, 0.8));
+  EXPECT_EQ(both.value(model, 1, 0.8), e.value(model, 0, 0.8));
 }
 
 // Two effects at once need two that can be there at once: faults of the control can, one alone
