@@ -46,16 +46,13 @@ std::string between_poses(const StoredRun& run, const Camera& camera) {
 }
 
 /// What a camera records of a stored run.
-Recording filmed(const std::string& dir, const VerbOptions& options) {
-  const StoredRun run = load_run(dir);
+Recording filmed(const StoredRun& run, const Camera& camera, const VerbOptions& options) {
   const Trajectory& t = run.trajectory;
   RecordingOptions reading;
   reading.body = t.modules > 0 ? BodyKind::lily : BodyKind::ball;
   for (const Assignment& a : read_assignments(options.list("read"), "--read")) {
     assign_recording_option(a, "recording", reading);
   }
-  const Camera camera = camera_of(options);
-  std::cerr << between_poses(run, camera);
   Recording out = film(t, camera, reading.body);
   out.latches = run.scenario.model.control.latches;
   return out;
@@ -188,8 +185,11 @@ void convert_run(const VerbOptions& options, const std::string& dir, const std::
   const std::string scenario = (fs::path(dir) / run_file::resolved).string();
   const double radius = load_scenario({scenario}, {}).model.tank.radius;
   Output output;
-  output.add(filmed(dir, options), out, format, calibration_of(options, radius));
+  const StoredRun run = load_run(dir);
+  const Camera camera = camera_of(options);
+  output.add(filmed(run, camera, options), out, format, calibration_of(options, radius));
   output.write(options.has("force"));
+  std::cerr << between_poses(run, camera);
 }
 
 }  // namespace
